@@ -42,8 +42,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     const std::size_t limit = std::min<std::size_t>(3, word.size() / 2);
     std::size_t best = limit + 1;
     std::string found;
+    const std::string in_lower_case = lower_case(std::string(word));
     for (const auto& candidate : candidates) {
-        std::size_t distance = edit_distance(word, candidate);
+        if (same_word(word, candidate)) return candidate;
+        std::size_t distance =
+            std::min(edit_distance(word, candidate), edit_distance(in_lower_case, candidate));
         const bool prefix = word.size() >= 3 && candidate.starts_with(word);
         if (prefix) distance = std::min<std::size_t>(distance, 1);
         if (distance < best) {

@@ -21,6 +21,7 @@ struct Argument {
     bool needed = false, is_hidden = false, at_commas = false;
     std::string heading{}; ///< in --help; empty: the general one
     std::vector<std::string> choices{};
+    std::vector<std::string> (*suggestions)() = nullptr; ///< what completions offer; others are taken, too
     std::optional<std::pair<int, int>> range{};
     bool at_least_0 = false;
 
@@ -38,6 +39,10 @@ struct Argument {
     }
     Argument& one_of(std::vector<std::string> names) {
         choices = std::move(names);
+        return *this;
+    }
+    Argument& suggests(std::vector<std::string> (*names)()) {
+        suggestions = names;
         return *this;
     }
     Argument& between(int min, int max) {

@@ -53,7 +53,8 @@ Words plain(const std::vector<std::string>& texts) {
 /// What a bare argument of the command may be, besides a file.
 Words values_of_command(const std::string& command, const Argument& argument) {
     Words words = plain(argument.choices);
-    if (command == "run" || command == "batch" || command == "plan" || command == "check")
+    if (command == "run" || command == "batch" || command == "plan" || command == "check" ||
+        command == "export")
         for (const auto& ready : docs::ready_pipelines())
             words.push_back({std::string(ready.name), "a ready pipeline"});
     if (command == "stages") words = stage_words();
@@ -77,8 +78,8 @@ void add_command(const Command& command, Tables& tables) {
         }
         for (const auto name : split_at_commas(argument.names)) {
             if (name.starts_with("--")) options.push_back({std::string(name), brief_help(argument.help)});
-            if (!argument.choices.empty())
-                tables.emplace_back(fmt::format("values {} {}", owner, name), plain(argument.choices));
+            const auto values = argument.suggestions ? argument.suggestions() : argument.choices;
+            if (!values.empty()) tables.emplace_back(fmt::format("values {} {}", owner, name), plain(values));
         }
     }
     if (command.rest_is_stages) tables.emplace_back("values " + owner + " ", stage_words());

@@ -81,7 +81,8 @@ Command new_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<NewOptions>();
                 arguments.add("FILE", &options->file, "The file to write; -: print it.").required();
-                arguments.add("--from", &options->from, "A ready pipeline to begin with.");
+                arguments.add("--from", &options->from, "A ready pipeline to begin with.")
+                    .suggests(docs::ready_names);
                 return [=, &console](const Invocation& invocation) {
                     return write_new(*options, invocation.line, console);
                 };

@@ -240,6 +240,7 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         return false;
     }
     bool good = true;
+    std::set<std::string> meant; // by names that there are not
     for (const auto& entry : value.entries) {
         if (also_known.contains(entry.key)) continue;
         if (const Option* o = find(entry.key)) {
@@ -250,10 +251,11 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         known.insert(known.end(), also_known.begin(), also_known.end());
         problems.add(entry.key_mark, "E-KEY", fmt::format("{} has no option '{}'", owner, entry.key),
                      suggestion(entry.key, known));
+        meant.insert(nearest(entry.key, known));
         good = false;
     }
     for (const auto& o : options)
-        if (o.required && !value.find(o.name)) {
+        if (o.required && !value.find(o.name) && !meant.contains(o.name)) {
             problems.add(value.mark, "E-MISSING", fmt::format("{}: '{}' is needed", owner, o.name), o.help);
             good = false;
         }

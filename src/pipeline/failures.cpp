@@ -28,8 +28,10 @@ std::optional<Diagnostic> strict_failure(const Diagnostic& warning, const std::v
 
 void Failures::warn(const Diagnostic& warning) {
     if (is_allowed(warning, allowed_)) return;
-    if (settings_.on_warning) settings_.on_warning(warning);
-    if (auto error = strict_failure(warning, settings_.strict)) add(ErrorKind::check, {std::move(*error)});
+    if (auto error = strict_failure(warning, settings_.strict))
+        add(ErrorKind::check, {std::move(*error)}); // which tells all that the warning does
+    else if (settings_.on_warning)
+        settings_.on_warning(warning);
 }
 
 bool Failures::judge_checks(std::size_t first) {

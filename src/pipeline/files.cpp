@@ -87,17 +87,29 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
 
 namespace {
 
-/// The first is at another place of the pipeline, or at the same for another value of a foreach: then the
-/// name lacks the variables that differ.
-std::string hint_of_duplicate(const PlannedFile& first, const PlannedFile& file) {
-    if (to_string(first.where) != to_string(file.where) || file.variables.empty())
+/// Files that are one.
+using SameFiles = std::vector<const PlannedFile*>;
+
+bool is_at_one_place(const PlannedFile& a, const PlannedFile& b) {
+    return to_string(a.where) == to_string(b.where);
+}
+
+/// Of a file that is not the first of those: the first is at another place of the pipeline, or at the same
+/// for other values of a foreach: then the name lacks the variables that differ among all of this place.
+std::string hint_of_duplicate(const SameFiles& same, const PlannedFile& file) {
+    const PlannedFile& first = *same.front();
+    if (!is_at_one_place(first, file) || file.variables.empty())
         return fmt::format("the first is at {}", to_string(first.where));
     std::string all, differing;
     for (std::size_t i = 0; i < std::min(first.variables.size(), file.variables.size()); ++i) {
         const auto& [name, value] = file.variables[i];
         const std::string part = name == "part" ? "${part}" : fmt::format("${{{}.index}}", name);
         all += "." + part;
-        if (value.text != first.variables[i].second.text) differing += "." + part;
+        const bool differs = std::any_of(same.begin(), same.end(), [&](const PlannedFile* other) {
+            return is_at_one_place(first, *other) && i < other->variables.size() &&
+                   other->variables[i].second.text != first.variables[i].second.text;
+        });
+        if (differs) differing += "." + part;
     }
     return fmt::format("foreach writes it for every value: {}{}{}", file.path.stem().string(),
                        differing.empty() ? all : differing, file.path.extension().string());
@@ -120,7 +132,10 @@ bool check_inputs(const std::vector<PlannedFile>& files, std::map<std::string, c
 } // namespace
 
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
-    std::map<std::string, const PlannedFile*> inputs, outputs;
+    std::map<std::string, const PlannedFile*> inputs;
+    std::map<std::string, SameFiles> outputs;
+    for (const auto& file : files)
+        if (file.written) outputs[lower_case(io::identity(file.path).string())].push_back(&file);
     bool good = check_inputs(files, inputs, problems);
     for (const auto& file : files) {
         if (!file.written) continue;
@@ -133,15 +148,16 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
                                                            to_string(input->second->where))
                                              : "it is the pipeline itself; give the output another name");
         }
-        const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
-        if (is_new) continue;
+        const SameFiles& same = outputs.at(lower_case(path));
+        const PlannedFile& first = *same.front();
+        if (&first == &file) continue;
         good = false;
-        const bool same = io::identity(first->second->path).string() == path;
+        const bool spelled_alike = io::identity(first.path).string() == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
-                     same ? fmt::format("'{}' is written twice", file.path.string())
-                          : fmt::format("'{}' and '{}' are one file where case does not count",
-                                        first->second->path.string(), file.path.string()),
-                     hint_of_duplicate(*first->second, file));
+                     spelled_alike ? fmt::format("'{}' is written twice", file.path.string())
+                                   : fmt::format("'{}' and '{}' are one file where case does not count",
+                                                 first.path.string(), file.path.string()),
+                     hint_of_duplicate(same, file));
     }
     return good;
 }

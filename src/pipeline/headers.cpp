@@ -171,15 +171,15 @@ class Walk {
     void contract(const Contract& contract) {
         assertions(contract.assertions);
         if (!contract.deviation) return;
-        for (const auto* length :
-             {&contract.deviation->max, &contract.deviation->rms, &contract.deviation->mean})
-            if (*length && (*length)->kind == Length::Kind::physical)
-                no_unit("deviation", (*length)->text, contract.deviation_at);
+        const DeviationLimits& limits = *contract.deviation;
+        const std::optional<Length>* const lengths[] = {&limits.max, &limits.rms, &limits.mean};
+        for (std::size_t i = 0; i < contract.deviation_at.size(); ++i)
+            if (*lengths[i] && (*lengths[i])->kind == Length::Kind::physical)
+                no_unit("deviation", (*lengths[i])->text, contract.deviation_at[i]);
     }
 
     void assertions(const Assertions& all) {
-        for (const auto& [assertion, length] : all.physical())
-            no_unit(assertion->property, length->text, assertion->where);
+        for (const auto& [property, length, where] : all.physical()) no_unit(property, length->text, where);
     }
 
     void no_unit(const std::string& option, const std::string& text, const Mark& where) {

@@ -24,7 +24,7 @@ struct RunSettings {
     /// Called for each output when all are ready, before the first gets its name; an Error that it throws
     /// fails the run.
     std::function<void(const io::Outputs::File&)> on_output = {};
-    /// Called for every warning as it arises.
+    /// Called for every warning as it arises, unless strict makes it an error.
     std::function<void(const Diagnostic&)> on_warning;
 };
 

@@ -89,12 +89,18 @@ InspectSettings Assertions::settings() const {
     return settings;
 }
 
-std::vector<std::pair<const Assertion*, const Length*>> Assertions::physical() const {
-    std::vector<std::pair<const Assertion*, const Length*>> found;
-    for (const auto& a : all)
-        for (const auto* lengths : {&a.min, &a.max})
-            for (const Length& l : *lengths)
-                if (l.kind == Length::Kind::physical) found.emplace_back(&a, &l);
+std::vector<Assertions::PhysicalLength> Assertions::physical() const {
+    std::vector<PhysicalLength> found;
+    const auto add = [&](const Assertion& a, const std::vector<Length>& lengths,
+                         const std::vector<Mark>& marks) {
+        for (std::size_t i = 0; i < lengths.size(); ++i)
+            if (lengths[i].kind == Length::Kind::physical)
+                found.push_back({a.property, &lengths[i], i < marks.size() ? marks[i] : a.where});
+    };
+    for (const auto& a : all) {
+        add(a, a.min, a.min_at);
+        add(a, a.max, a.max_at);
+    }
     return found;
 }
 

@@ -9,15 +9,16 @@ namespace facetmill {
 
 class Context;
 
-/// A property and what it must be, with the place where it was written.
+/// A property and what it must be.
 struct Assertion {
     std::string property;
-    Bound bound{}; ///< of a word: its place among the property's words; of a length: once resolved
-    Mark where{};
+    Bound bound{};           ///< of a word: its place among the property's words; of a length: once resolved
+    Mark where{};            ///< of what it must be
     bool if_applies = false; ///< holds where the property does not apply
     /// Lengths as written: one for a property that is a length, three for a corner of a box, or none.
     std::vector<Length> min{}, max{};
-    Box within{}; ///< of a box, once resolved; infinite where nothing was asked
+    std::vector<Mark> min_at{}, max_at{}; ///< where each was written
+    Box within{};                         ///< of a box, once resolved; infinite where nothing was asked
 };
 
 /// "true", "2", "at most 5".
@@ -31,8 +32,13 @@ struct Assertions {
     std::vector<Assertion> all;
     /// What inspect has to be asked for.
     InspectSettings settings() const;
-    /// The lengths that have a physical unit, with the place of their assertion.
-    std::vector<std::pair<const Assertion*, const Length*>> physical() const;
+    struct PhysicalLength {
+        std::string property;
+        const Length* length;
+        Mark where;
+    };
+    /// The lengths that have a physical unit.
+    std::vector<PhysicalLength> physical() const;
 };
 
 /// With the lengths as numbers of the scene; percentages are of what entered the context's stage. Throws

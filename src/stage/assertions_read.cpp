@@ -90,8 +90,12 @@ bool read_word(const Property& property, const Value& value, Assertion& out, Pro
 }
 
 /// One length, or the three of a corner: as a list, or as the one-liner writes it, "0,0,20cm".
-bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, Problems& problems) {
-    if (count == 1) return OptionType<Length>::parse(value, out.emplace_back(), problems);
+bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, std::vector<Mark>& marks,
+                  Problems& problems) {
+    if (count == 1) {
+        marks.push_back(value.mark);
+        return OptionType<Length>::parse(value, out.emplace_back(), problems);
+    }
     const Value list = listed(value);
     if (!list.is_list() || list.items.size() != count) {
         problems.add(value.mark, "E-TYPE",
@@ -99,7 +103,7 @@ bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& ou
         return false;
     }
     bool good = true;
-    for (const Value& item : list.items) good &= read_lengths(item, 1, out, problems);
+    for (const Value& item : list.items) good &= read_lengths(item, 1, out, marks, problems);
     return good;
 }
 
@@ -124,8 +128,9 @@ bool read_length_range(const Property& property, const Value& value, Assertion& 
     if (value.deferred) return true;
     if (!value.is_map()) {
         if (count == 3 || !value.is_scalar() || value.as_bool()) return wrong_kind(property, value, problems);
-        const bool good = read_lengths(value, 1, out.min, problems);
+        const bool good = read_lengths(value, 1, out.min, out.min_at, problems);
         out.max = out.min;
+        out.max_at = out.min_at;
         return good && verify_length(property, value, out, problems);
     }
     bool good = true;
@@ -135,7 +140,8 @@ bool read_length_range(const Property& property, const Value& value, Assertion& 
                          "expected min or max");
             good = false;
         } else if (!e.value.deferred)
-            good &= read_lengths(e.value, count, e.key == "min" ? out.min : out.max, problems);
+            good &= e.key == "min" ? read_lengths(e.value, count, out.min, out.min_at, problems)
+                                   : read_lengths(e.value, count, out.max, out.max_at, problems);
     }
     if (good && value.entries.empty()) return wrong_kind(property, value, problems);
     if (good && count == 1 && !verify_length(property, value, out, problems)) return false;
@@ -196,6 +202,12 @@ Json schema_of(const Property& property) {
     return OptionType<Bound>::schema();
 }
 
+/// Of a bound: min or max, where only one of them is given.
+Mark place_of(const Value& bound, const Mark& otherwise) {
+    const Value& one = bound.is_map() && bound.entries.size() == 1 ? bound.entries[0].value : bound;
+    return one.mark.known() ? one.mark : otherwise;
+}
+
 } // namespace
 
 bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
@@ -220,7 +232,7 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
             good = false;
             continue;
         }
-        Assertion assertion{.property = entry.key, .where = entry.key_mark};
+        Assertion assertion{.property = entry.key, .where = place_of(entry.value, entry.key_mark)};
         if (read(*property, entry.value, assertion, problems))
             out.all.push_back(std::move(assertion));
         else

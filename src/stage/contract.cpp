@@ -77,7 +77,11 @@ bool parse_contract(const Value& value, Contract& out, Problems& problems) {
     bool good = parse_assertions(value, out.assertions, "ensure", problems, {"deviation"});
     const auto* entry = value.is_map() && !value.deferred ? value.find_entry("deviation") : nullptr;
     if (!entry) return good;
-    out.deviation_at = entry->key_mark;
+    const char* const names[] = {"max", "rms", "mean"};
+    for (std::size_t i = 0; i < out.deviation_at.size(); ++i) {
+        const Value* limit = entry->value.is_map() ? entry->value.find(names[i]) : nullptr;
+        out.deviation_at[i] = limit ? limit->mark : entry->value.mark;
+    }
     DeviationLimits& limits = out.deviation.emplace();
     good &= deviation_declaration().parse(entry->value, &limits, "deviation", problems);
     if (!good || entry->value.deferred) return good;
@@ -113,18 +117,18 @@ std::string to_string(const DeviationLimits& limits) {
     return limits.from == DeviationLimits::From::load ? text + " from load" : text;
 }
 
-void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
+void check_deviation(const DeviationLimits& limits, const LimitMarks& where, const Surface& before,
                      const Scene& scene, Context& context) {
     const DeviationResult measured =
         deviation(before, surface_or_points_of(scene, filled_surface), limits.settings());
     name_fans(scene, context);
     context.result()["deviation"] = deviation_json(measured);
-    const auto check = [&](const std::string& name, const std::optional<Length>& limit, double value,
-                           const std::string& words) {
+    const auto check = [&](std::size_t which, const std::string& name, const std::optional<Length>& limit,
+                           double value, const std::string& words) {
         if (!limit) return;
         report::Check c;
         c.name = name;
-        c.where = where;
+        c.where = where[which];
         // A bare percentage is of the diagonal of what the scene is compared with.
         const bool of_reference = limit->kind == Length::Kind::percent && limit->of == Length::Of::stage;
         const double most =
@@ -143,13 +147,13 @@ void check_deviation(const DeviationLimits& limits, const Mark& where, const Sur
     };
     const double maximum = measured.maximum();
     if (const auto bound = measured.bound())
-        check("deviation", limits.max, *bound,
+        check(0, "deviation", limits.max, *bound,
               fmt::format("certainly at most {}, measured {}", found_text(measured, *bound),
                           found_text(measured, maximum)));
     else
-        check("deviation", limits.max, maximum, found_text(measured, maximum));
-    check("deviation.rms", limits.rms, measured.rms(), found_text(measured, measured.rms()));
-    check("deviation.mean", limits.mean, measured.mean(), found_text(measured, measured.mean()));
+        check(0, "deviation", limits.max, maximum, found_text(measured, maximum));
+    check(1, "deviation.rms", limits.rms, measured.rms(), found_text(measured, measured.rms()));
+    check(2, "deviation.mean", limits.mean, measured.mean(), found_text(measured, measured.mean()));
 }
 
 } // namespace facetmill

@@ -6,6 +6,8 @@
 #include "stage/assertions.hpp"
 #include "stage/context.hpp"
 
+#include <array>
+
 namespace facetmill {
 
 /// ensure: {deviation: {max: 0.5%}}, or short: {deviation: 0.5%}.
@@ -18,6 +20,9 @@ struct DeviationLimits {
 
     DeviationSettings settings() const;
 };
+/// Where max, rms and mean were written.
+using LimitMarks = std::array<Mark, 3>;
+
 void declare_deviation(Declare<DeviationLimits>& d);
 /// Adds E-MISSING when no length is limited.
 void verify_deviation(const DeviationLimits& limits, const Mark& where, Problems& problems);
@@ -25,7 +30,7 @@ void verify_deviation(const DeviationLimits& limits, const Mark& where, Problems
 struct Contract {
     Assertions assertions;
     std::optional<DeviationLimits> deviation;
-    Mark deviation_at;
+    LimitMarks deviation_at{};
 };
 bool parse_contract(const Value& value, Contract& out, Problems& problems);
 Json contract_schema();
@@ -36,7 +41,7 @@ std::string to_string(const DeviationLimits& limits);
 
 /// Measures how far the scene is from `before` and makes a check of every limit, with the place of the
 /// maximum as evidence. The whole measurement goes into the stage's result under "deviation".
-void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
+void check_deviation(const DeviationLimits& limits, const LimitMarks& where, const Surface& before,
                      const Scene& scene, Context& context);
 
 } // namespace facetmill

@@ -36,5 +36,9 @@ TEST_CASE("nearest names", "[base]") {
     CHECK(nearest("simpilfy", {"clip", "simplify"}) == "simplify");
     CHECK(nearest("iter", {"factor", "iterations"}) == "iterations");
     CHECK(nearest("zzz", {"clip", "crop"}).empty());
+    CHECK(nearest("RELAX", {"crop", "relax"}) == "relax");
+    CHECK(nearest("ID", {"in", "id"}) == "id");
+    CHECK(nearest("input", {"output", "Input"}) == "Input");
+    CHECK(nearest("SIMPILFY", {"clip", "simplify"}) == "simplify");
     CHECK(edit_distance("ab", "ba") == 1);
 }

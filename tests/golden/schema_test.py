@@ -125,6 +125,8 @@ class Completions(Case):
         self.assertIn("--report", self.candidates(shell, "facetmill pipe --rep"))
         self.assertIn("load", self.candidates(shell, "facetmill pipe -j 2 lo"))
         self.assertIn("W-UNITS", self.candidates(shell, "facetmill explain W-UN"))
+        self.assertEqual(self.candidates(shell, "facetmill new a.yaml --from scan-to-w"), ["scan-to-web"])
+        self.assertIn("quickstart", self.candidates(shell, "facetmill export qui"))
         for stage in json.loads(self.mill("stages", "--json").stdout):
             name = stage["name"]
             offered = self.candidates(shell, f"facetmill pipe load a ! {name} --")

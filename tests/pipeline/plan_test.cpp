@@ -145,6 +145,16 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "        far: [test-write: ./O.glb]\n"
          "                          ^~~~~~~\n"
          "  hint: the first is at p.yaml:4:17"},
+        {stages("  - foreach: {a: [1, 2], b: [1, 2], c: [1, 2]}\n"
+                "    do: [test-write: \"o.${c.index}.glb\"]\n"),
+         "p.yaml:5:22: error[E-DUPLICATE-OUTPUT]: 'o.0.glb' is written twice\n"
+         "      do: [test-write: \"o.${c.index}.glb\"]\n"
+         "                       ^~~~~~~~~~~~~~~~~~\n"
+         "  hint: foreach writes it for every value: o.0.${a.index}.${b.index}.glb\n"
+         "p.yaml:5:22: error[E-DUPLICATE-OUTPUT]: 'o.1.glb' is written twice\n"
+         "      do: [test-write: \"o.${c.index}.glb\"]\n"
+         "                       ^~~~~~~~~~~~~~~~~~\n"
+         "  hint: foreach writes it for every value: o.1.${a.index}.${b.index}.glb"},
         {stages("  - test-write: x/../a.ply\n"),
          "p.yaml:4:17: error[E-OVERWRITE]: 'a.ply' would overwrite an input\n"
          "    - test-write: x/../a.ply\n"

@@ -253,6 +253,10 @@ TEST_CASE("simplify: 100 % does nothing, as it says, without a warning", "[stage
     CHECK(run_stage("simplify", "100%", scene_of(shapes::icosphere(2))).warnings().empty());
     CHECK(
         run_stage("simplify", "{lods: [100%, 50%, 10%]}", scene_of(shapes::icosphere(3))).warnings().empty());
+    CHECK(run_stage("simplify", "{faces: 320}", scene_of(shapes::icosphere(2))).warnings().empty());
+    CHECK(run_stage("simplify", "{vertices: 162}", scene_of(shapes::icosphere(2))).warnings().empty());
+    CHECK(run_stage("simplify", "{faces: 321}", scene_of(shapes::icosphere(2))).warnings() ==
+          std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
     CHECK(run_stage("simplify", "{ratio: 100%, faces: 5000}", scene_of(shapes::cube())).warnings() ==
           std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
 }

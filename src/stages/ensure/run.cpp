@@ -26,7 +26,8 @@ Scene run(Scene scene, const EnsureOptions& o, Context& context) {
             context.check(std::move(check));
     if (o.deviation) {
         const auto loaded = context.run().loaded;
-        check_deviation(*o.deviation, context.where(), loaded ? *loaded : Surface{}, scene, context);
+        const Mark& here = context.where();
+        check_deviation(*o.deviation, {here, here, here}, loaded ? *loaded : Surface{}, scene, context);
     }
     return scene;
 }

@@ -406,10 +406,17 @@ class Simplifier {
         before_[number] = {};
     }
 
-    /// Whether the target of a level is below all that there is: 100 % does nothing, as it says.
+    /// Whether the target of a level is other than all that there is: 100 %, or as many faces, does nothing,
+    /// as it says.
     bool asks_for_less(std::size_t level) const {
         if (o_.lods) return o_.lods->ratios[level].value < 1;
-        return !o_.ratio || o_.ratio->value < 1 || o_.faces || o_.vertices;
+        const auto differs = [](std::optional<std::int64_t> target, std::size_t all) {
+            return target && *target != static_cast<std::int64_t>(all);
+        };
+        if (o_.ratio && o_.ratio->value == 1 && !o_.faces && !o_.vertices) return false;
+        if (!o_.ratio && (o_.faces || o_.vertices))
+            return differs(o_.faces, faces_) || differs(o_.vertices, vertices_);
+        return true;
     }
 
     void take(Part& part, std::size_t number, std::size_t number_of_level, SimplifyResult r) {
