@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "base/nearest_there.hpp"
+#include "base/readable_numbers.hpp"
 #include "io/clean_up.hpp"
 #include "io/output_files.hpp"
 
@@ -232,6 +233,22 @@ void Store::cannot_write(const std::string& why) {
                         "uses none"});
 }
 
+void Store::tell_of_full_disk() {
+    {
+        const std::lock_guard lock(known_->guard);
+        if (std::exchange(known_->is_told_full, true)) return;
+    }
+    if (settings_.tell)
+        settings_.tell(
+            {Severity::warning,
+             "W-CACHE",
+             fmt::format("the disk of the cache '{}' has too little space left: {} of it stay free, "
+                         "and results that do not fit beside that are not stored",
+                         settings_.folder.string(), sized(reserve)),
+             {},
+             "make space, name a folder on another disk by FACETMILL_CACHE, or use --no-cache"});
+}
+
 namespace {
 
 /// A file beside an entry, until it takes its name; a signal removes it, too.
@@ -281,7 +298,10 @@ bool make_folders(const fs::path& folder) {
 bool Store::write(const fs::path& path, io::Span head, io::Span bytes) {
     if (!settings_.folder.parent_path().empty()) fs::create_directories(settings_.folder.parent_path());
     make_folder(settings_.folder);
-    if (!has_space(settings_.folder, head.size() + bytes.size())) return false;
+    if (!has_space(settings_.folder, head.size() + bytes.size())) {
+        tell_of_full_disk();
+        return false;
+    }
     make_folder(path.parent_path());
     PartFile part(path.parent_path());
     io::write_all(part.fd, head, part.path);

@@ -90,6 +90,7 @@ class Store {
     /// Of writers that ended early: no entry takes an hour to write.
     void remove_leftovers(std::int64_t older_than = 3600) const;
     void cannot_write(const std::string& why);
+    void tell_of_full_disk();
     void drop(const std::filesystem::path& path, const char* why);
 
     /// What stores of one folder and process know together.
@@ -100,6 +101,7 @@ class Store {
         std::uint64_t limit = 0;                   ///< ... and how many there may be
         std::optional<double> seconds_to_count;    ///< what is there, as long as it is not known
         std::uint64_t since_counted = 0;           ///< bytes put since then: other processes put some, too
+        bool is_told_full = false;                 ///< that the disk is full, once
         bool broken = false;                       ///< it cannot be written: not tried again
         double bytes_per_second = 0;
     };

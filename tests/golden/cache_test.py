@@ -578,5 +578,21 @@ class Command(Cache):
         self.assertEqual([p.name for p in (self.dir / "out").iterdir() if p.name not in ("out.ply", "out.json")], [])
 
 
+class FullDisk(Case):
+    def test_a_full_disk_is_told_once_and_the_run_goes_on(self):
+        (self.dir / "disk").mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=60m", "tmpfs", str(self.dir / "disk")], capture_output=True).returncode:
+            self.skipTest("only root may mount")
+        self.addCleanup(subprocess.run, ["umount", str(self.dir / "disk")], check=False, capture_output=True)
+        self.write("p.yaml", PIPELINE.replace("  - load: \"${input}\"\n", "  - load: \"${input}\"\n  - relax: 2\n"))
+        env = {**os.environ, "FACETMILL_CACHE": str(self.dir / "disk/cache")}
+        run = subprocess.run([str(FACETMILL), "run", "p.yaml", "-D", f"input={SCAN}", "--cache-everything", "--allow", "W-UNITS"],
+                             cwd=self.dir, env=env, capture_output=True, text=True, timeout=60)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stderr.count("W-CACHE"), 1, run.stderr)
+        self.assertIn("has too little space left", run.stderr)
+        self.assertTrue((self.dir / "out.ply").exists())
+
+
 if __name__ == "__main__":
     main()
