@@ -125,6 +125,8 @@ Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, E
 
 /// Bytes that all assets together may take, if they may take all that is there.
 std::uint64_t memory_there();
+/// What jobs that run at a time may take: what was asked for, else (0) three quarters of what is there.
+std::uint64_t memory_for_jobs(std::uint64_t asked);
 
 /// The graver of two exit codes: 70, 2, 4, 7, 5, 6, 3, 1, 0.
 int graver(int a, int b);

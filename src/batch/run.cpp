@@ -119,7 +119,7 @@ class BatchRun {
         set_threads(summary_.jobs);
     }
 
-    std::uint64_t memory() const { return settings_.memory > 0 ? settings_.memory : memory_there() / 4 * 3; }
+    std::uint64_t memory() const { return memory_for_jobs(settings_.memory); }
 
     std::vector<const Done*> find_kept() {
         std::vector<const Done*> kept(works_.size());
@@ -288,8 +288,9 @@ class BatchRun {
         if (auto error = pipeline::strict_failure(*warning, settings_.strict)) {
             summary_.exit_code = graver(summary_.exit_code, static_cast<int>(ErrorKind::check));
             summary_.errors.push_back(std::move(*error));
+        } else {
+            summary_.warnings.push_back(std::move(*warning));
         }
-        summary_.warnings.push_back(std::move(*warning));
     }
 
     void finish(std::size_t index, Outcome out, Done* done) {
@@ -437,6 +438,8 @@ std::uint64_t memory_there() {
     constexpr std::uint64_t of_unknown = std::uint64_t{1} << 32;
     return available_memory().value_or(of_unknown);
 }
+
+std::uint64_t memory_for_jobs(std::uint64_t asked) { return asked > 0 ? asked : memory_there() / 4 * 3; }
 
 std::vector<std::string> former_assets(const fs::path& output_dir, const std::string& pipeline) {
     return Journal::assets_in(output_dir, pipeline);

@@ -32,7 +32,6 @@ Examples
 )";
 
 struct BatchOptions : AssetOptions {
-    std::string memory;
     bool keep_going = false, prune = false;
 };
 
@@ -43,9 +42,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
              "Assets at the same time, and threads for all of them.\nDefault: jobserver, FACETMILL_JOBS, "
              "cores.")
         .between(1, 4096);
-    arguments.add("--memory", &options.memory,
-                  "The memory for all assets that run at the same time:\n8G, 500MB, 50% of what is "
-                  "available. Default: 75%.");
+    add_memory_option(arguments, options, "assets");
     arguments.add("-k,--keep-going", &options.keep_going,
                   "Runs all assets. Default: no asset starts after one has failed.");
     arguments.add("--prune", &options.prune,

@@ -1,5 +1,6 @@
 // facetmill export: the runs of many assets as a workflow of Ninja, Make or Snakemake.
 
+#include "base/cores.hpp"
 #include "cli/assets.hpp"
 #include "cli/workflow.hpp"
 
@@ -11,7 +12,9 @@ namespace {
 
 constexpr const char* export_examples =
     R"(One job per asset or shard (several assets), with the inputs and outputs that are known in advance, the number of
-threads and, for Snakemake, an estimate of the memory. The assets of a shard run one after the other. If one fails,
+threads and an estimate of the memory. Snakemake schedules by both. Ninja gets pools, so that the jobs that run at
+the same time fit into the cores of this machine and into --memory. Make knows neither: its Makefile names the -j that
+fits. The assets of a shard run one after the other. If one fails,
 the others still run, and the job fails with the exit code of the last asset that failed. Snakemake then removes all
 outputs of the job; Make and Ninja keep them and run the whole shard again. Paths are relative to the working
 directory: run the workflow in it.
@@ -81,9 +84,11 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
     std::vector<Job> jobs;
     for (const auto& work : prepared.works) jobs.push_back(job_of(work, options, of_all));
     jobs = in_shards(std::move(jobs), static_cast<std::size_t>(options.shard));
-    print(options.engine == "ninja"  ? ninja_workflow(jobs)
-          : options.engine == "make" ? make_workflow(jobs)
-                                     : snakemake_workflow(jobs, options.common.threads));
+    const Resources resources{options.common.threads, default_threads(),
+                              batch::memory_for_jobs(memory_bytes(options.memory, line))};
+    print(options.engine == "ninja"  ? ninja_workflow(jobs, resources)
+          : options.engine == "make" ? make_workflow(jobs, resources)
+                                     : snakemake_workflow(jobs, resources));
     return 0;
 }
 
@@ -106,6 +111,7 @@ Command export_command() {
                     .add("-j,--threads", &options->common.threads,
                          "The number of threads of each job. Default: 1.")
                     .between(1, 4096);
+                add_memory_option(arguments, *options, "jobs");
                 add_sandbox_option(arguments, options->common.sandbox);
                 add_warning_options(arguments, options->common);
                 add_message_options(arguments, console);

@@ -2,6 +2,8 @@
 
 #include "base/json.hpp"
 #include "base/once_each.hpp"
+#include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "cli/depfile.hpp"
 #include "docs/versions.hpp"
 
@@ -151,6 +153,11 @@ std::string joined(const std::vector<std::string>& paths, std::string (*quote)(c
     return text;
 }
 
+std::uint64_t megabytes_of(const Job& job) {
+    constexpr std::uint64_t megabyte = 1000000;
+    return (job.memory + megabyte - 1) / megabyte;
+}
+
 std::string make_target(const std::string& path) { return make_escaped(path, true); }
 std::string make_input(const std::string& path) { return make_escaped(path, false); }
 
@@ -189,20 +196,61 @@ std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
     return shards;
 }
 
-std::string ninja_workflow(const std::vector<Job>& jobs) {
+Lanes lanes_of(const std::vector<Job>& jobs, const Resources& resources) {
+    const auto slots =
+        static_cast<std::size_t>(std::max(1, resources.cores / std::max(1, resources.threads)));
+    std::uint64_t largest = 1, largest_small = 0;
+    for (const Job& job : jobs) largest = std::max(largest, job.memory);
+    if (largest <= resources.memory / slots) return {slots, 0, largest};
+    // Half of the memory for each kind.
+    Lanes lanes{slots, 1, resources.memory / 2 / slots};
+    for (const Job& job : jobs)
+        if (job.memory <= lanes.small_up_to) largest_small = std::max(largest_small, job.memory);
+    lanes.large =
+        std::clamp<std::size_t>(resources.memory / 2 / largest, 1, std::max<std::size_t>(2, slots) - 1);
+    lanes.small = std::max<std::size_t>(1, slots - lanes.large);
+    if (largest_small == 0) // there are none
+        lanes.large = std::clamp<std::size_t>(resources.memory / largest, 1, slots);
+    return lanes;
+}
+
+namespace {
+
+std::string in_words(const Resources& r) {
+    return fmt::format("{}, jobs of {} and {} of memory (export: --threads, --memory)",
+                       counted(static_cast<std::size_t>(r.cores), "core"),
+                       counted(static_cast<std::size_t>(r.threads), "thread"), sized(r.memory));
+}
+
+/// Pools for Ninja, whose -j counts jobs and knows neither threads nor memory.
+std::string ninja_pools(const Lanes& lanes, const Resources& resources) {
+    std::string text = fmt::format("# Jobs at a time, for {}.\npool small\n  depth = {}\n",
+                                   in_words(resources), lanes.small);
+    if (lanes.large > 0)
+        text += fmt::format("# Those that need more than {} each.\npool large\n  depth = {}\n",
+                            sized(lanes.small_up_to), lanes.large);
+    return text;
+}
+
+} // namespace
+
+std::string ninja_workflow(const std::vector<Job>& jobs, const Resources& resources) {
     check_jobs(jobs, plain_command);
     check_names(jobs, "Ninja", "|\t", "rename the file");
-    std::string text = heading() + "facetmill = facetmill\n\nrule mill\n  command = $work\n  "
-                                   "description = MILL $asset\n";
+    const Lanes lanes = lanes_of(jobs, resources);
+    std::string text = heading() + "facetmill = facetmill\n\n" + ninja_pools(lanes, resources) +
+                       "\nrule mill\n  command = $work\n  description = MILL $asset\n  pool = small\n";
     for (const auto& job : jobs) {
         const std::string work = plain_command(job, "$facetmill", with_dollars_doubled);
         text += fmt::format("\nbuild{}: mill{}\n  asset = {}\n  work = {}\n", joined(job.outputs, ninja_path),
                             joined(job.inputs, ninja_path), with_dollars_doubled(job.name), work);
+        text += fmt::format("  threads = {}\n  megabytes = {}\n", resources.threads, megabytes_of(job));
+        if (lanes.large > 0 && job.memory > lanes.small_up_to) text += "  pool = large\n";
     }
     return text;
 }
 
-std::string make_workflow(const std::vector<Job>& jobs) {
+std::string make_workflow(const std::vector<Job>& jobs, const Resources& resources) {
     check_jobs(jobs, make_command);
     check_names(jobs, "Make", "|;=*?[]~\t", "use --to ninja, or rename the file");
     std::string rules, all;
@@ -210,18 +258,25 @@ std::string make_workflow(const std::vector<Job>& jobs) {
         const std::string outputs = joined(job.outputs, make_target);
         all += " \\\n " + joined(job.outputs, make_input);
         // "&:" is one rule for all of them: GNU make 4.3.
-        rules += fmt::format("\n{} &:{}\n\t{}\n", outputs.substr(1), joined(job.inputs, make_input),
+        rules += fmt::format("\n# {}, about {} MB\n{} &:{}\n\t{}\n",
+                             counted(static_cast<std::size_t>(resources.threads), "thread"),
+                             megabytes_of(job), outputs.substr(1), joined(job.inputs, make_input),
                              make_command(job, "$(FACETMILL)", with_dollars_doubled));
     }
-    return heading() + "FACETMILL ?= facetmill\n\n.PHONY: all\nall:" + all + "\n" + rules;
+    const Lanes lanes = lanes_of(jobs, resources);
+    const std::size_t most = lanes.large > 0 ? lanes.large : lanes.small;
+    const std::string advice = fmt::format(
+        "# make runs as many jobs at a time as its -j says, whatever memory and threads they need.\n"
+        "# -j{} suits {}.\n",
+        most, in_words(resources));
+    return heading() + advice + "FACETMILL ?= facetmill\n\n.PHONY: all\nall:" + all + "\n" + rules;
 }
 
-std::string snakemake_workflow(const std::vector<Job>& jobs, int threads) {
+std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources) {
     check_jobs(jobs, snakemake_command);
     // It takes braces for a wildcard, and has no way to say that they are none.
     check_names(jobs, "Snakemake", "{}", "rename the file");
     Json all = Json::array();
-    constexpr std::uint64_t megabyte = 1000000;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const Job& job = jobs[i];
         all.push_back({{"name", fmt::format("job_{}", i + 1)},
@@ -229,7 +284,7 @@ std::string snakemake_workflow(const std::vector<Job>& jobs, int threads) {
                        {"runs", command_lines(job)},
                        {"inputs", job.inputs},
                        {"outputs", job.outputs},
-                       {"megabytes", (job.memory + megabyte - 1) / megabyte}});
+                       {"megabytes", megabytes_of(job)}});
     }
     return heading() + fmt::format(R"(FACETMILL = config.get("facetmill", "facetmill")
 JOBS = {}
@@ -250,7 +305,7 @@ for job in JOBS:
         resources: mem_mb=job["megabytes"]
         shell: "{{params.command}}"
 )",
-                                   as_json(all), threads);
+                                   as_json(all), resources.threads);
 }
 
 } // namespace facetmill::cli

@@ -21,7 +21,7 @@ TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3
 
 
 class Export(Case):
-    NAMES = ("a", "sub/b", "sub/two words", "sub/it's $5 #1 & 100%")
+    NAMES = ("a", "sub/b", "sub/two words", "sub/it's $5 #1 & 100%", 'sub/größe: "x"')
 
     def setUp(self):
         super().setUp()
