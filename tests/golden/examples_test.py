@@ -138,6 +138,93 @@ class Examples(Tree):
 
 
 
+class Names(Tree):
+    """Scans whose names have what shells and build systems give a meaning."""
+
+    NAMES = ("two words", "$5 #1 & 100%", "größe: (x)", '"quoted"', "it's")
+
+    def setUp(self):
+        super().setUp()
+        shutil.rmtree(self.dir / "examples/data")
+        (self.dir / "examples/data").mkdir()
+        for name in self.NAMES:
+            self.write(f"examples/data/{name}.ply", scan("none", 1).replace("comment TextureFile none.png\n", ""))
+        web = self.dir / "examples/web.yaml"
+        web.write_text(web.read_text().replace("  - simplify: 10%\n    ensure: {edge_manifold: true}\n", ""))
+
+    def check(self, folder, *command, names=NAMES, nothing):
+        self.run_in(folder, *command)
+        made = self.made(folder)
+        for name in names:
+            self.assertLessEqual({f"{name}.glb", f"{name}.json"}, made)
+        self.assertIn(nothing, self.run_in(folder, *command))
+
+    def listed(self, build_file, old, spell):
+        """Writes the odd names in place of the one that is there."""
+        path = self.dir / "examples" / build_file
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, "".join(spell(name) for name in self.NAMES)))
+
+    def check_with_ninja(self, folder, *command):
+        """Before 1.12 Ninja does not read ' " & in depfiles, and makes what has them again every time."""
+        version = subprocess.run(["ninja", "--version"], capture_output=True, text=True).stdout
+        old = tuple(map(int, version.split(".")[:2])) < (1, 12)
+        self.check(folder, *command, nothing="" if old else "no work to do")
+        again = self.run_in(folder, *command)
+        for name in self.NAMES:
+            if not any(c in name for c in "'\"&"):
+                self.assertNotIn(name, again)
+
+    def test_make(self):
+        self.check("make", "make", "together", nothing="")
+
+    def test_ninja(self):
+        self.name_the_executable("ninja/build.ninja")
+        build = self.dir / "examples/ninja/build.ninja"
+        head, one = build.read_text().split("\nbuild ")
+        spell = lambda name: name.replace("$", "$$").replace(" ", "$ ").replace(":", "$:")
+        build.write_text(head + "".join("\nbuild " + one.replace("nefertiti", spell(name)) for name in self.NAMES))
+        self.check_with_ninja("ninja", "ninja")
+
+    def test_cmake(self):
+        prefix = self.installed()
+        path = self.dir / "examples/cmake/CMakeLists.txt"
+        path.write_text(path.read_text().replace("PIPELINE model.yaml", "PIPELINE ../web.yaml").replace('  PARAMS "keep=5%"\n', ""))
+        names = [name for name in self.NAMES if not any(c in name for c in '":')]
+        configured = lambda generator: subprocess.run(
+            ["cmake", "-G", generator, "-B", "b", f"-DCMAKE_PREFIX_PATH={prefix}"], cwd=self.dir / "examples/cmake",
+            env=self.env, capture_output=True, text=True, timeout=300)
+        self.assertIn("cannot work with ; [ ]", configured("Ninja").stderr)
+        for name in set(self.NAMES) - set(names):
+            (self.dir / f"examples/data/{name}.ply").unlink()
+        for generator in ("Ninja", "Unix Makefiles"):
+            self.assertEqual(configured(generator).returncode, 0)
+            self.check("cmake", "cmake", "--build", "b", names=names, nothing="")
+            shutil.rmtree(self.dir / "examples/cmake/b")
+
+    def test_meson(self):
+        self.need("meson")
+        quoted = lambda name: "'" + name.replace("'", "\\'") + "', "
+        self.listed("meson/meson.build", "'nefertiti'", quoted)
+        self.run_in("meson", "meson", "setup", "b")
+        self.check_with_ninja("meson", "ninja", "-C", "b")
+
+    def test_snakemake(self):
+        self.need("snakemake", in_ci=False)  # 78 packages on Debian 12
+        self.check("snakemake", "snakemake", "-j1", nothing="Nothing to be done")
+
+    def test_dvc(self):
+        self.need("dvc", in_ci=False)  # not in Debian
+        self.name_the_executable("dvc/dvc.yaml")
+        names = [name for name in self.NAMES if "'" not in name]
+        path = self.dir / "examples/dvc/dvc.yaml"
+        path.write_text(path.read_text().replace("      - nefertiti\n", "".join(f"      - '{name}'\n" for name in names)))
+        self.run_in(".", "git", "init", "-q", ".")
+        self.run_in(".", "dvc", "init", "-q", "--subdir")
+        self.check("dvc", "dvc", "repro", names=names, nothing="didn't change, skipping")
+
+
 def scan(name, size):
     return (f"ply\nformat ascii 1.0\ncomment TextureFile {name}.png\nelement vertex 4\nproperty float x\nproperty float y\n"
             "property float z\nproperty float s\nproperty float t\nelement face 4\nproperty list uchar int vertex_indices\n"
