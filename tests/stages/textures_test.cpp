@@ -188,7 +188,23 @@ TEST_CASE("images that hold feature ids stay as they are", "[stages]") {
     CHECK(image_result(run, 0).contains("kept"));
 }
 
+TEST_CASE("images that are read pixel by pixel stay as they are", "[stages]") {
+    for (const int filter : {9728, 9729}) {
+        Scene scene = textured({io::encoded_png(picture(64, 64))}, coloured);
+        Document document = *scene.documents[0];
+        Json json = Json::parse(document.json);
+        json["samplers"] = {{{"magFilter", filter}, {"minFilter", 9728}}};
+        json["textures"][0]["sampler"] = 0;
+        document.json = json.dump();
+        scene.documents[0] = std::make_shared<const Document>(std::move(document));
+        const auto run = run_stage("textures", "{max_size: 16, format: jpeg}", scene);
+        CHECK(run.record.result["unchanged"] == (filter == 9728 ? 1 : 0));
+    }
+}
+
 TEST_CASE("textures refuses options that say nothing", "[stages]") {
+    CHECK(problems_of("textures", options({{"format", "ktx2"}})).find("gltf-transform uastc") !=
+          std::string::npos);
     CHECK(problems_of("textures", options({{"max_size", "nan"}})).starts_with("E-"));
     CHECK(problems_of("textures", options({{"max_size", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"quality", "101"}})).starts_with("E-RANGE"));

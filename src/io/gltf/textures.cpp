@@ -81,9 +81,18 @@ class Uses {
     void use_texture(std::size_t index, const std::string& name) {
         ImageUse use = use_of(name);
         use.held = held_;
+        use.nearest = is_nearest(json_["textures"][index]);
         use.coverage = covers_ && (name == "baseColorTexture" || name == "diffuseTexture");
         use.alpha |= use.coverage;
         each_image(index, [&](std::size_t image) { all_[image].join(use); });
+    }
+
+    bool is_nearest(const Json& texture) const {
+        constexpr int nearest = 9728;
+        const auto sampler = index_at(texture, "sampler", count_of(json_, "samplers"));
+        if (!sampler) return false;
+        const Json& filters = json_["samplers"][*sampler];
+        return index_at(filters, "magFilter") == nearest && index_at(filters, "minFilter") == nearest;
     }
 
     /// Calls with each image of a texture, and marks that which stands beside another one.
@@ -305,6 +314,7 @@ void ImageUse::join(const ImageUse& other) {
     numbers |= other.numbers;
     coverage |= other.coverage;
     alpha |= other.alpha;
+    nearest |= other.nearest;
     fallback |= other.fallback;
     held |= other.held;
     for (const auto& name : other.textures)

@@ -18,6 +18,7 @@ struct ImageUse {
     bool numbers = false;  ///< metalness, roughness, occlusion, thickness ...
     bool coverage = false; ///< alpha says how much is there: of a material that masks or blends
     bool alpha = false;    ///< alpha is read, as coverage or as a number
+    bool nearest = false;  ///< read pixel by pixel, without mixing: a palette, say
     bool fallback = false; ///< beside another image, for readers that do not know an extension
     bool held = false;     ///< something other than the materials asked for names it: it has to stay as it is
     std::vector<std::string> textures; ///< what materials call it, "baseColorTexture", each once

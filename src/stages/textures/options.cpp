@@ -15,7 +15,8 @@ std::vector<NamedChoice<F>> formats() {
     return {{"keep", Format::keep, "the format that each has"},
             {"png", Format::png, "without loss"},
             {"jpeg", Format::jpeg, "progressive JPEG, without alpha"},
-            {"webp", Format::webp, "WebP, by EXT_texture_webp"}};
+            {"webp", Format::webp, "WebP, by EXT_texture_webp"},
+            {"ktx2", Format::ktx2, "refused: facetmill has no encoder for KHR_texture_basisu"}};
 }
 
 void declare_role(Declare<RoleOptions>& d) {
@@ -69,6 +70,18 @@ void declare_textures(Declare<TexturesOptions>& d) {
 }
 
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems) {
+    for (const auto& [option, s] : {std::pair("format", for_colours(o)), std::pair("normals", for_normals(o)),
+                                    std::pair("data", for_data(o))}) {
+        if (s.format != Format::ktx2) continue;
+        add_refusal(
+            Refusal{option,
+                    "KTX2 (KHR_texture_basisu) is not written: Debian has no library that encodes it, and "
+                    "a run starts no other programs",
+                    "write the .glb without it, then use 'gltf-transform uastc' or 'etc1s', which call the "
+                    "ktx tools of Khronos; or format: webp"},
+            "textures", given, problems);
+        return;
+    }
     const std::pair<const char*, ImageSettings> roles[] = {
         {"lossless", for_colours(o)}, {"normals", for_normals(o)}, {"data", for_data(o)}};
     for (const auto& [option, s] : roles) {

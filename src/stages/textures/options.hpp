@@ -5,7 +5,7 @@
 
 namespace facetmill::textures_stage {
 
-enum class Format { keep, png, jpeg, webp };
+enum class Format { keep, png, jpeg, webp, ktx2 };
 /// The word of the option: "png".
 std::string name_of(Format format);
 

@@ -68,6 +68,7 @@ Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
     if (image.bytes == 0) return {"it is not there"}; // which was said when it was missed
     if (image.format.empty()) return {"it is of no kind that is read", true};
     if (use.held) return {"something else than the materials of these parts reads it"};
+    if (use.nearest) return {"its pixels are read one by one, as those of a palette are"};
     if (use.textures.empty()) return {"no material uses it"};
     if (image.format == "ktx2" || image.format == "dds") return {"its format is not read"};
     if (image.width == 0) return {"it is broken", true};
