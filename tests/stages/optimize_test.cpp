@@ -3,6 +3,9 @@
 #include "support/images.hpp"
 #include "support/run_stage.hpp"
 
+#include "geometry/render/srgb.hpp"
+#include "io/gltf/textures.hpp"
+#include "io/pixels.hpp"
 #include "io/png.hpp"
 #include "mesh/shapes.hpp"
 
@@ -179,4 +182,198 @@ TEST_CASE("optimize takes scenes of any origin, also empty ones", "[stages]") {
     CHECK(run.scene.parts[0].mesh.face_count() == 2 * two.parts[0].mesh.face_count());
     CHECK(run.scene.bounds().max.x == two.bounds().max.x);
     CHECK(run_stage("optimize", "{join: false}", two).scene.parts.size() == 2);
+}
+
+namespace {
+
+/// Six triangles, each of a material of its own, in a row.
+Scene six_colours() {
+    std::string nodes, meshes, materials;
+    for (int i = 0; i < 6; ++i) {
+        nodes += fmt::format(R"({}{{"mesh":{},"translation":[{},0,0]}})", i ? "," : "", i, 2 * i);
+        meshes += (i ? "," : "") + mesh(i);
+        materials += (i ? "," : "") + colour(fmt::format("m{}", i), i / 10.0);
+    }
+    return document(nodes, meshes, R"("materials":[)" + materials + "]");
+}
+
+bool has_attribute(const Scene& scene, std::string_view name) {
+    for (const Part& part : scene.parts)
+        for (const Attribute& a : part.mesh.attributes)
+            if (a.name == name) return true;
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("attributes that no material needs go on request", "[stages]") {
+    const auto kept = run_stage("optimize", "{}", six_colours());
+    CHECK(has_attribute(kept.scene, "TEXCOORD_0"));
+    const auto dropped = run_stage("optimize", "{drop_attributes: true}", six_colours());
+    CHECK_FALSE(has_attribute(dropped.scene, "TEXCOORD_0"));
+    CHECK(dropped.record.result["dropped_attributes"] == Json::array({"TEXCOORD_0"}));
+    CHECK(json_again(dropped.scene)["meshes"][0]["primitives"][0]["attributes"].size() == 1);
+
+    const std::string textured =
+        R"({"images":[{"uri":"data:image/png;base64,)" + io::base64(to_bytes(red_png())) +
+        R"("}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}]})";
+    const Scene needed = document(R"({"mesh":0})", mesh(0), textured.substr(1, textured.size() - 2));
+    CHECK(has_attribute(run_stage("optimize", "{drop_attributes: true}", needed).scene, "TEXCOORD_0"));
+}
+
+TEST_CASE("wedges that only a dropped attribute kept apart become one", "[stages]") {
+    Scene scene = six_colours();
+    scene.parts.resize(1);
+    Mesh& mesh = scene.parts[0].mesh;
+    mesh.positions.push_back(
+        {1, 1, 0}); // a second face across an edge, whose wedges differ in TEXCOORD_0 alone
+    mesh.wedge_vertex = {0, 1, 2, 1, 2, 3};
+    mesh.corners = {0, 1, 2, 4, 3, 5};
+    mesh.find("TEXCOORD_0", Domain::wedge)->data =
+        std::vector<float>{0, 0, 1, 0, 0, 1, 0.5F, 0, 0, 0.5F, 1, 1};
+    Attribute* primitive = mesh.find(primitive_attribute, Domain::face);
+    if (primitive) primitive->resize(2);
+    CHECK(mesh.wedge_count() == 6);
+    const auto run = run_stage("optimize", "{drop_attributes: true}", scene);
+    CHECK(run.mesh().wedge_count() == 4);
+    CHECK(run.mesh().face_count() == 2);
+    CHECK_FALSE(run.mesh().has_seams());
+}
+
+TEST_CASE("plain materials become pixels of one, and their parts one draw call", "[stages]") {
+    const Scene scene = six_colours();
+    CHECK(run_stage("optimize", "{palette: true}", scene).record.result["palettes"] ==
+          0); // it has coordinates
+    const auto run = run_stage("optimize", "{palette: true, drop_attributes: true}", scene);
+    CHECK(run.record.result["palettes"] == 1);
+    CHECK(run.record.result["palette_materials"] == 6);
+    CHECK(run.record.result["draw_calls_before"] == 6);
+    CHECK(run.record.result["draw_calls_after"] == 1);
+    CHECK(run.scene.bounds().max.x == scene.bounds().max.x);
+    const Json json = json_again(run.scene);
+    REQUIRE(json["materials"].size() == 1);
+    REQUIRE(json["images"].size() == 1);
+    CHECK(json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] == 0);
+    CHECK(json["samplers"][0]["minFilter"] == 9728);
+    const auto images = io::document_images(*again(run.scene).documents.at(0), {});
+    const auto pixels = io::decoded_image(images.at(0).bytes);
+    REQUIRE(pixels);
+    CHECK(pixels->width == 6);
+    const Attribute* uv = run.mesh().find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    for (Index f = 0; f < 6; ++f) { // the pixel that a face reads is the colour that its material had
+        const Index w = run.mesh().corners[3 * f];
+        const double place = run.scene.parts[0].transform.point(run.mesh().point(3 * f)).x;
+        const auto column = static_cast<std::size_t>(uv->value(w, 0) * 6);
+        const double red = std::floor(place / 2 + 0.5) / 10;
+        CHECK(std::abs(double(linear_of(pixels->rgba[4 * column])) - red) < 0.005);
+        CHECK(pixels->rgba[4 * column + 1] == 0);
+    }
+    CHECK(run_stage("optimize", "{palette: true, drop_attributes: true, palette_min: 7}", scene)
+              .record.result["palettes"] == 0);
+}
+
+TEST_CASE("a vertex between two plain materials has a texture coordinate for each", "[stages]") {
+    Scene scene = document(R"({"mesh":0})", mesh(0),
+                           R"("materials":[)" + colour("red", 1) + "," + colour("dark", 0.1) + "]");
+    Mesh& m = scene.parts[0].mesh;
+    m.attributes.clear();
+    m.positions.push_back({1, 1, 0});
+    m.wedge_vertex.clear();
+    m.corners = {0, 1, 2, 2, 1, 3};
+    m.primitives.resize(2);
+    for (Index p = 0; p < 2; ++p) m.primitives[p].material = p;
+    m.attributes.push_back({std::string(primitive_attribute), Domain::face, Role::index, 1, false,
+                            std::vector<std::uint32_t>{0, 1}});
+    const auto run = run_stage("optimize", "{palette: true, palette_min: 2}", scene);
+    CHECK(run.mesh().wedge_count() == 6);
+    CHECK(run.mesh().vertex_count() == 4);
+    CHECK(run.record.result["draw_calls_after"] == 1);
+    CHECK(drawn_in_world(again(run.scene)).size() == 2);
+}
+
+TEST_CASE("parts of one mesh become instances, and instances parts", "[stages]") {
+    std::string nodes;
+    for (int i = 0; i < 6; ++i)
+        nodes +=
+            fmt::format(R"({}{{"mesh":0,"translation":[{},0,0],"rotation":[0,0,{},{}],"scale":[2,{},1]}})",
+                        i ? "," : "", 10 * i, i % 2, 1 - i % 2, i == 5 ? -1 : 1);
+    const Scene scene = document(nodes, mesh(0), R"("materials":[)" + colour("red", 1) + "]");
+    CHECK(run_stage("optimize", "{instance: true, instance_min: 6}", scene).scene.parts.size() == 6);
+    const auto run = run_stage("optimize", "{instance: true}", scene);
+    REQUIRE(run.scene.parts.size() == 2); // one is mirrored
+    CHECK(run.record.result["instances"] == 5);
+    CHECK(run.record.result["draw_calls_after"] == 2);
+    for (const bool meshopt : {false, true}) {
+        io::WriteSettings settings;
+        settings.meshopt.on = settings.quantize.on = meshopt;
+        const auto glb = written(run.scene, "glb", settings).files.at(0).bytes;
+        const Json json = Json::parse(json_of(glb));
+        CHECK(json["nodes"].size() == 2);
+        CHECK(json["extensionsRequired"].dump().find("EXT_mesh_gpu_instancing") != std::string::npos);
+        io::ReadSettings expand;
+        expand.expand_instances = true;
+        io::ReadLog log;
+        const Scene back = io::codec_named("glb")->read(io::Input::of("x", io::Bytes(glb)), expand, log);
+        CHECK(log.warnings.empty());
+        REQUIRE(back.parts.size() == 6);
+        const auto before = drawn_in_world(scene), after = drawn_in_world(back);
+        REQUIRE(before.size() == after.size());
+        for (std::size_t f = 0; f < before.size(); ++f)
+            for (std::size_t k = 0; k < before[f].size(); ++k)
+                CHECK(std::abs(before[f][k] - after[f][k]) < (meshopt ? 2e-3F : 1e-5F));
+        CHECK(back.documents.at(0)->json.find("EXT_mesh_gpu_instancing") == std::string::npos);
+    }
+}
+
+TEST_CASE("what shears cannot be an instance", "[stages]") {
+    std::string nodes = R"({"children":[1,2,3,4,5],"scale":[1,2,1]})";
+    for (int i = 0; i < 5; ++i)
+        nodes += fmt::format(R"(,{{"mesh":0,"translation":[{},0,0],"rotation":[0,0,0.6,0.8]}})", i);
+    const Scene scene = document(nodes, mesh(0), R"("materials":[)" + colour("red", 1) + "]");
+    CHECK(run_stage("optimize", "{instance: true}", scene).scene.parts.size() == 5);
+}
+
+TEST_CASE("flatten moves parts to the top of the scene, where they stand", "[stages]") {
+    const Scene scene = document(
+        R"({"children":[1],"name":"group","translation":[1,2,3]},{"children":[2,3],"scale":[2,1,1]},{"mesh":0,"name":"a"},
+{"mesh":1,"name":"b","rotation":[0,0,0.6,0.8]})",
+        mesh(0) + "," + mesh(0, 2), R"("materials":[)" + colour("red", 1) + "]");
+    const auto run = run_stage("optimize", "{flatten: true, join: false}", scene);
+    CHECK(run.record.result["flattened_parts"] == 2);
+    CHECK(run.record.result["erased"]["nodes"] == 2);
+    const Json json = json_again(run.scene);
+    CHECK(json["nodes"].size() == 2);
+    CHECK(json["scenes"][0]["nodes"].size() == 2);
+    CHECK(drawn_in_world(again(run.scene)) == drawn_in_world(scene));
+    const std::string animated =
+        R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":0}]}])";
+    const Scene moving = document(R"({"children":[1]},{"mesh":0})", mesh(0),
+                                  R"("materials":[)" + colour("red", 1) + "]" + animated);
+    CHECK(run_stage("optimize", "{flatten: true}", moving).record.result["flattened_parts"] == 0);
+}
+
+TEST_CASE("accessors of equal bytes become one, and needless bounds go", "[stages]") {
+    const std::string channels =
+        R"("animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}},{"sampler":1,"target":{"node":0,"path":"scale"}}],
+"samplers":[{"input":3,"output":0},{"input":4,"output":2}]}],"materials":[)";
+    Json json =
+        Json::parse(document(R"({"mesh":0})", mesh(0), channels + colour("red", 1) + "]").documents[0]->json);
+    for (int i = 0; i < 2; ++i)
+        json["accessors"].push_back({{"bufferView", 1},
+                                     {"componentType", 5126},
+                                     {"count", 3},
+                                     {"type", "SCALAR"},
+                                     {"min", {0}},
+                                     {"max", {1}}});
+    json["accessors"][1]["min"] = {0, 0};
+    json["accessors"][1]["max"] = {1, 1};
+    const auto run = run_stage("optimize", "{}", read_text(json.dump()));
+    CHECK(run.record.result["equal_accessors"] == 2);
+    const Json after = Json::parse(run.scene.documents.at(0)->json);
+    CHECK(after["accessors"].size() == 3);
+    CHECK(after["animations"][0]["samplers"][0]["input"] == after["animations"][0]["samplers"][1]["input"]);
+    CHECK_FALSE(after["accessors"][1].contains("min"));
+    CHECK(after["accessors"][after["animations"][0]["samplers"][0]["input"].get<std::size_t>()].contains(
+        "min"));
 }

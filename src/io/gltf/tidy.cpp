@@ -203,6 +203,65 @@ std::vector<std::size_t> DocumentTidy::merge_equal(bool keep_names) {
     return first;
 }
 
+std::size_t DocumentTidy::merge_equal_accessors() {
+    if (!known_) return 0;
+    std::vector<Bytes> buffers = document_.buffers;
+    buffers.insert(buffers.end(), added_.begin(), added_.end());
+    Source source(json_, buffers);
+    const std::size_t count = count_of(json_, "accessors");
+    std::vector<std::string> said(count);
+    std::map<std::string, std::size_t> alike;
+    for (std::size_t a = 0; a < count; ++a) {
+        Json item = json_["accessors"][a];
+        if (!item.contains("bufferView") || item.contains("sparse") || item.contains("name") ||
+            has_more(item) || source.without_bytes(item["bufferView"].get<std::size_t>()))
+            continue;
+        for (const char* key : {"bufferView", "byteOffset", "min", "max"}) item.erase(key);
+        const Json& view = json_["bufferViews"][json_["accessors"][a]["bufferView"].get<std::size_t>()];
+        said[a] = to_string(item) + to_string(view.value("target", Json()));
+        ++alike[said[a]];
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+        if (said[a].empty() || alike[said[a]] < 2) {
+            said[a] = std::to_string(a);
+            continue;
+        }
+        const Json reference = a;
+        const AttributeData data =
+            decode(source, accessor(source, Place(reference, "accessors[" + std::to_string(a) + "]")));
+        said[a] +=
+            std::visit([](const auto& numbers) { return sha256(std::as_bytes(std::span(numbers))); }, data);
+    }
+    const auto first = first_equal(said);
+    for (std::size_t a = 0; a < count; ++a) // whoever needs the bounds finds them
+        for (const char* key : {"min", "max"})
+            if (first[a] != a && json_["accessors"][a].contains(key))
+                json_["accessors"][first[a]][key] = json_["accessors"][a][key];
+    visit_accessor_references(json_, [&](Json& r) { follow(first, r); });
+    std::size_t merged = 0;
+    for (std::size_t a = 0; a < count; ++a) merged += first[a] != a;
+    return merged;
+}
+
+/// The least and greatest numbers of accessors, which glTF wants only of positions and of times.
+void DocumentTidy::drop_bounds() {
+    std::set<std::size_t> needed;
+    const auto need = [&](const Json& owner, const char* key) {
+        if (const auto index = index_at(owner, key)) needed.insert(*index);
+    };
+    for (std::size_t m = 0; m < count_of(json_, "meshes"); ++m)
+        for (const Json& primitive : json_["meshes"][m]["primitives"]) {
+            if (primitive.contains("attributes")) need(primitive["attributes"], "POSITION");
+            if (primitive.contains("targets"))
+                for (const Json& target : primitive["targets"]) need(target, "POSITION");
+        }
+    for (std::size_t a = 0; a < count_of(json_, "animations"); ++a)
+        for (const Json& sampler : json_["animations"][a]["samplers"]) need(sampler, "input");
+    for (std::size_t a = 0; a < count_of(json_, "accessors"); ++a)
+        for (const char* key : {"min", "max"})
+            if (!needed.contains(a)) json_["accessors"][a].erase(key);
+}
+
 std::set<std::size_t> DocumentTidy::unnamed(const char* list, References references,
                                             const std::set<std::size_t>& named) {
     const auto without_name = [&](Json& document) {
@@ -280,6 +339,7 @@ TidyNumbers DocumentTidy::erase_unused(const TidyRequest& request) {
         erased_.images += tidy("images", visit_image_references);
         erased_.accessors += tidy("accessors", visit_accessor_references);
         tidy("bufferViews", visit_view_references);
+        if (all_) drop_bounds();
     }
     numbers.nodes = numbers_without(nodes, dead_nodes);
     numbers.meshes = numbers_without(meshes, dead_meshes);
@@ -291,6 +351,7 @@ std::shared_ptr<const Document> DocumentTidy::finish(const std::shared_ptr<const
     if (json_ == before_) return before;
     auto out = std::make_shared<Document>(document_);
     out->json = to_string(json_);
+    for (const Bytes& bytes : added_) out->buffers.push_back(bytes);
     drop_unnamed_files(out->files, json_);
     return out;
 }

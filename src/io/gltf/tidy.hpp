@@ -3,11 +3,15 @@
 // and materials at its numbers.
 
 #include "base/json.hpp"
+#include "io/bytes.hpp"
 #include "mesh/scene.hpp"
 
+#include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 namespace facetmill::io {
 
@@ -29,6 +33,22 @@ struct TidyNumbers {
     std::vector<int> nodes, meshes, materials;
 };
 
+/// What a material without textures says of its surface.
+struct PlainLook {
+    std::array<double, 4> colour = {1, 1, 1, 1}; ///< linear
+    double metalness = 1, roughness = 1;
+    std::array<double, 3> emission = {0, 0, 0}; ///< linear
+    std::string kind{}; ///< all else: alpha mode, sides; equal for those that go together
+    auto surface() const { return std::tie(colour, metalness, roughness, emission); }
+};
+
+/// What a material needs of the vertices that it is drawn on.
+struct MaterialNeeds {
+    std::set<int> uvs; ///< sets of texture coordinates
+    bool normals = true, tangents = false;
+    std::optional<int> normal_map_uvs{}; ///< the set that the map of normals reads, if there is one
+};
+
 /// A document on its way. Throws malformed when it is no JSON or its lists are none.
 class DocumentTidy {
   public:
@@ -45,6 +65,29 @@ class DocumentTidy {
     /// which are not known here, nothing is erased (numbers_are_known).
     TidyNumbers erase_unused(const TidyRequest& request);
 
+    /// Makes one of equal accessors, by their bytes. Returns how many others stand for now.
+    std::size_t merge_equal_accessors();
+
+    /// Puts nodes at the top of their scene, where they stand in the world. `emptied` gets the nodes above
+    /// that have no mesh. None of them may be bound (bound_parts). Returns how many were not there.
+    std::size_t flatten(const std::set<std::size_t>& nodes, std::set<std::size_t>& emptied);
+
+    /// One node at the top of the scene that the first of these nodes is in, with its mesh at all of their
+    /// places in the world (EXT_mesh_gpu_instancing, required). Returns the node and where it stands; none
+    /// when a place cannot be told by a translation, a rotation and scales (within 1e-6).
+    using NodePlace = std::pair<std::size_t, Transform>;
+    std::optional<NodePlace> instance(const std::vector<NodePlace>& nodes);
+
+    /// What a material without textures, extensions (but KHR_materials_unlit) and extras says; none for
+    /// others.
+    std::optional<PlainLook> plain_look(std::size_t material) const;
+    /// A material with the looks as pixels of its textures, from left to right, all of one kind. Look i is at
+    /// the texture coordinates ((i + 0.5) / count, 0.5). Colours have 8 bits.
+    std::size_t add_palette(const std::vector<PlainLook>& looks);
+    /// All triangles of the mesh get the material.
+    void set_material(std::size_t mesh, std::size_t material);
+    MaterialNeeds needs_of(std::size_t material) const;
+
     bool numbers_are_known() const { return known_; }
     const TidyCounts& erased() const { return erased_; }
     /// The document now; the one that came when nothing has changed.
@@ -58,9 +101,16 @@ class DocumentTidy {
                                   const std::set<std::size_t>& named);
     std::size_t erase(const char* list, References references, const std::set<std::size_t>& dead);
     std::set<std::size_t> empty_nodes(const std::set<std::size_t>& emptied);
+    void drop_bounds();
+    std::size_t add(const char* list, Json item);
+    /// A view of a buffer of its own.
+    std::size_t add_view(Bytes bytes);
+    std::size_t add_floats(const std::vector<float>& numbers, int components);
+    void put_at_top(std::size_t node, std::size_t like);
 
     const Document& document_;
     Json json_, before_;
+    std::vector<Bytes> added_; ///< buffers behind the document's
     bool known_ = true, all_ = true;
     TidyCounts erased_;
 };

@@ -7,17 +7,28 @@ inline constexpr const char* about =
     R"(Makes a scene cheaper to load and to draw, without a change of what is seen.)";
 
 inline constexpr const char* details =
-    R"(dedup makes one of images of equal bytes, equal samplers, textures and materials, and meshes that
-are equal to the bit. join makes one part of those that share their materials and have the same
-attributes, in the place of the first of them, and one primitive of those of one material. Parts
-stay by themselves that are skinned, animated or joints, have morph targets, a camera, extras or
-extensions (also of their mesh or of a node above them), or share their mesh with another part
-(unless join_shared); so do those that `only` leaves out. prune erases materials, textures,
-samplers, images, meshes and accessors that nothing uses, and the nodes that join has emptied, with
-the groups above them that have nothing else.
+    R"(dedup makes one of images of equal bytes, equal samplers, textures and materials, meshes that are
+equal to the bit, and accessors of equal bytes. join makes one part of those that share their
+materials and have the same attributes, in the place of the first of them, and one primitive of
+those of one material. prune erases materials, textures, samplers, images, meshes and accessors that
+nothing uses, the least and greatest numbers of accessors that glTF does not ask for, and the nodes
+that join, flatten and instance have emptied, with the groups above them that have nothing else.
 
-Names are lost with what was joined; keep_names keeps apart what has different names. Nothing is
-erased from a document with an extension whose references are not known, and nothing in it is
-joined. Instancing (EXT_mesh_gpu_instancing) is left as it is.)";
+On request: drop_attributes drops texture coordinates that no texture reads, tangents without a map
+of normals and normals of unlit materials (not beside extensions of a primitive), and merges
+vertices that only these kept apart. palette makes one material of those that are nothing but plain
+colours, metalness, roughness and emission, with a pixel of 8 bits a channel for each, for parts
+without texture coordinates; parts of different colours can be joined then. flatten moves nodes to
+the top of the scene. instance makes one node, with a list of places, of parts that share a mesh
+and are not mirrored; later stages see its mesh once, so it comes last. `load: {instances: expand}` is
+its reverse.
+
+Parts stay by themselves, where they are, that are skinned, animated or joints, have morph targets,
+a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share
+their mesh with another part (unless join_shared); so do those that `only` leaves out.
+
+Names are lost with what was joined or made one; keep_names keeps apart what has different names.
+Nothing is erased from a document with an extension whose references are not known, and nothing in
+it is joined, moved or painted.)";
 
 } // namespace facetmill::help::optimize

@@ -3,8 +3,10 @@
 #include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
 #include "stage/stage.hpp"
+#include "stages/optimize/attributes.hpp"
 #include "stages/optimize/help.hpp"
 #include "stages/optimize/join.hpp"
+#include "stages/optimize/palette.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -16,11 +18,29 @@ namespace {
 
 struct OptimizeOptions {
     bool dedup = true, join = true, join_shared = false, prune = true, keep_names = false;
+    bool drop_attributes = false, palette = false, flatten = false, instance = false;
+    std::int64_t palette_min = 5, instance_min = 5;
 };
 
 void declare(Declare<OptimizeOptions>& d) {
     d.option("dedup", &OptimizeOptions::dedup,
-             "Makes one of equal images, samplers, textures, materials and meshes.");
+             "Makes one of equal images, samplers, textures, materials, meshes and accessors.");
+    d.option("drop_attributes", &OptimizeOptions::drop_attributes,
+             "Drops texture coordinates, tangents and normals that no material needs.");
+    d.option("palette", &OptimizeOptions::palette,
+             "Makes one material, with a pixel of a texture for each, of materials of plain colours.");
+    d.option("palette_min", &OptimizeOptions::palette_min,
+             "The fewest different looks that are worth a palette (a count).")
+        .between(2, 512);
+    d.option("flatten", &OptimizeOptions::flatten,
+             "Moves the nodes of parts to the top of the scene; groups that become empty go.");
+    d.option(
+        "instance", &OptimizeOptions::instance,
+        "Makes one node of parts that share a mesh (EXT_mesh_gpu_instancing): one draw call. Later stages "
+        "see its mesh once.");
+    d.option("instance_min", &OptimizeOptions::instance_min,
+             "The fewest parts of one mesh that become instances (a count).")
+        .between(2, 65536);
     d.option("join", &OptimizeOptions::join, "Joins parts that share their materials.");
     d.option("join_shared", &OptimizeOptions::join_shared,
              "Joins parts that share their mesh with others, too: fewer draw calls, but more bytes.");
@@ -31,8 +51,10 @@ void declare(Declare<OptimizeOptions>& d) {
 
 struct OptimizeReport {
     std::size_t draw_calls_before = 0, draw_calls_after = 0, parts_before = 0, parts_after = 0;
-    std::size_t equal_materials = 0, equal_meshes = 0, joined_parts = 0;
+    std::size_t equal_materials = 0, equal_meshes = 0, equal_accessors = 0, joined_parts = 0;
     std::vector<std::string> joined;
+    std::size_t palettes = 0, palette_materials = 0, flattened_parts = 0, instanced_meshes = 0, instances = 0;
+    std::vector<std::string> dropped_attributes;
     io::TidyCounts erased;
 };
 
@@ -56,7 +78,13 @@ class Optimizing {
         bound_ = io::bound_parts(scene_, tidies_);
         if (o_.dedup) merge_materials();
         if (o_.dedup) merge_meshes();
+        if (o_.drop_attributes) drop_attributes();
+        if (o_.palette) paint();
+        if (o_.flatten) flatten();
+        if (o_.instance) instance();
         if (o_.join) join_parts();
+        if (o_.dedup)
+            for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors();
         erase();
         report_.draw_calls_after = draw_calls_of(scene_);
         report_.parts_after = scene_.parts.size();
@@ -125,6 +153,105 @@ class Optimizing {
         }
     }
 
+    void drop_attributes() {
+        const auto needs = [&](Index m) -> std::optional<io::MaterialNeeds> {
+            if (m >= scene_.materials.size()) return io::MaterialNeeds{};
+            const Material& material = scene_.materials[m];
+            if (material.document < 0 || material.index < 0) return io::MaterialNeeds{};
+            const auto& tidy = tidies_[number(material.document)];
+            if (!tidy.numbers_are_known()) return {};
+            return tidy.needs_of(number(material.index));
+        };
+        std::set<std::string> names;
+        for (Part& part : scene_.parts) {
+            if (!context_.selects(part, scene_)) continue;
+            const auto dropped = drop_unused_attributes(part.mesh, needs);
+            for (const std::string& name : dropped) {
+                names.insert(name);
+                context_.attribute_changes(part, {{name, Domain::wedge, AttributeChange::Kind::dropped,
+                                                   "no material of the part needs it"}});
+            }
+            part.changed |= !dropped.empty();
+        }
+        report_.dropped_attributes.assign(names.begin(), names.end());
+    }
+
+    std::vector<std::size_t> selected() const {
+        std::vector<std::size_t> all;
+        for (std::size_t i = 0; i < scene_.parts.size(); ++i)
+            if (context_.selects(scene_.parts[i], scene_)) all.push_back(i);
+        return all;
+    }
+
+    void paint() {
+        const PaletteCounts made =
+            make_palettes(scene_, tidies_, selected(), static_cast<std::size_t>(o_.palette_min));
+        report_.palettes = made.palettes;
+        report_.palette_materials = made.materials;
+    }
+
+    void flatten() {
+        std::vector<std::set<std::size_t>> nodes(tidies_.size());
+        for (const std::size_t i : selected()) {
+            const Part& part = scene_.parts[i];
+            if (bound_[i] || part.document < 0 || part.node < 0 ||
+                !tidies_[number(part.document)].numbers_are_known())
+                continue;
+            nodes[number(part.document)].insert(number(part.node));
+        }
+        for (std::size_t d = 0; d < nodes.size(); ++d)
+            report_.flattened_parts += tidies_[d].flatten(nodes[d], requests_[d].emptied);
+    }
+
+    /// Parts of one mesh, each alone at its node and not mirrored.
+    std::map<std::pair<int, int>, std::vector<std::size_t>> parts_by_mesh() const {
+        std::map<std::pair<int, int>, std::size_t> of_node;
+        for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
+        const auto first = first_with_equal_mesh(scene_);
+        std::map<std::pair<int, int>, std::vector<std::size_t>> all;
+        for (const std::size_t i : selected()) {
+            const Part& part = scene_.parts[i];
+            if (bound_[i] || part.document < 0 || part.node < 0 || part.source_mesh < 0 ||
+                part.mesh.face_count() == 0 || !(part.transform.determinant() > 0) ||
+                of_node[{part.document, part.node}] > 1 ||
+                !tidies_[number(part.document)].numbers_are_known())
+                continue;
+            auto& group = all[{part.document, part.source_mesh}];
+            const Part* example = group.empty() ? nullptr : &scene_.parts[group.front()];
+            if (!example || (first[i] == first[group.front()] && part.changed == example->changed))
+                group.push_back(i);
+        }
+        return all;
+    }
+
+    void instance() {
+        std::set<std::size_t> gone;
+        for (const auto& [mesh, group] : parts_by_mesh()) {
+            if (group.size() < static_cast<std::size_t>(o_.instance_min)) continue;
+            std::vector<std::pair<std::size_t, Transform>> places;
+            for (const std::size_t i : group)
+                places.emplace_back(number(scene_.parts[i].node), scene_.parts[i].transform);
+            const auto made = tidies_[number(mesh.first)].instance(places);
+            if (!made) continue;
+            for (const std::size_t i : group) {
+                requests_[number(mesh.first)].emptied.insert(number(scene_.parts[i].node));
+                if (i != group.front()) gone.insert(i);
+            }
+            Part& one = scene_.parts[group.front()];
+            one.node = static_cast<int>(made->first);
+            one.transform = made->second;
+            ++report_.instanced_meshes;
+            report_.instances += group.size();
+        }
+        erase_parts(gone);
+        bound_ = io::bound_parts(scene_, tidies_);
+    }
+
+    void erase_parts(const std::set<std::size_t>& gone) {
+        std::size_t i = 0;
+        std::erase_if(scene_.parts, [&](const Part&) { return gone.contains(i++); });
+    }
+
     /// Parts that are drawn by themselves only because they are parts by themselves.
     std::vector<std::size_t> candidates() const {
         std::map<std::pair<int, int>, std::size_t> of_mesh, of_node;
@@ -162,8 +289,7 @@ class Optimizing {
                 gone.insert(i);
             }
         }
-        std::size_t i = 0;
-        std::erase_if(scene_.parts, [&](const Part&) { return gone.contains(i++); });
+        erase_parts(gone);
     }
 
     void erase() {
@@ -257,6 +383,17 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
     d.field("equal_materials", &OptimizeReport::equal_materials,
             "Materials that another one stands for now.");
     d.field("equal_meshes", &OptimizeReport::equal_meshes, "Meshes that another one stands for now.");
+    d.field("equal_accessors", &OptimizeReport::equal_accessors,
+            "Accessors of the documents that another one stands for now.");
+    d.field("dropped_attributes", &OptimizeReport::dropped_attributes,
+            "The names of the attributes that no material needs.");
+    d.field("palettes", &OptimizeReport::palettes, "Materials made of many.");
+    d.field("palette_materials", &OptimizeReport::palette_materials, "Materials that went into them.");
+    d.field("flattened_parts", &OptimizeReport::flattened_parts,
+            "Parts that are at the top of the scene now.");
+    d.field("instanced_meshes", &OptimizeReport::instanced_meshes,
+            "Meshes that have one node for many places now.");
+    d.field("instances", &OptimizeReport::instances, "The places that these have, which were parts.");
     d.field("joined_parts", &OptimizeReport::joined_parts, "Parts that went into another one.");
     d.field("joined", &OptimizeReport::joined, "The names of the parts that others went into.");
     d.object("erased", &OptimizeReport::erased, "What the documents lost.", declare_erased);
@@ -283,7 +420,8 @@ const RegisterStage registered = make_stage<OptimizeOptions>(
     {.name = "optimize",
      .about = help::optimize::about,
      .details = help::optimize::details,
-     .examples = {"optimize", "optimize: {join: false}", "optimize: {keep_names: true}"}},
+     .examples = {"optimize", "optimize: {join: false}", "optimize: {keep_names: true}",
+                  "optimize: {palette: true, drop_attributes: true}", "optimize: {instance: true}"}},
     declare, declare_report, run);
 
 } // namespace

@@ -1,0 +1,20 @@
+#pragma once
+// Materials of plain colours as pixels of one.
+
+#include "io/gltf/tidy.hpp"
+#include "mesh/scene.hpp"
+
+#include <set>
+
+namespace facetmill::optimize_stage {
+
+struct PaletteCounts {
+    std::size_t palettes = 0, materials = 0; ///< made, and that went into them
+};
+
+/// Gives parts without texture coordinates, whose primitives have plain materials, a palette's, where at
+/// least `least` different looks of one kind meet in it. Marks the parts as changed. parts: by their numbers.
+PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentTidy>& documents,
+                            const std::vector<std::size_t>& parts, std::size_t least);
+
+} // namespace facetmill::optimize_stage
