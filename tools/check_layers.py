@@ -39,12 +39,13 @@ PUBLIC = {
     "geometry/inspect/connectivity.hpp": "components of a mesh",
     "geometry/inspect/evidence.hpp": "where a property fails",
     "geometry/measure/statistics_fields.hpp": "the declared fields of statistics, which reports show",
+    "geometry/normals/tangents.hpp": "tangents for maps of normals",
     "geometry/render/srgb.hpp": "the curve of sRGB, for images that io makes smaller",
     "geometry/render/texture.hpp": "textures that io decodes",
     "io/drawing/drawing_fields.hpp": "the declared fields of a drawing, which reports show",
     "io/gltf/looks.hpp": "materials as pictures draw them",
     "io/gltf/textures.hpp": "the images of documents, for textures",
-    "io/gltf/tidy.hpp": "documents without what nothing uses, for optimize",
+    "io/gltf/tidy.hpp": "documents without what nothing uses, for optimize and tangents",
 }
 
 # First path component (or whole name) of a library's headers, and the only places that may include it.

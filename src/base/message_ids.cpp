@@ -548,8 +548,9 @@ std::span<const MessageId> message_ids() {
          {},
          "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing), and stages process only "
          "one of them.",
-         "The instances remain in glTF written from the scene; convert them to nodes first to process all of "
-         "them."},
+         "The instances remain in glTF written from the scene; `load: {path: ..., instances: expand}` makes "
+         "a part "
+         "of each, and `optimize: {instance: true}` makes instances of parts again."},
         {"W-LINES",
          {},
          "A file has no lines from which to make tubes, or the tubes intersect themselves at sharp corners.",

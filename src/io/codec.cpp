@@ -115,6 +115,13 @@ std::string stem_of(const Input& input) {
 
 } // namespace
 
+void VertexCacheUse::add(const VertexCacheUse& other) {
+    triangles += other.triangles;
+    vertices += other.vertices;
+    before += other.before;
+    after += other.after;
+}
+
 RegisterCodec::RegisterCodec(Codec codec) {
     auto& all = registry();
     const auto at = std::lower_bound(all.begin(), all.end(), codec.name,
@@ -162,6 +169,7 @@ const std::vector<Capability>& capabilities() {
         {"textures", &Capabilities::textures},
         {"quantize", &Capabilities::quantize},
         {"meshopt", &Capabilities::meshopt},
+        {"order", &Capabilities::order},
     };
     return all;
 }

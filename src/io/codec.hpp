@@ -46,13 +46,14 @@ struct ReadSettings {
     std::optional<Unit> unit; ///< overrides what the format says
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
-    bool lines = false; ///< read lines, too, where the format has them
+    bool lines = false;            ///< read lines, too, where the format has them
+    bool expand_instances = false; ///< glTF: each instance of EXT_mesh_gpu_instancing is a part
 };
 
 struct DracoSettings {
     bool on = false;
     int position_bits = 14, normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12;
-    int speed = 3;                ///< 0 smallest .. 10 fastest
+    int speed = 0;                ///< 0 smallest .. 10 fastest
     bool keep_degenerate = false; ///< faces that name a vertex twice stay, in a primitive of their own
 };
 
@@ -72,6 +73,21 @@ struct MeshoptSettings {
     bool filters = true; ///< octahedral, quaternion and exponential coding of what is rounded anyway
 };
 
+/// The order of triangles and vertices of glTF, without Draco.
+enum class TriangleOrder {
+    automatic, ///< for size under meshopt, else for drawing
+    keep,      ///< as the scene has it
+    draw,      ///< for a cache of transformed vertices, and so that few pixels are drawn twice
+    size       ///< in strips, which meshopt compresses best
+};
+
+/// Indexed triangles as a cache of 16 transformed vertices, first in, first out, meets them.
+struct VertexCacheUse {
+    std::size_t triangles = 0, vertices = 0;
+    std::size_t before = 0, after = 0; ///< how often a vertex is transformed, as given and as written
+    void add(const VertexCacheUse& other);
+};
+
 /// Where the images go that a document names as files.
 enum class Textures {
     automatic, ///< into the file where it is one (GLB), else beside it
@@ -88,16 +104,21 @@ struct WriteSettings {
     DracoSettings draco{};       ///< glTF
     QuantizeSettings quantize{}; ///< glTF, without Draco
     MeshoptSettings meshopt{};   ///< glTF, without Draco
-    bool mesh_manifold = false;  ///< glTF: EXT_mesh_manifold
-    bool lods = false;           ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
-    std::string title{};         ///< the output's stem, for names inside the file
+    TriangleOrder order = TriangleOrder::automatic; ///< glTF, without Draco
+    bool mesh_manifold = false;                     ///< glTF: EXT_mesh_manifold
+    bool lods = false;   ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
+    std::string title{}; ///< the output's stem, for names inside the file
     Textures textures = Textures::automatic; ///< glTF
     std::filesystem::path directory{};       ///< the output's, for Textures::reference
 
-    /// Bits of the grid that positions are rounded to: the longest side of a part is divided into 2^bits - 1
+    std::vector<int> part_bits{}; ///< of each part's positions; empty: as Draco or quantize say
+
+    /// Bits of the grid that positions of a part are rounded to: its longest side is divided into 2^bits - 1
     /// steps. 0: there is none.
-    int grid_bits() const {
-        return draco.on ? draco.position_bits : quantize.on ? quantize.position_bits : 0;
+    int grid_bits(std::size_t part) const {
+        if (!draco.on && !quantize.on) return 0;
+        if (part < part_bits.size()) return part_bits[part];
+        return draco.on ? draco.position_bits : quantize.position_bits;
     }
 };
 
@@ -112,6 +133,7 @@ struct Written {
     std::vector<Diagnostic> warnings;
     AttributeChanges changes;      ///< what the format cannot hold is dropped, and said
     std::size_t dropped_faces = 0; ///< that the scene has and the file has not, for the read-back
+    VertexCacheUse cache{};        ///< of the meshes that were put in order
 };
 
 /// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill
@@ -132,6 +154,7 @@ struct Capabilities {
     bool textures = false;       ///< WriteSettings::textures
     bool quantize = false;       ///< WriteSettings::quantize
     bool meshopt = false;        ///< WriteSettings::meshopt
+    bool order = false;          ///< WriteSettings::order
     Draco draco = Draco::never;  ///< WriteSettings::draco
     std::string attributes{};    ///< which it holds, in words
     std::string companion{};     ///< the suffix of a file beside it that it cannot do without: ".bin"

@@ -239,7 +239,8 @@ double float_step_at(const Box& box) {
 void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
     double largest = 0;
-    for (const auto& part : scene.parts) {
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
         Box own;
         const Transform to_world = part.transform;
         for (const Vec3& p : part.mesh.positions) {
@@ -254,10 +255,10 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
         largest = std::max(largest, reach);
         if (transforms)
             back.float_step = std::max(back.float_step, float_step_at(own) * greatest_stretch(to_world));
-        if (settings.grid_bits() > 0) {
+        if (settings.grid_bits(i) > 0) {
             const Vec3 e = own.extent();
             const double range = std::max({e.x, e.y, e.z}) * std::sqrt(scale);
-            const auto steps = static_cast<double>((std::int64_t{1} << settings.grid_bits()) - 1);
+            const auto steps = static_cast<double>((std::int64_t{1} << settings.grid_bits(i)) - 1);
             back.grid_step = std::max(back.grid_step, range / steps);
         }
     }

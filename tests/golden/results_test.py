@@ -84,6 +84,7 @@ RUNS = [
     "load flipped.off ! split ! simplify 60%",
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
+    "generate cube --name a ! generate cube --name b ! transform --scale 0.01 --only b ! write d.glb --draco ! write e.glb --quantize",
 ]
 
 

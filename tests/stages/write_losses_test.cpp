@@ -82,6 +82,15 @@ TEST_CASE("instances that stages do not see are said, and points without faces",
     CHECK(log.warnings[0].id == "W-INSTANCING");
     CHECK(log.warnings[0].message.find("part 'tree' has 3 instances") == 0);
     CHECK(Json::parse(json_of(written(scene, "glb").files[0].bytes))["nodes"][0].contains("extensions"));
+    io::ReadSettings expand;
+    expand.expand_instances = true;
+    log = {};
+    const Scene each = io::codec_named("gltf")->read(
+        io::Input::of("t", test::to_bytes(std::string(start) + end)), expand, log);
+    CHECK(log.warnings.empty());
+    REQUIRE(each.parts.size() == 3);
+    CHECK(each.parts[1].transform.point({0, 0, 0}) == Vec3{1, 0, 0}); // the places are those of the corners
+    CHECK(each.parts[0].name == "tree");
     CHECK(failure([&] {
               test::read_text(std::string(start) + R"(,"mode":0)" + end);
           }).find("has no faces: its 1 primitive") != std::string::npos);

@@ -67,6 +67,53 @@ TEST_CASE("write takes as many Draco bits as keep vertices distinct", "[stages]"
     CHECK(b.record.result["draco"]["position_bits"] == 14);
 }
 
+TEST_CASE("small meshes have fewer bits, but the steps of the scene", "[stages]") {
+    for (const std::string how : {"draco", "quantize"}) {
+        for (const std::string grid : {"scene", "mesh"}) {
+            Bench b;
+            b.scene.unit = Unit::m;
+            b.scene.up = UpAxis::y;
+            b.scene.parts.emplace_back().mesh = shapes::cube();
+            b.scene.parts.emplace_back().mesh = shapes::icosphere(2);
+            b.scene.parts[1].transform = {{{0.01, 0, 0, 5}, {0, 0.01, 0, 0}, {0, 0, 0.01, 0}}};
+            const double step = length(b.scene.bounds().extent()) / 16383;
+            b.run("write",
+                  Value::map({{"path", {}, Value::scalar("a.glb")}, {how, {}, options({{"grid", grid}})}}));
+            const Json result = b.record.result[how];
+            CHECK(result["position_bits"] == (grid == "scene" ? 12 : 14)); // of five, a unit has 12
+            CHECK(result.value("least", 14) == (grid == "scene" ? 10 : 14));
+            CHECK(b.state.record.outputs.back().read_back["position_error"].get<double>() < step);
+        }
+    }
+}
+
+TEST_CASE("write puts triangles in order, and says what that is worth", "[stages]") {
+    const auto written = [](std::vector<std::pair<std::string, std::string>> given) {
+        Bench b;
+        b.scene.unit = Unit::m;
+        b.scene.up = UpAxis::y;
+        b.scene.parts.emplace_back().mesh = shapes::icosphere(4);
+        b.run("write", options(given));
+        return std::pair(b.record.result, b.state.record.outputs.back().bytes);
+    };
+    const Json drawn = written({{"path", "a.glb"}}).first["order"];
+    CHECK(drawn["acmr"].get<double>() < 0.8);
+    CHECK(drawn["acmr"].get<double>() < drawn["acmr_before"].get<double>());
+    CHECK(drawn["atvr"].get<double>() >= 1);
+    CHECK_FALSE(written({{"path", "a.glb"}, {"order", "keep"}}).first.contains("order"));
+    const auto bytes = [&](const char* order) {
+        return written({{"path", "a.glb"}, {"order", order}, {"meshopt", "true"}}).second;
+    };
+    CHECK(bytes("size") < bytes("draw"));
+    CHECK(bytes("auto") == bytes("size"));
+    CHECK(failure([&] {
+              written({{"path", "a.ply"}, {"order", "draw"}});
+          }).find("'order' goes with") != std::string::npos);
+    CHECK(failure([&] {
+              written({{"path", "a.glb"}, {"order", "keep"}, {"draco", "true"}});
+          }).find("'order' and 'draco' exclude each other") != std::string::npos);
+}
+
 TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     Bench b;
     Mesh& mesh = b.scene.parts.emplace_back().mesh;

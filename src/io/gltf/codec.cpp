@@ -5,6 +5,7 @@
 #include "base/progress.hpp"
 #include "base/words.hpp"
 #include "io/gltf/container.hpp"
+#include "io/gltf/instances.hpp"
 #include "io/gltf/lines.hpp"
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/nodes.hpp"
@@ -109,7 +110,7 @@ void warn_of_instancing(const Source& source, const Placement& placement, ReadLo
                      "glTF see the mesh once, where its node is",
                      placement.name, count),
          {},
-         "",
+         "load: {instances: expand} makes a part of each",
          false});
 }
 
@@ -182,10 +183,14 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     auto document = std::make_shared<Document>();
     document->name = input.name();
     document->json = std::string(chunks.json);
-    const Json json = parse_document(document->json);
+    Json json = parse_document(document->json);
     check_asset(json);
     document->buffers = load_buffers(json, chunks.binary, input, log);
     document->files = load_images(json, input, log);
+    if (settings.expand_instances && uses_extension(json, "EXT_mesh_gpu_instancing")) {
+        expand_instances(json, document->buffers, log);
+        document->json = to_string(json);
+    }
 
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::m);
@@ -340,7 +345,11 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     ShareOfSteps steps({4, 1, 2, 3});
     const auto mesh_of_part = patch_meshes(patch);
     steps.next();
-    patch_levels(patch, patch_nodes(patch, mesh_of_part));
+    const auto node_of_part = patch_nodes(patch, mesh_of_part);
+    for (std::size_t i = 0; i < node_of_part.size(); ++i)
+        if (node_of_part[i] >= 0)
+            patch.bits_of_node[static_cast<std::size_t>(node_of_part[i])] = settings.grid_bits(i);
+    patch_levels(patch, node_of_part);
     drop_dead_meshes(patch, mesh_of_part);
     steps.next();
     store_meshes(patch);
@@ -388,6 +397,7 @@ Capabilities abilities(std::string companion) {
             .textures = true,
             .quantize = true,
             .meshopt = true,
+            .order = true,
             .draco = Capabilities::Draco::on_request,
             .attributes = "all at vertices, with materials and textures",
             .companion = std::move(companion),

@@ -150,7 +150,7 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
 /// Whether the order of vertices says something: EXT_mesh_features numbers features by vertices where it
 /// names neither an attribute nor a texture.
 bool keeps_order(const Mesh& mesh, const EncodeSettings& settings) {
-    if (settings.keep_order) return true;
+    if (settings.order == TriangleOrder::keep) return true;
     for (const Primitive& primitive : mesh.primitives) {
         if (primitive.json.find("EXT_mesh_features") == std::string::npos) continue;
         const Json::json_pointer place("/extensions/EXT_mesh_features/featureIds");
@@ -329,7 +329,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
         out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));
     auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);
     if (!settings.draco.on && !keeps_order(mesh, settings))
-        order_for_caches(mesh, tables, settings.manifold, out.cache);
+        order_triangles(mesh, tables, settings.order, settings.manifold, out.cache);
     if (settings.manifold && !settings.draco.on) {
         encode_manifold(builder, mesh, tables, columns, settings, written, out);
         return out;

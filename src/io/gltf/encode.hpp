@@ -12,20 +12,14 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
-    bool manifold = false;     ///< write EXT_mesh_manifold
-    bool keep_order = false;   ///< of triangles and vertices
-    bool keep_exact = false;   ///< positions in doubles go to Builder::exact_positions, too
-    bool keep_features = true; ///< metadata that primitives refer to is in the document
+    bool manifold = false;                     ///< write EXT_mesh_manifold
+    TriangleOrder order = TriangleOrder::keep; ///< not automatic
+    bool keep_exact = false;                   ///< positions in doubles go to Builder::exact_positions, too
+    bool keep_features = true;                 ///< metadata that primitives refer to is in the document
     ColumnSettings columns;
     std::string name; ///< of the part, for messages
     /// The document's index for a scene material; -1: none.
     std::function<int(Index)> material;
-};
-
-/// Indexed triangles as a cache of 16 transformed vertices, first in, first out, meets them.
-struct VertexCacheUse {
-    std::size_t triangles = 0, vertices = 0;
-    std::size_t before = 0, after = 0; ///< how often a vertex is transformed, as given and as written
 };
 
 /// What goes into a mesh object; the accessors and views are in the builder already.

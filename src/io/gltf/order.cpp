@@ -129,13 +129,18 @@ void add_sizes(const Table& table, VertexCacheUse& use) {
 
 } // namespace
 
-void order_for_caches(const Mesh& mesh, std::vector<Table>& tables, bool shared, VertexCacheUse& use) {
+void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder order, bool shared,
+                     VertexCacheUse& use) {
     std::vector<Table*> together;
     for (Table& table : tables) {
         use.before += transforms(table);
         meshopt_optimizeVertexCache(table.indices.data(), table.indices.data(), table.indices.size(),
                                     table.wedges.size());
-        order_groups(mesh, table);
+        if (order == TriangleOrder::size) // begun in the order for caches, strips turn less often
+            meshopt_optimizeVertexCacheStrip(table.indices.data(), table.indices.data(), table.indices.size(),
+                                             table.wedges.size());
+        else
+            order_groups(mesh, table);
         together.push_back(&table);
         if (shared) continue;
         order_wedges(together);

@@ -40,8 +40,10 @@ bool ready_for_meshopt(const Json& document, const Json& primitive) {
 
 /// True when the primitives as they are in the document are what the settings ask for.
 bool stored_as_wanted(const Patch& patch, const Json& mesh) {
+    const TriangleOrder order = patch.settings.order;
     for (const auto& primitive : mesh["primitives"]) {
         const bool triangles = makes_triangles(Place(primitive, ""));
+        if (triangles && (order == TriangleOrder::draw || order == TriangleOrder::size)) return false;
         if (triangles && has_draco(primitive) != patch.settings.draco.on) return false;
         if (triangles && patch.settings.meshopt.on && !ready_for_meshopt(patch.builder.json(), primitive))
             return false;
@@ -64,8 +66,11 @@ bool is_original(Patch& patch, const Part& part) {
 EncodeSettings settings_for(Patch& patch, const Part& part) {
     EncodeSettings s;
     s.draco = patch.settings.draco;
+    s.draco.position_bits = patch.settings.grid_bits(static_cast<std::size_t>(&part - &patch.scene.parts[0]));
     s.manifold = patch.settings.mesh_manifold;
-    s.keep_order = !patch.settings.meshopt.on; // which compresses neighbours well
+    s.order = patch.settings.order;
+    if (s.order == TriangleOrder::automatic)
+        s.order = patch.settings.meshopt.on ? TriangleOrder::size : TriangleOrder::draw;
     s.keep_exact = patch.settings.quantize.on;
     s.name = part.name;
     s.material = [&patch](Index m) { return patch_material(patch, m); };
@@ -99,6 +104,7 @@ Json encoded_object(Patch& patch, Json mesh, Variant& variant) {
     const Part& part = patch.scene.parts[variant.example];
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
+    patch.written.cache.add(encoded.cache);
     Json untouched = Json::array(); // points and lines
     if (mesh.contains("primitives"))
         for (auto& primitive : mesh["primitives"])

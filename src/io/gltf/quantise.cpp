@@ -171,7 +171,7 @@ Stored plain(const AttributeData& data, int components, bool normalised, bool bo
     return stored;
 }
 
-std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid, int bits) {
+std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid) {
     const auto as = [&](auto zero) -> std::optional<Stored> {
         using T = decltype(zero);
         std::vector<T> out(3 * positions.size());
@@ -186,7 +186,7 @@ std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const Position
         if (!all) return {};
         return plain(out, 3, false, true);
     };
-    return bits <= 8 ? as(std::uint8_t{}) : as(std::uint16_t{});
+    return grid.bits <= 8 ? as(std::uint8_t{}) : as(std::uint16_t{});
 }
 
 Stored displacements(const Attribute& deltas, const PositionGrid& grid) {

@@ -11,10 +11,11 @@
 
 namespace facetmill::io::gltf {
 
-/// The grid of a mesh's positions: a stored integer n stands for origin + step * n.
+/// The grid of a mesh's positions: a stored integer n of so many bits stands for origin + step * n.
 struct PositionGrid {
     Vec3 origin;
     double step = 1;
+    int bits = 16;
 };
 
 /// Vertex data ready for a view of its own.
@@ -27,9 +28,9 @@ struct Stored {
 
 /// Numbers as they are, each element padded to 4 bytes; min and max when asked for.
 Stored plain(const AttributeData& data, int components, bool normalised, bool bounds);
-/// Positions on a grid of 2^bits steps, as uint8 or uint16. Each is at most half a step off in every
+/// Positions on a grid, as uint8 or uint16. Each is at most half a step off in every
 /// direction. None when one is beyond what the integers reach.
-std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid, int bits);
+std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid);
 /// Displacements of positions in steps of the grid: int16 or, where that does not reach, float32.
 Stored displacements(const Attribute& deltas, const PositionGrid& grid);
 /// Numbers from -1 to 1 in 2^(bits - 1) - 1 steps to either side, as normalised int8 (up to 8 bits) or int16:

@@ -40,6 +40,7 @@ class Store {
     Json store_target(const Json& target, const std::optional<PositionGrid>& grid);
     void store_manifold(Json& mesh) const;
 
+    int bits_of(std::size_t mesh) const;
     std::optional<PositionGrid> grid_of(std::size_t mesh);
     const char* reason_for_floats(std::size_t mesh) const;
     std::size_t position(std::size_t accessor, const std::optional<PositionGrid>& grid);
@@ -143,6 +144,15 @@ const char* Store::reason_for_floats(std::size_t mesh) const {
     return nullptr;
 }
 
+/// As many as the parts that stand where the mesh does ask for.
+int Store::bits_of(std::size_t mesh) const {
+    int bits = 0;
+    for (const std::size_t node : nodes_[mesh])
+        if (const auto of = patch_.bits_of_node.find(node); of != patch_.bits_of_node.end())
+            bits = std::max(bits, of->second);
+    return bits > 0 ? bits : quantize_.position_bits;
+}
+
 std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     Box faces, all;
     const Json& primitives = json_["meshes"][mesh]["primitives"];
@@ -160,14 +170,15 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     const Box& box = faces.empty() ? all : faces;
     const Vec3 e = box.extent();
     const double range = std::max({e.x, e.y, e.z});
-    const auto steps = static_cast<double>((1 << quantize_.position_bits) - 1);
-    const PositionGrid grid{box.min, range > 0 ? range / steps : 1};
+    const int bits = bits_of(mesh);
+    const auto steps = static_cast<double>((1 << bits) - 1);
+    const PositionGrid grid{box.min, range > 0 ? range / steps : 1, bits};
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
     if (const char* why = reason_for_floats(mesh)) {
         keep("POSITION", why);
         return {};
     }
-    const double reach = (quantize_.position_bits <= 8 ? 255.0 : 65535.0) * grid.step;
+    const double reach = (bits <= 8 ? 255.0 : 65535.0) * grid.step;
     for (std::size_t c = 0; c < 3; ++c)
         if (all.min[c] < box.min[c] || all.max[c] > box.min[c] + reach) {
             keep("POSITION", "stays float32 where points or lines reach far beyond the faces of their mesh");
@@ -180,7 +191,7 @@ std::size_t Store::position(std::size_t accessor, const std::optional<PositionGr
     if (!readable(accessor) || !floats(accessor)) return accessor;
     if (grid) {
         small_integers_ = true;
-        return replace(accessor, on_grid(positions(accessor), *grid, quantize_.position_bits));
+        return replace(accessor, on_grid(positions(accessor), *grid));
     }
     const Attribute a = numbers(accessor);
     return replace(

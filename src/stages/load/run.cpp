@@ -24,6 +24,7 @@ struct LoadOptions {
     io::Weld weld = io::Weld::automatic;
     std::optional<Length> lines;
     std::int64_t line_sides = 8;
+    bool expand_instances = false;
 };
 
 void declare(Declare<LoadOptions>& d) {
@@ -44,6 +45,10 @@ void declare(Declare<LoadOptions>& d) {
          {"none", io::Weld::off, "never"},
          {"exact", io::Weld::exact, "always"}},
         "Whether vertices at exactly the same position are merged.");
+    d.choice<bool>("instances", &LoadOptions::expand_instances,
+                   {{"keep", false, "one part, which stages see once (W-INSTANCING); glTF keeps them all"},
+                    {"expand", true, "each is a part"}},
+                   "What becomes of the instances of a glTF node (EXT_mesh_gpu_instancing).");
     d.option("lines", &LoadOptions::lines,
              "Turns the lines of an OBJ or glTF file into tubes of this thickness (the diameter), parts of "
              "their own; a percentage is of the diagonal of the file. Without it lines are skipped.")
@@ -83,6 +88,7 @@ io::ReadSettings read_settings(const LoadOptions& o) {
     if (o.unit != Unit::unknown) settings.unit = o.unit;
     if (o.up != UpAxis::unknown) settings.up = o.up;
     settings.lines = o.lines.has_value();
+    settings.expand_instances = o.expand_instances;
     return settings;
 }
 

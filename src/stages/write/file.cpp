@@ -2,12 +2,18 @@
 
 #include "base/progress.hpp"
 #include "base/words.hpp"
+#include "geometry/normals/tangents.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
+#include "io/gltf/tidy.hpp"
 #include "io/packing.hpp"
 #include "io/read_back.hpp"
 
+#include "mesh/transform.hpp"
+
+#include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill::write_stage {
 
@@ -21,6 +27,54 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
+/// For each part, as few bits as have steps no larger, in the world, than those of `bits` for the longest
+/// side of the scene; at least 10 (if `bits` are not fewer), a thousandth of the part.
+std::vector<int> bits_of_scene(const Scene& scene, int bits) {
+    constexpr int fewest = 10;
+    const auto longest = [](const Box& box) {
+        const Vec3 e = box.extent();
+        return box.empty() ? 0 : std::max({e.x, e.y, e.z});
+    };
+    const double whole = longest(scene.bounds());
+    std::vector<int> all;
+    for (const Part& part : scene.parts) {
+        const double own = longest(part.mesh.bounds()) * greatest_stretch(part.transform);
+        int enough = std::min(fewest, bits);
+        const auto steps = [](int n) { return static_cast<double>((std::int64_t{1} << n) - 1); };
+        while (enough < bits && own / steps(enough) > whole / steps(bits)) ++enough;
+        all.push_back(enough);
+    }
+    return all;
+}
+
+/// As many bits as keep the vertices apart, up to the limit, if there is one. False where the limit is not
+/// enough: then they are as usual.
+bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> limit) {
+    if (!limit) return true;
+    const std::optional<int> found = io::bits_that_keep_distinct(mesh, bits);
+    const bool enough = found && *found <= *limit;
+    bits = enough ? *found : usual;
+    return enough;
+}
+
+/// Parts that share a mesh have the most that one of them needs.
+void as_shared(std::vector<int>& bits, const Scene& scene) {
+    std::map<std::pair<int, int>, int> most;
+    const auto key = [&](std::size_t i) {
+        return std::pair(scene.parts[i].document, scene.parts[i].source_mesh);
+    };
+    for (std::size_t i = 0; i < bits.size(); ++i) most[key(i)] = std::max(most[key(i)], bits[i]);
+    for (std::size_t i = 0; i < bits.size(); ++i)
+        if (scene.parts[i].source_mesh >= 0) bits[i] = most[key(i)];
+}
+
+std::string why(int usual, Grid grid, int limit, bool enough) {
+    if (enough)
+        return fmt::format("the smallest number from {}{} on that keeps vertices distinct", usual,
+                           grid == Grid::scene ? " for the size of the scene" : "");
+    return fmt::format("{} would not keep all vertices distinct", limit);
+}
+
 /// Why rounding put points on others or faces on lines, and the hint.
 std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const std::size_t points = back.changes.rounded;
@@ -28,10 +82,10 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
                                         : std::string("moved points onto lines of others");
     if (settings.draco.on && back.grid_step >= back.float_step)
         return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
-                           settings.grid_bits(), what);
+                           settings.draco.position_bits, what);
     if (settings.quantize.on && back.grid_step >= back.float_step)
         return fmt::format("the grid of {} bits {}: use more bits of quantize.position, or no quantize",
-                           settings.grid_bits(), what);
+                           settings.quantize.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
     return fmt::format(
@@ -85,29 +139,67 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
     if (done.turned) report.up = to_string(target.up);
 }
 
+std::vector<std::optional<int>> normal_map_uvs(const Scene& scene) {
+    std::vector<std::optional<io::DocumentTidy>> documents(scene.documents.size());
+    std::vector<std::optional<int>> uvs;
+    for (const Material& material : scene.materials) {
+        uvs.emplace_back();
+        if (material.document < 0 || material.index < 0) continue;
+        const auto d = static_cast<std::size_t>(material.document);
+        if (!documents[d]) documents[d].emplace(*scene.documents[d]);
+        uvs.back() = documents[d]->needs_of(static_cast<std::size_t>(material.index)).normal_map_uvs;
+    }
+    return uvs;
+}
+
+bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
+                   Context& context) {
+    if (part.mesh.find("TANGENT", Domain::wedge) && o.tangents == Tangents::missing) return false;
+    const auto uvs_of = [&](const Primitive& p) {
+        return p.material < uvs_of_material.size() ? uvs_of_material[p.material] : std::nullopt;
+    };
+    std::optional<int> uvs;
+    for (const Primitive& p : part.mesh.primitives)
+        if (!uvs) uvs = uvs_of(p);
+    if (!uvs) return false;
+    Mesh mesh = part.mesh.all_triangles() ? part.mesh : triangulated(part.mesh);
+    const auto change = facetmill::give_tangents(mesh, *uvs);
+    if (!change) return false;
+    for (Primitive& p : mesh.primitives)
+        if (uvs_of(p) && !p.attributes.empty() && !p.lists("TANGENT")) p.attributes.emplace_back("TANGENT");
+    part.mesh = std::move(mesh);
+    part.changed = true;
+    context.attribute_changes(part, {*change});
+    return true;
+}
+
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report) {
-    if (s.grid_bits() == 0) return;
-    int& bits = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
-    const int limit = s.draco.on ? 24 : 16;
+    if (!s.draco.on && !s.quantize.on) return;
+    const int usual = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
     const bool given = s.draco.on ? o.draco && o.draco->position_bits : o.quantize && o.quantize->position;
-    std::string why = "as given";
-    if (!given) {
-        const int usual = bits;
-        std::optional<int> most = usual;
-        const auto look = [&](const Mesh& mesh) {
-            if (most) most = io::bits_that_keep_distinct(mesh, *most);
-        };
-        if (!codec.can.transforms)
-            look(in_one(scene));
-        else
-            for (const Part& part : scene.parts) look(part.mesh);
-        const bool enough = most && *most <= limit;
-        bits = enough ? *most : usual;
-        why = enough ? fmt::format("the smallest number from {} on that keeps vertices distinct", usual)
-                     : fmt::format("{} would not keep all vertices distinct", limit);
+    const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::scene
+                      : o.quantize ? o.quantize->grid
+                                   : Grid::scene;
+    const std::optional<int> limit = given ? std::nullopt : std::optional(s.draco.on ? 24 : 16);
+    bool enough = true;
+    if (codec.can.transforms) {
+        s.part_bits =
+            grid == Grid::scene ? bits_of_scene(scene, usual) : std::vector<int>(scene.parts.size(), usual);
+        for (std::size_t i = 0; i < scene.parts.size(); ++i)
+            enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
+        as_shared(s.part_bits, scene);
+    } else {
+        int bits = usual;
+        enough = keep_distinct(bits, in_one(scene), usual, limit);
+        s.part_bits.assign(scene.parts.size(), bits);
     }
-    (s.draco.on ? report.draco : report.quantize) = WriteReport::Bits{bits, why};
+    const auto [least, most] = std::minmax_element(s.part_bits.begin(), s.part_bits.end());
+    WriteReport::Bits bits{*most, {}, "as given"};
+    if (*least < *most) bits.least = *least;
+    if (!given) bits.why = why(usual, grid, *limit, enough);
+    (s.draco.on ? s.draco.position_bits : s.quantize.position_bits) = *most;
+    (s.draco.on ? report.draco : report.quantize) = bits;
 }
 
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,

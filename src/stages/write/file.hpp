@@ -7,13 +7,15 @@ namespace facetmill::write_stage {
 
 struct WriteReport {
     struct Bits {
-        int position_bits = 0;
+        int position_bits = 0; ///< of the part that has the most
+        std::optional<int> least;
         std::string why;
     };
     std::optional<double> factor;
     std::optional<std::string> up;
     std::optional<Bits> draco, quantize;
     std::optional<OriginReport> origin;
+    std::optional<io::VertexCacheUse> order;
 };
 
 /// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
@@ -21,7 +23,15 @@ struct WriteReport {
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
                    WriteReport& report);
 
-/// Bits of position for a file with a grid (Draco, quantize): those given, or as many as keep vertices apart.
+/// By material of the scene, the set of texture coordinates that its map of normals reads, if it has one.
+std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
+/// Gives a part tangents where a material of it has a map of normals. False, and nothing changed, where it
+/// has none, or lacks normals or the texture coordinates, or has tangents already and they are to stay.
+bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
+                   Context& context);
+
+/// Bits of position for a file with a grid (Draco, quantize), part by part: those that are given or usual, of
+/// the scene or of each mesh, and, unless given, as many as keep vertices apart.
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report);
 

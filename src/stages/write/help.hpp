@@ -11,7 +11,9 @@ inline constexpr const char* details =
 the run has succeeded; until then, existing files are unchanged. Each file is decoded again and
 compared with the scene: the number of faces, and how far positions moved (float32, Draco,
 quantize). Units and the up axis are converted to the convention of the format; formats without
-nodes get all parts in world space. Attributes that the format cannot hold are listed under
-attribute_changes in the report. If the name ends in .gz or .zst, the file is compressed.)";
+nodes get all parts in world space. Meshes written to glTF anew get their triangles and vertices in
+an order that is quick to draw (order), or in Draco's own. Attributes that the format cannot hold
+are listed under attribute_changes in the report. If the name ends in .gz or .zst, the file is
+compressed.)";
 
 } // namespace facetmill::help::write

@@ -14,11 +14,23 @@ namespace {
 
 using Precision = WriteOptions::Precision;
 
+template <class Options>
+void declare_grid(Declare<Options>& d) {
+    d.template choice<Grid>(
+        "grid", &Options::grid,
+        {{"scene", Grid::scene,
+          "the steps are at most those of the scene's longest side; a small mesh has fewer "
+          "bits, but at least 10"},
+         {"mesh", Grid::mesh, "each mesh has all bits for its own longest side"}},
+        "What the bits of positions are of.");
+}
+
 void declare_draco(Declare<DracoOptions>& d) {
     d.option("position_bits", &DracoOptions::position_bits,
              "Bits of each coordinate: the longest side is divided into 2^bits - 1 steps (a count); unless "
-             "given, the fewest from 14 to 24 at which no two vertices coincide, or 14 if 24 are too few.")
+             "given, 14, and up to 24 where vertices would coincide otherwise (14, if 24 are too few).")
         .between(1, 30);
+    declare_grid(d);
     d.option("normal_bits", &DracoOptions::normal_bits, "Bits of normals (a count).").between(1, 30);
     d.option("uv_bits", &DracoOptions::uv_bits, "Bits of texture coordinates (a count).").between(1, 30);
     d.option("colour_bits", &DracoOptions::colour_bits, "Bits of colours (a count).").between(1, 30);
@@ -41,11 +53,11 @@ void declare_draco(Declare<DracoOptions>& d) {
 }
 
 void declare_quantize(Declare<QuantizeOptions>& d) {
-    d.option(
-         "position", &QuantizeOptions::position,
-         "Bits of each coordinate: the longest side of a mesh is divided into 2^bits - 1 steps (a count); "
-         "unless given, the fewest from 14 to 16 at which no two vertices coincide, or 14 if 16 are too few.")
+    d.option("position", &QuantizeOptions::position,
+             "Bits of each coordinate: the longest side is divided into 2^bits - 1 steps (a count); unless "
+             "given, 14, and up to 16 where vertices would coincide otherwise (14, if 16 are too few).")
         .between(1, 16);
+    declare_grid(d);
     d.option("normal", &QuantizeOptions::normal, "Bits of each number of normals and tangents (a count).")
         .between(2, 16);
     d.option("uv", &QuantizeOptions::uv,
@@ -94,11 +106,13 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"draco", o.draco && o.draco->on, [](const Can& can) { return can.draco != Can::Draco::never; }},
             {"quantize", o.quantize && o.quantize->on, &Can::quantize},
             {"meshopt", o.meshopt && o.meshopt->on, &Can::meshopt},
+            {"order", o.order != io::TriangleOrder::automatic, &Can::order},
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
             {"normals", o.normals != NormalKind::keep, &Can::normals},
-            {"origin", o.origin.kind == OriginOption::Kind::point, &Can::transforms}};
+            {"origin", o.origin.kind == OriginOption::Kind::point, &Can::transforms},
+            {"tangents", o.tangents != Tangents::keep, &Can::textures}};
 }
 
 /// Options that say something another format knows.
@@ -116,7 +130,8 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
     }
     const bool draco = o.draco && o.draco->on;
     for (const auto& [name, asked] : {std::pair("quantize", o.quantize && o.quantize->on),
-                                      std::pair("meshopt", o.meshopt && o.meshopt->on)})
+                                      std::pair("meshopt", o.meshopt && o.meshopt->on),
+                                      std::pair("order", o.order != io::TriangleOrder::automatic)})
         if (draco && asked)
             add_refusal(Refusal{name,
                                 fmt::format("'{}' and 'draco' exclude each other, since Draco compresses the "
@@ -173,6 +188,12 @@ void declare_write(Declare<WriteOptions>& d) {
              "With normals: smooth, edges whose dihedral angle is larger than this stay sharp (an angle "
              "between the normals of the two faces; if not given, none does).")
         .above(0);
+    d.choice<Tangents>(
+        "tangents", &WriteOptions::tangents,
+        {{"keep", Tangents::keep, "those of the scene; viewers make them where there are none"},
+         {"missing", Tangents::missing, "made by MikkTSpace where a material has a map of normals"},
+         {"new", Tangents::all, "made there in any case"}},
+        "The tangents in a glTF file; the scene keeps its own.");
     d.group("draco", &WriteOptions::draco,
             "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco);
     d.group("quantize", &WriteOptions::quantize,
@@ -181,6 +202,15 @@ void declare_write(Declare<WriteOptions>& d) {
             declare_quantize);
     d.group("meshopt", &WriteOptions::meshopt,
             "Writes glTF with EXT_meshopt_compression: true, or its settings.", declare_meshopt);
+    d.choice<io::TriangleOrder>(
+        "order", &WriteOptions::order,
+        {{"auto", io::TriangleOrder::automatic,
+          "size under meshopt, else draw; a mesh that comes from glTF unchanged stays as it is"},
+         {"keep", io::TriangleOrder::keep, "as the scene has them"},
+         {"draw", io::TriangleOrder::draw,
+          "triangles that share vertices behind each other, those that hide others first"},
+         {"size", io::TriangleOrder::size, "strips, which meshopt compresses best"}},
+        "The order of triangles and vertices in glTF.");
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
     d.choice<io::Textures>(
@@ -228,6 +258,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
     io::WriteSettings s;
     s.ascii = o.ascii;
     s.big_endian = o.big_endian;
+    s.order = o.order;
     s.mesh_manifold = o.mesh_manifold;
     s.lods = o.lods;
     s.textures = o.textures;

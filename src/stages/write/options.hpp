@@ -7,17 +7,22 @@
 
 namespace facetmill::write_stage {
 
+/// What the bits of positions are of.
+enum class Grid { scene, mesh };
+
 struct DracoOptions {
     enum class Degenerate { drop, keep };
 
     bool on = true;
+    Grid grid = Grid::scene;
     std::optional<std::int64_t> position_bits;
-    std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12, speed = 3;
+    std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12, speed = 0;
     Degenerate degenerate_faces = Degenerate::drop;
 };
 
 struct QuantizeOptions {
     bool on = true;
+    Grid grid = Grid::scene;
     std::optional<std::int64_t> position;
     std::int64_t normal = 8, uv = 12, colour = 8, weights = 8;
 };
@@ -26,6 +31,9 @@ struct MeshoptOptions {
     bool on = true, filters = true;
     io::MeshoptSettings::Extension extension = io::MeshoptSettings::Extension::ext;
 };
+
+/// Which parts with a map of normals get tangents.
+enum class Tangents { keep, missing, all };
 
 struct WriteOptions {
     enum class Precision { single, full };
@@ -39,10 +47,12 @@ struct WriteOptions {
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals
     OriginOption origin;
+    Tangents tangents = Tangents::keep;
     std::optional<DracoOptions> draco;
     std::optional<QuantizeOptions> quantize;
     std::optional<MeshoptOptions> meshopt;
     io::Textures textures = io::Textures::automatic;
+    io::TriangleOrder order = io::TriangleOrder::automatic;
 };
 
 void declare_write(Declare<WriteOptions>& d);

@@ -30,6 +30,32 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     }
 }
 
+/// The same for tangents.
+void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
+    if (o.tangents == Tangents::keep) return;
+    const auto uvs = normal_map_uvs(out);
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Mesh before = out.parts[k].mesh;
+        if (give_tangents(out.parts[k], uvs, o, context) && !lent[k].mesh) lent[k].mesh = std::move(before);
+    }
+}
+
+void declare_order(DeclareFields<io::VertexCacheUse>& d) {
+    using Use = io::VertexCacheUse;
+    const auto per = [](std::size_t Use::*transforms, std::size_t Use::*of) {
+        return [=](const Use& use) {
+            return static_cast<double>(use.*transforms) /
+                   static_cast<double>(std::max(use.*of, std::size_t{1}));
+        };
+    };
+    d.field("acmr_before", per(&Use::before, &Use::triangles),
+            "Vertices transformed per triangle (ACMR), with a cache of 16 and the order of the scene.");
+    d.field("acmr", per(&Use::after, &Use::triangles), "The same, as written; about 0.5 at best.");
+    d.field("atvr_before", per(&Use::before, &Use::vertices),
+            "How often each vertex is transformed (ATVR), in the order of the scene.");
+    d.field("atvr", per(&Use::after, &Use::vertices), "The same, as written; 1 at best.");
+}
+
 void declare_report(DeclareFields<WriteReport>& d) {
     d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
         .only_when("it is not 1");
@@ -42,13 +68,19 @@ void declare_report(DeclareFields<WriteReport>& d) {
              })
         .only_when("it was moved");
     const auto bits = [](DeclareFields<WriteReport::Bits>& b) {
-        b.field("position_bits", &WriteReport::Bits::position_bits, "Bits of each coordinate.");
+        b.field("position_bits", &WriteReport::Bits::position_bits,
+                "Bits of each coordinate, in the part that has the most.");
+        b.field("least", &WriteReport::Bits::least, "Those in the part that has the fewest.")
+            .only_when("not all have the same");
         b.field("why", &WriteReport::Bits::why, "The reason for this number.");
     };
     d.object("draco", &WriteReport::draco, "How positions were rounded.", bits)
         .only_when("the file is compressed by Draco");
     d.object("quantize", &WriteReport::quantize, "How positions were rounded.", bits)
         .only_when("attributes are stored as small integers");
+    d.object("order", &WriteReport::order, "How the order of triangles suits a cache of vertices.",
+             declare_order)
+        .only_when("triangles were put in another order");
 }
 
 Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& report) {
@@ -70,6 +102,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
                     context.where());
     ShareOfSteps steps({1, 4, 5});
     give_normals(out, lent, o, context);
+    give_tangents_to_all(out, lent, o, context);
     if (codec->can.transforms && o.precision == WriteOptions::Precision::single) {
         std::map<std::size_t, std::vector<Vec3>> moved;
         report.origin = move_origin(out, o.origin, context, moved);
@@ -81,6 +114,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     choose_bits(settings, o, *codec, out, report);
     steps.next();
     const io::Written written = codec->write(out, settings);
+    if (written.cache.triangles > 0) report.order = written.cache;
     steps.next();
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);

@@ -208,16 +208,58 @@ Attribute::Type type_of(const DracoColumn& column) {
     return types[data.index()];
 }
 
-int add_column(::draco::Mesh& mesh, const DracoColumn& column) {
+/// The points, those of one vertex behind each other, in their order.
+std::vector<Index> points_by_vertex(const DracoInput& input) {
+    std::vector<std::size_t> first(input.vertices.size() / 3 + 1);
+    for (const Index v : input.point_vertex) ++first[v];
+    exclusive_scan(first);
+    std::vector<Index> points(input.point_vertex.size());
+    for (Index p = 0; p < points.size(); ++p) points[first[input.point_vertex[p]]++] = p;
+    return points;
+}
+
+/// For each point the first one of its vertex that has the same bytes: Draco sees a seam of an attribute
+/// where the points of a vertex have different values of it, whatever these are. Only the last few of a
+/// vertex are compared, so that it stays linear.
+std::vector<Index> first_with_value(const char* bytes, std::size_t stride, const DracoInput& input,
+                                    const std::vector<Index>& points) {
+    constexpr std::size_t compared = 32;
+    std::vector<Index> first(points.size());
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Index p = points[i];
+        if (input.point_vertex[p] != input.point_vertex[points[begin]]) begin = i;
+        first[p] = p;
+        for (std::size_t k = std::max(begin, i - std::min(i, compared)); k < i && first[p] == p; ++k)
+            if (std::memcmp(bytes + stride * points[k], bytes + stride * p, stride) == 0)
+                first[p] = first[points[k]];
+    }
+    return first;
+}
+
+int add_column(::draco::Mesh& mesh, const DracoColumn& column, const DracoInput& input,
+               const std::vector<Index>& points) {
     return std::visit(
         [&](const auto& numbers) {
             const std::size_t stride = sizeof(numbers[0]) * static_cast<std::size_t>(column.components);
             Attribute attribute;
             attribute.Init(type_of(column), nullptr, static_cast<std::uint8_t>(column.components),
                            data_type(column.data), column.normalised, static_cast<std::int64_t>(stride), 0);
-            const int id = mesh.AddAttribute(attribute, true, mesh.num_points());
-            if (!numbers.empty())
-                mesh.attribute(id)->buffer()->Write(0, numbers.data(), numbers.size() * sizeof(numbers[0]));
+            const auto* bytes = reinterpret_cast<const char*>(numbers.data());
+            const std::vector<Index> first = first_with_value(bytes, stride, input, points);
+            std::vector<Index> value(first.size());
+            Index values = 0;
+            for (Index p = 0; p < first.size(); ++p)
+                if (first[p] == p) value[p] = values++;
+            const int id = mesh.AddAttribute(attribute, false, values);
+            auto* added = mesh.attribute(id);
+            for (Index p = 0; p < first.size(); ++p) {
+                if (first[p] == p)
+                    added->buffer()->Write(static_cast<std::int64_t>(value[p] * stride), bytes + p * stride,
+                                           stride);
+                added->SetPointMapEntry(::draco::PointIndex(p),
+                                        ::draco::AttributeValueIndex(value[first[p]]));
+            }
             return id;
         },
         column.data);
@@ -364,7 +406,8 @@ DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings)
                       ::draco::PointIndex(input.triangles[3 * f + 2])});
     const int position = add_positions(mesh, input);
     std::vector<int> columns;
-    for (const auto& column : input.columns) columns.push_back(add_column(mesh, column));
+    const std::vector<Index> points = points_by_vertex(input);
+    for (const auto& column : input.columns) columns.push_back(add_column(mesh, column, input, points));
 
     DracoOutput output;
     output.position_id = mesh.attribute(position)->unique_id();
