@@ -3,7 +3,7 @@
 // length, and writes a picture of each, OUT/NAME.three.png and OUT/NAME.babylon.png. Prints triangles, draw calls, the
 // box and what the console complained of; fails when a file does not load or something is complained of.
 //
-// npm install three babylonjs babylonjs-loaders puppeteer-core gives MODULES/node_modules; apt-get install chromium
+// npm install three babylonjs babylonjs-loaders puppeteer-core meshoptimizer gives MODULES/node_modules; apt-get install chromium
 import { createServer } from 'node:http';
 import { existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -56,9 +56,10 @@ window.ready = true;
 
 const babylon = `<!doctype html><body style="margin:0"><canvas id=c width=400 height=400></canvas>
 <script src="/m/babylonjs/babylon.js"></script><script src="/m/babylonjs-loaders/babylonjs.loaders.js"></script><script>
-BABYLON.MeshoptCompression.Configuration = { decoder: { url: '${libs}/meshopt_decoder.js' } };
+BABYLON.MeshoptCompression.Configuration = { decoder: { url: '/m/meshoptimizer/meshopt_decoder.cjs' } };
 BABYLON.DracoDecoder.DefaultConfiguration = { wasmUrl: '${libs}/draco/gltf/draco_wasm_wrapper.js',
   wasmBinaryUrl: '${libs}/draco/gltf/draco_decoder.wasm', fallbackUrl: '${libs}/draco/gltf/draco_decoder.js' };
+BABYLON.SceneLoader.ShowLoadingScreen = false;
 const engine = new BABYLON.Engine(document.getElementById('c'), true, { preserveDrawingBuffer: true });
 window.draw = async (url) => {
   const scene = new BABYLON.Scene(engine);
@@ -93,7 +94,7 @@ window.draw = async (url) => {
 window.ready = true;
 </script>`;
 
-const types = { js: 'text/javascript', wasm: 'application/wasm' };
+const types = { js: 'text/javascript', cjs: 'text/javascript', wasm: 'application/wasm' };
 const server = createServer((request, answer) => {
   const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
   const page = { '/three': three, '/babylon': babylon }[path];

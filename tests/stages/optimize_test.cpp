@@ -221,6 +221,18 @@ TEST_CASE("attributes that no material needs go on request", "[stages]") {
     CHECK(has_attribute(run_stage("optimize", "{drop_attributes: true}", needed).scene, "TEXCOORD_0"));
 }
 
+TEST_CASE("tangents that morph targets displace stay", "[stages]") {
+    Scene scene = six_colours();
+    Mesh& mesh = scene.parts[0].mesh;
+    const auto count = mesh.wedge_count();
+    mesh.attributes.push_back(
+        {"TANGENT", Domain::wedge, Role::tangent, 4, false, std::vector<float>(4 * count, 0.5F)});
+    CHECK_FALSE(has_attribute(run_stage("optimize", "{drop_attributes: true}", scene).scene, "TANGENT"));
+    scene.parts[0].mesh.attributes.push_back(
+        {"POSITION@0", Domain::wedge, Role::morph_vector, 3, false, std::vector<float>(3 * count)});
+    CHECK(has_attribute(run_stage("optimize", "{drop_attributes: true}", scene).scene, "TANGENT"));
+}
+
 TEST_CASE("wedges that only a dropped attribute kept apart become one", "[stages]") {
     Scene scene = six_colours();
     scene.parts.resize(1);

@@ -24,6 +24,10 @@ needs_of(const Mesh& mesh,
         all.normals |= needs->normals;
         all.tangents |= needs->tangents;
     }
+    // What morph targets displace has to be there.
+    if (std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
+                    [](const Attribute& a) { return a.role == Role::morph_vector; }))
+        all.normals = all.tangents = true;
     return all;
 }
 
