@@ -1,5 +1,5 @@
 #pragma once
-// Texts inside HTML, XML and Markdown.
+// Texts inside HTML, XML, Markdown and command lines.
 
 #include <string>
 #include <string_view>
@@ -13,5 +13,8 @@ std::string escaped(std::string_view text);
 /// The text in a paragraph or a cell of Markdown (GitHub's), where nothing of it is markup: in one line,
 /// characters of Markdown behind a backslash, those of HTML as escaped() has them.
 std::string markdown_escaped(std::string_view text);
+
+/// The text as one word for sh: as it is when nothing in it has a meaning, else in single quotes.
+std::string for_shell(std::string_view text);
 
 } // namespace facetmill

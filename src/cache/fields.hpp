@@ -36,7 +36,8 @@ FACETMILL_STORED(AttributeChange, attribute, domain, kind, why)
 FACETMILL_STORED(report::Brief, parts, vertices, faces, bounds)
 FACETMILL_STORED(report::ResolvedLength, option, given, is)
 FACETMILL_STORED(report::PartChange, part, change)
-FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back)
+FACETMILL_STORED(io::ByteKinds, geometry, textures, json)
+FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back, kinds)
 
 /// Without its place, which is that of the step that gives it.
 template <>
@@ -53,7 +54,7 @@ template <>
 struct Members<report::StageRecord> {
     static void each(auto& record, auto&& take) {
         auto& [name, stage, path, before, after, attribute_changes, warnings, options, result, resolved, said,
-               skipped, seconds, picture, camera] = record;
+               skipped, seconds, picture, camera, deviation, peak_memory] = record;
         static_cast<void>(name);
         static_cast<void>(stage);
         static_cast<void>(path);
@@ -62,6 +63,8 @@ struct Members<report::StageRecord> {
         static_cast<void>(seconds);
         static_cast<void>(picture);
         static_cast<void>(camera);
+        static_cast<void>(deviation);
+        static_cast<void>(peak_memory);
         take(before, after, attribute_changes, warnings, result, resolved, said);
     }
 };

@@ -1,13 +1,9 @@
-// facetmill diff: two mesh files side by side.
+// facetmill diff: two mesh files side by side, or two folders of them.
 
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
-#include "cli/confine.hpp"
-#include "diff/comparison.hpp"
-#include "io/codec.hpp"
-#include "io/convert.hpp"
+#include "cli/diff_files.hpp"
 #include "io/outputs.hpp"
-#include "options/types.hpp"
 #include "stage/options/convention.hpp"
 
 #include <filesystem>
@@ -25,6 +21,8 @@ diagonal (0.5%); the default, 0.0001%, allows for the rounding of float32 coordi
 up axis (their own, or that of --unit and --up), B is first converted to A's. Attributes are compared element by
 element, in the order of the files.
 Exit code 0: the files agree. 1: they differ in a section that is not ignored. 3 or 6: a file cannot be read.
+Of two folders the mesh files below them are compared by their paths: a file that only one has differs. The worst
+come first; F.html is an index, with a page for each pair in the folder F beside it.
 What cannot be compared (lines, attributes of different sizes) is listed, and makes "complete" false in JSON.
 
 Examples
@@ -34,62 +32,14 @@ Examples
   facetmill diff a.stl b.stl --json | jq .deviation.maximum
   facetmill diff part.obj part.glb --max 0.01mm --certify --all
   facetmill diff cloud.ply scan.ply --max 1mm --ignore counts,topology,attributes
+  facetmill diff assets.before/ assets/ --report changes.html --report changes.md
 )";
-
-struct DiffOptions {
-    std::string a, b, maximum, rms, mean;
-    std::vector<std::string> ignored;
-    report::ComparisonSettings settings;
-    std::string unit, up;             ///< of files that state none
-    std::vector<std::string> reports; ///< pages and Markdown files to write
-    bool json = false, all = false;
-    int threads = 0;
-    SandboxOptions sandbox;
-};
-
-/// A length on the command line, in A's units or in percent.
-std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& text, const std::string& option,
-                                                          Unit unit, const CommandLine& line) {
-    if (text.empty()) return {};
-    Length length;
-    Problems problems;
-    const Mark mark = line.find(option);
-    if (OptionType<Length>::parse(Value::scalar(text, mark), length, problems) && !(length.amount >= 0))
-        problems.add(mark, "E-RANGE", fmt::format("{} is a distance, found {}", option, text), "at least 0");
-    problems.throw_if_any(ErrorKind::usage);
-    if (length.kind == Length::Kind::percent) return report::ComparisonSettings::Limit{length.amount, true};
-    if (length.kind == Length::Kind::scene) return report::ComparisonSettings::Limit{length.amount, false};
-    if (!(metres(unit) > 0))
-        throw Error(ErrorKind::usage, "E-UNIT",
-                    fmt::format("{} is {}, but the first file has no unit", option, text),
-                    "give a bare number or a percentage", mark);
-    return report::ComparisonSettings::Limit{length.amount / metres(unit), false};
-}
-
-/// Reads a file; what its reader could not keep is noted, so that it is not taken for the same.
-Scene read(const std::string& name, bool is_a, std::vector<report::LeftOut>& left_out,
-           const Console& console) {
-    io::ReadLog log;
-    Scene scene = io::read_scene(io::Input::open(name), {}, log);
-    for (const auto& warning : log.warnings) {
-        console.diagnostic(warning);
-        if (warning.is_loss) left_out.push_back({is_a, warning.message});
-    }
-    return scene;
-}
 
 std::vector<std::string> stated_units() {
     std::vector<std::string> names;
     for (const auto& unit : unit_choices("", ""))
         if (unit.value != Unit::unknown) names.push_back(unit.name);
     return names;
-}
-
-/// What a file does not state is as the command line says.
-void state(Scene& scene, const DiffOptions& options) {
-    if (scene.unit == Unit::unknown) scene.unit = unit_named(options.unit).value_or(Unit::unknown);
-    if (scene.up == UpAxis::unknown && !options.up.empty())
-        scene.up = options.up == "y" ? UpAxis::y : UpAxis::z;
 }
 
 /// Refuses, before anything is read, what is no report of a comparison.
@@ -108,63 +58,67 @@ void check_reports(const DiffOptions& options, const CommandLine& line) {
     }
 }
 
-void write_reports(const DiffOptions& options, const report::Comparison& comparison, const Scene& a,
-                   const Scene& b) {
+void write_reports(const DiffOptions& options, const ComparedFiles& files) {
     for (const auto& path : options.reports) {
         const std::string text =
-            path.ends_with(".md") ? report::to_markdown(comparison, options.a, options.b)
-                                  : report::to_html(comparison, options.a, options.b,
-                                                    report::comparison_pictures(a, b, options.a, options.b));
+            path.ends_with(".md")
+                ? report::to_markdown(files.comparison, options.a, options.b)
+                : report::to_html(files.comparison, options.a, options.b,
+                                  report::comparison_pictures(files.a, files.b, options.a, options.b));
         io::write_now(path, std::as_bytes(std::span(text)));
     }
 }
 
-/// Whether the scene is one part that is called like its file: a format without names.
-bool is_named_by_file(const Scene& scene, const std::string& file) {
-    const std::string own = file == "-" ? "standard input" : std::filesystem::path(file).stem().string();
-    return scene.parts.size() == 1 && scene.parts[0].name == own;
+/// Of two files.
+int diff_of_files(const DiffOptions& options, const CommandLine& line, const Console& console) {
+    const ComparedFiles files = compared_files(options, options.a, options.b, line, console);
+    print(options.json ? report::to_json(files.comparison, options.a, options.b)
+                                 .dump(2, ' ', false, Json::error_handler_t::replace) +
+                             "\n"
+                       : report::to_text(files.comparison, options.a, options.b, options.all));
+    write_reports(options, files);
+    return files.comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code none_there;
+    return std::filesystem::is_directory(path, none_there);
 }
 
 int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
+    const bool folders = is_folder(options.a);
+    if (folders != is_folder(options.b) && options.a != "-" && options.b != "-")
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "one of the two is a folder, the other is none",
+                    "give two files, or two folders", line.value(folders ? options.b : options.a));
     AllowedFiles allowed;
-    for (const auto& file : {options.a, options.b}) allow_input(allowed, file);
+    if (folders)
+        allowed.read = {options.a, options.b};
+    else
+        for (const auto& file : {options.a, options.b}) allow_input(allowed, file);
     check_reports(options, line);
-    for (const auto& report : options.reports) allow_output(allowed, report);
+    for (const auto& report : options.reports) {
+        allow_output(allowed, report);
+        if (folders && report.ends_with(".html")) allow_output(allowed, folder_of_pages(report) / "page");
+    }
     confine(allowed, options.sandbox, console);
     set_threads(options.threads);
-    std::vector<report::LeftOut> left_out;
-    Scene a = read(options.a, true, left_out, console), b = read(options.b, false, left_out, console);
-    state(a, options);
-    state(b, options);
-    io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
-                    b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
-    if (is_named_by_file(a, options.a) && is_named_by_file(b, options.b)) b.parts[0].name = a.parts[0].name;
-    auto& settings = options.settings;
-    settings.maximum = limit_of(options.maximum, "--max", a.unit, line);
-    settings.rms = limit_of(options.rms, "--rms", a.unit, line);
-    settings.mean = limit_of(options.mean, "--mean", a.unit, line);
-    settings.ignored = {options.ignored.begin(), options.ignored.end()};
-    auto comparison = report::compare(a, b, settings);
-    comparison.left_out = std::move(left_out);
-    print(options.json ? report::to_json(comparison, options.a, options.b)
-                                 .dump(2, ' ', false, Json::error_handler_t::replace) +
-                             "\n"
-                       : report::to_text(comparison, options.a, options.b, options.all));
-    write_reports(options, comparison, a, b);
-    return comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
+    options.settings.ignored = {options.ignored.begin(), options.ignored.end()};
+    return folders ? diff_of_folders(options, line, console) : diff_of_files(options, line, console);
 }
 
 } // namespace
 
 Command diff_command() {
     return {
-        "diff", "Compares two mesh files; the exit code is 1 when they differ.", diff_examples, false,
-        [](Arguments& arguments, Console& console) {
+        "diff", "Compares two mesh files, or two folders; the exit code is 1 when they differ.",
+        diff_examples, false, [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<DiffOptions>();
             auto& settings = options->settings;
-            arguments.add("A", &options->a, "The mesh file to compare with, or - for standard input.")
+            arguments
+                .add("A", &options->a,
+                     "The mesh file to compare with, a folder of such, or - for standard input.")
                 .required();
-            arguments.add("B", &options->b, "The other mesh file.").required();
+            arguments.add("B", &options->b, "The other mesh file, or folder.").required();
             arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
             arguments.add("--rms", &options->rms,
                           "The largest root mean square distance over the area allowed.");

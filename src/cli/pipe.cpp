@@ -1,5 +1,6 @@
 // facetmill pipe: a pipeline as a one-liner.
 
+#include "base/markup.hpp"
 #include "cli/pipe_syntax.hpp"
 #include "cli/pipeline_options.hpp"
 #include "docs/stages.hpp"
@@ -80,7 +81,13 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Argum
         refused({pipeline::make_plan({}, settings, others)}, problems, console);
         return static_cast<int>(ErrorKind::usage);
     }
-    const auto plan = pipeline::make_plan(document, settings, problems);
+    settings.command = "facetmill pipe";
+    for (std::size_t i = invocation.rest; i < invocation.line.arguments().size(); ++i) {
+        const auto& argument = invocation.line.arguments()[i];
+        settings.command += " " + (argument == "!" ? argument : for_shell(argument));
+    }
+    auto plan = pipeline::make_plan(document, settings, problems);
+    plan.text = pipeline::emit_yaml(document);
     if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
     if (!save_to.empty()) save(document, options.reports, save_to);
     confine_to({plan}, options, console);

@@ -1,6 +1,7 @@
 #include "cli/pipeline_options.hpp"
 
 #include "base/lazy.hpp"
+#include "base/markup.hpp"
 #include "base/memory.hpp"
 #include "base/message_ids.hpp"
 #include "base/numbers.hpp"
@@ -114,8 +115,10 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "The folder that the paths of outputs are relative to. Default: the working directory.");
     arguments.add("--report", &options.reports,
                   "Also write a report: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
-    arguments.add("--timings", &options.timings,
-                  "Write times, memory and threads to F.json; reports leave them out, to be reproducible.");
+    arguments.add(
+        "--timings", &options.timings,
+        "Write times, memory and threads to F.json, and show them in HTML reports. Other reports leave them "
+        "out, to be reproducible.");
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
@@ -210,7 +213,21 @@ std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pi
     return {pipeline::read_pipeline(pipeline), ""};
 }
 
+namespace {
+
+/// The line that runs it with the same values; empty where some are of a preset.
+std::string command_for(const std::string& pipeline, const pipeline::PlanSettings& settings) {
+    if (!settings.defined_at.empty()) return {};
+    std::string line = "facetmill run " + for_shell(pipeline);
+    for (const auto& [name, value] : settings.defines) line += " -D " + for_shell(name + "=" + value);
+    for (const auto& [option, value] : settings.sets) line += " --set " + for_shell(option + "=" + value);
+    return line;
+}
+
+} // namespace
+
 pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems) {
+    settings.command = command_for(pipeline, settings);
     auto [source, name] = source_of(pipeline);
     settings.name = name;
     return pipeline::plan_source(source, std::move(settings), problems);
@@ -317,6 +334,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
     settings.commit = {.keep_unchanged = options.restat, .sync = !options.no_sync};
+    settings.takes_pictures = options.timings.ends_with(".html");
     if (options.explain && !store)
         console.say(
             "--explain has nothing to compare with: no cache is used (--no-cache, FACETMILL_CACHE=off, "
@@ -339,7 +357,9 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (!options.explain) tell_recalled(trace, console);
     const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else said already
     if (!options.timings.empty() && writable) {
-        const std::string text = report::timings_json(record).dump(2) + "\n";
+        const std::string text = options.timings.ends_with(".html")
+                                     ? report::to_html_with_times(record)
+                                     : report::timings_json(record).dump(2) + "\n";
         io::write_now(plan.places.output(options.timings), std::as_bytes(std::span(text)));
     }
     if (record.exit_code == 0 && !options.depfile.empty())

@@ -4,6 +4,7 @@
 #include "batch/batch.hpp"
 #include "cli/command.hpp"
 #include "diff/comparison.hpp"
+#include "diff/folders.hpp"
 #include "report/render.hpp"
 
 namespace facetmill::cli {
@@ -22,15 +23,18 @@ Command schema_command() {
     return {"schema", "Prints the JSON Schema of pipelines, reports, batches, timings, info or diff.",
             schema_examples, false, [](Arguments& arguments, Console&) {
                 auto what = std::make_shared<std::string>("pipeline");
-                arguments.add("WHAT", what.get(), "pipeline (default), report, batch, timings, info or diff.")
-                    .one_of({"pipeline", "report", "batch", "timings", "info", "diff"});
+                arguments
+                    .add("WHAT", what.get(),
+                         "pipeline (default), report, batch, timings, info, diff or diff-folders.")
+                    .one_of({"pipeline", "report", "batch", "timings", "info", "diff", "diff-folders"});
                 return [=](const Invocation&) {
-                    const Json schema = *what == "report"    ? docs::report_schema()
-                                        : *what == "batch"   ? batch::summary_schema()
-                                        : *what == "timings" ? report::timings_schema()
-                                        : *what == "info"    ? docs::info_schema()
-                                        : *what == "diff"    ? report::comparison_schema()
-                                                             : docs::pipeline_schema();
+                    const Json schema = *what == "report"         ? docs::report_schema()
+                                        : *what == "batch"        ? batch::summary_schema()
+                                        : *what == "timings"      ? report::timings_schema()
+                                        : *what == "info"         ? docs::info_schema()
+                                        : *what == "diff"         ? report::comparison_schema()
+                                        : *what == "diff-folders" ? report::folder_comparison_schema()
+                                                                  : docs::pipeline_schema();
                     print(docs::with_single_types(schema).dump(2) + "\n");
                     return 0;
                 };

@@ -1,6 +1,7 @@
 #include "cli/workflow.hpp"
 
 #include "base/json.hpp"
+#include "base/markup.hpp"
 #include "base/once_each.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
@@ -19,16 +20,6 @@ std::string heading() {
                        "come or go, or when\n"
                        "# the pipeline reads or writes other files.\n",
                        docs::release());
-}
-
-/// For sh: as it is when nothing in it has a meaning, else in single quotes.
-std::string for_shell(const std::string& text) {
-    static constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._/=:,%+@";
-    if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
 }
 
 /// " run scan.yaml -D ...", of each run.

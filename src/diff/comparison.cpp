@@ -11,6 +11,8 @@ namespace {
 
 void compare_properties(const Comparing& with) {
     const Properties a = inspect(with.a), b = inspect(with.b);
+    with.result.properties_a = a;
+    with.result.properties_b = b;
     for (const auto& p : property_table()) {
         const bool counted = p.kind == PropertyKind::count || p.truth();
         if (!counted || p.costly || p.of_scene() || p.on_request()) continue;
@@ -41,6 +43,11 @@ Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& set
     compare_materials(with);
     compare_names(with, "parts", a.parts, b.parts);
     compare_documents(with);
+    const auto limit = maximum_of(settings);
+    const double most = !limit           ? 0
+                        : limit->percent ? limit->amount / 100 * a.bounds().diagonal()
+                                         : limit->amount;
+    result.items = item_changes(a, b, most);
     result.ignored = settings.ignored;
     const auto differs = [](const Difference& line) { return line.section == "geometry" && !line.same; };
     if (std::any_of(result.lines.begin(), result.lines.end(), differs)) result.hint = conversion_hint(a, b);

@@ -1,6 +1,7 @@
 #pragma once
 // Two scenes side by side: what `facetmill diff` finds.
 
+#include "diff/items.hpp"
 #include "diff/pictures.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/inspect/inspect.hpp"
@@ -42,12 +43,21 @@ struct LeftOut {
     std::string what;
 };
 
+/// The bytes of a file and of those that it names, and what they are spent on.
+struct SizeOnDisk {
+    std::uint64_t bytes = 0;
+    io::ByteKinds kinds;
+};
+
 struct Comparison {
     std::vector<Difference> lines;                               ///< equal ones too
     std::optional<DeviationResult> deviation;                    ///< none when geometry is ignored
     const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< what it is of: surface, points, nothing
     std::vector<LeftOut> left_out;
     std::set<std::string> ignored;
+    Properties properties_a, properties_b;
+    std::vector<ItemChange> items; ///< parts and materials by their names
+    std::optional<SizeOnDisk> size_a = {}, size_b = {};
     std::string hint; ///< a unit or an up axis that would explain how the geometry differs
 
     /// Whether a line that decides differs.
@@ -68,10 +78,12 @@ Json to_json(const Comparison& comparison, const std::string& name_a, const std:
 /// A table; lines that are equal only with `all`.
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all);
-/// One self-contained page: the verdict, both scenes by one camera with a slider, distances as colours, and
-/// the lines that differ.
+/// One self-contained page: the verdict, both scenes by one camera with a slider, distances as colours, both
+/// files beside each other, parts and materials that came, went or changed, and the lines that differ.
 std::string to_html(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     const ComparisonPictures& pictures);
+/// "agree", "differ", "agree in everything that was compared".
+std::string verdict_of(const Comparison& comparison);
 /// Tables for the description of a change.
 std::string to_markdown(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
 Json comparison_schema();

@@ -24,6 +24,14 @@ struct Comparing {
     }
 };
 
+/// Those of a section, in order.
+inline std::vector<const Difference*> of_section(const Comparison& comparison, const std::string& section) {
+    std::vector<const Difference*> lines;
+    for (const auto& d : comparison.lines)
+        if (d.section == section) lines.push_back(&d);
+    return lines;
+}
+
 using Limit = ComparisonSettings::Limit;
 
 /// What JSON has no number for is null.

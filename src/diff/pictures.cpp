@@ -1,45 +1,29 @@
 #include "diff/pictures.hpp"
 
-#include "base/parallel.hpp"
-#include "geometry/spatial/signed_distances.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/png.hpp"
+#include "report/deviation_view.hpp"
 #include "report/viewer.hpp"
 
 namespace facetmill::report {
 
 namespace {
 
-constexpr std::string_view distance_attribute = "distance";
-
-std::string png_of(const Scene& scene, PictureSettings settings, const std::string& attribute,
+std::string png_of(const Scene& scene, PictureSettings settings,
                    const std::shared_ptr<const MaterialLooks>& looks) {
-    settings.width = 640;
-    settings.height = 480;
-    settings.attribute = attribute;
-    settings.legend = !attribute.empty();
-    settings.unit = scene.unit == Unit::unknown || attribute.empty() ? "" : to_string(scene.unit);
     settings.looks = looks;
     return io::base64(io::png(picture_of(scene, settings)));
 }
 
-/// The distance of each vertex in world space; of isolated ones, too.
-std::vector<float> distances_of(const Part& part, const FaceTree& tree) {
-    std::vector<Vec3> points(part.mesh.vertex_count());
-    parallel_for(points.size(),
-                 [&](std::size_t v) { points[v] = part.transform.point(part.mesh.positions[v]); });
-    return signed_distances(tree, points);
-}
-
-/// The scene with its distances as an attribute.
-Scene with_distances(Scene scene, const FaceTree& from) {
-    for (Part& part : scene.parts) {
-        part.mesh.drop(distance_attribute, Domain::vertex);
-        part.mesh.attributes.push_back({std::string(distance_attribute), Domain::vertex, Role::generic, 1,
-                                        false, distances_of(part, from)});
-    }
-    return scene;
+/// None where nothing is off the other.
+std::optional<DeviationView> distances_from(const FaceTree& tree, double diagonal, const char* name,
+                                            const Scene& scene, const PictureSettings& settings) {
+    if (tree.empty()) return {};
+    auto view = deviation_view(scene, {name, diagonal, tree}, settings);
+    // What 32-bit floats lose is no difference to look at.
+    const bool any = std::abs(view.worst_distance) > 1e-6 * view.diagonal;
+    return any ? std::optional(std::move(view)) : std::nullopt;
 }
 
 std::shared_ptr<const MaterialLooks> looks_of(const Scene& scene) {
@@ -52,15 +36,20 @@ std::shared_ptr<const MaterialLooks> looks_of(const Scene& scene) {
 ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std::string& name_a,
                                        const std::string& name_b) {
     PictureSettings settings;
+    settings.width = 640;
+    settings.height = 480;
     Camera camera = camera_of(a);
     settings.camera = camera;
     camera.seen.add(camera_of(b, settings).seen);
     settings.camera = camera;
     const auto looks_a = looks_of(a), looks_b = looks_of(b);
-    ComparisonPictures out{png_of(a, settings, {}, looks_a), png_of(b, settings, {}, looks_b), {}, {}};
-    const FaceTree tree(surface_of(a, filled_surface), FaceTree::Use::near);
-    if (!tree.empty())
-        out.distance = png_of(with_distances(b, tree), settings, std::string(distance_attribute), nullptr);
+    ComparisonPictures out{png_of(a, settings, looks_a), png_of(b, settings, looks_b), {}, {}, {}};
+    const Surface surface_a = surface_or_points_of(a, filled_surface),
+                  surface_b = surface_or_points_of(b, filled_surface);
+    const FaceTree tree(surface_a, FaceTree::Use::near);
+    out.backward = distances_from(tree, surface_a.bounds().diagonal(), "the first file", b, settings);
+    out.forward = distances_from(FaceTree(surface_b, FaceTree::Use::near), surface_b.bounds().diagonal(),
+                                 "the second file", a, settings);
     ViewedScenes viewed(2);
     viewed.add_before(a, name_a, looks_a);
     viewed.add_after(b, name_b, looks_b, &tree, name_a);

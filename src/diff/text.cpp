@@ -1,7 +1,8 @@
 #include "base/markup.hpp"
-#include "diff/comparison.hpp"
-#include "geometry/deviation/deviation_fields.hpp"
+#include "diff/lines.hpp"
+#include "diff/overview.hpp"
 #include "report/html_parts.hpp"
+#include "report/html_sections.hpp"
 #include "report/markdown_parts.hpp"
 #include "report/viewer.hpp"
 
@@ -21,13 +22,6 @@ std::string text_of(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
     return value.dump();
-}
-
-std::vector<const Difference*> of_section(const Comparison& comparison, const std::string& section) {
-    std::vector<const Difference*> lines;
-    for (const auto& d : comparison.lines)
-        if (d.section == section) lines.push_back(&d);
-    return lines;
 }
 
 /// "maximum 0.2 (0.05 % of the diagonal) from [1, 2, 3] of the first surface".
@@ -51,12 +45,6 @@ std::string measured_text(const Comparison& comparison) {
     return text;
 }
 
-std::string verdict(const Comparison& comparison) {
-    if (comparison.differs()) return "differ";
-    if (!comparison.complete()) return "agree in everything that was compared";
-    return comparison.ignored.empty() ? "agree" : "agree in everything that was requested";
-}
-
 /// "not compared: A: the lines".
 std::vector<std::string> left_out_lines(const Comparison& comparison, const std::string& name_a,
                                         const std::string& name_b) {
@@ -68,9 +56,15 @@ std::vector<std::string> left_out_lines(const Comparison& comparison, const std:
 
 } // namespace
 
+std::string verdict_of(const Comparison& comparison) {
+    if (comparison.differs()) return "differ";
+    if (!comparison.complete()) return "agree in everything that was compared";
+    return comparison.ignored.empty() ? "agree" : "agree in everything that was requested";
+}
+
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all) {
-    std::string text = fmt::format("{} and {} {}\n", name_a, name_b, verdict(comparison));
+    std::string text = fmt::format("{} and {} {}\n", name_a, name_b, verdict_of(comparison));
     for (const auto& line : left_out_lines(comparison, name_a, name_b)) text += "  " + line + "\n";
     for (const char* section : comparison_sections) {
         const auto lines = of_section(comparison, section);
@@ -96,7 +90,7 @@ namespace {
 std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
                                     const std::string& name_b) {
     std::vector<std::string> lines = left_out_lines(comparison, name_a, name_b);
-    lines.insert(lines.begin(), verdict(comparison));
+    lines.insert(lines.begin(), verdict_of(comparison));
     if (!comparison.hint.empty()) lines.push_back("hint: " + comparison.hint);
     return lines;
 }
@@ -127,15 +121,17 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
         out += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, escaped(line));
         kind = "warn";
     }
-    out += figure(picture("first", name_a, pictures.a), name_a);
+    out += "<div class=\"deviation\">" + figure(picture("first", name_a, pictures.a), name_a);
     out += compared_figure(picture("second", name_b, pictures.b), "first", name_b,
-                           fmt::format("{}; left of the slider {}", name_b, name_a));
-    if (!pictures.distance.empty()) {
-        const std::string caption =
-            fmt::format("{}: the signed distance of each vertex from {}, above 0 outside", name_b, name_a);
-        out += figure(picture("distance", caption, pictures.distance), caption);
-    }
-    out += viewer_section(pictures.view);
+                           fmt::format("{}; left of the slider {}", name_b, name_a)) +
+           "</div>\n" + viewer_section(pictures.view);
+    if (pictures.backward)
+        out += "<h2>Distances of the second from the first</h2>\n" +
+               deviation_html(*pictures.backward, "backward", "the second file");
+    if (pictures.forward)
+        out += "<h2>Distances of the first from the second</h2>\n" +
+               deviation_html(*pictures.forward, "forward", "the first file");
+    out += overview_html(comparison);
     for (const char* section : comparison_sections)
         out +=
             table(section_title(comparison, section), heads({"outcome", "name", "first", "second", "note"}),
@@ -147,6 +143,7 @@ std::string to_markdown(const Comparison& comparison, const std::string& name_a,
     std::string out = fmt::format("## {} and {}\n", markdown_escaped(name_a), markdown_escaped(name_b));
     for (const auto& line : head_lines(comparison, name_a, name_b))
         out += fmt::format("\n**{}**\n", markdown_escaped(line));
+    out += overview_markdown(comparison);
     for (const char* section : comparison_sections) {
         std::vector<std::vector<std::string>> rows;
         for (const auto* d : of_section(comparison, section))
@@ -158,100 +155,6 @@ std::string to_markdown(const Comparison& comparison, const std::string& name_a,
                               {"outcome", "name", "first", "second", "note"}, rows);
     }
     return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
-}
-
-Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b) {
-    Json sections = Json::object();
-    for (const char* section : comparison_sections) {
-        const auto lines = of_section(comparison, section);
-        if (lines.empty()) continue;
-        Json list = Json::array();
-        bool same = true;
-        for (const auto* d : lines) {
-            same &= d->same;
-            list.push_back({{"name", d->name},
-                            {"a", d->a},
-                            {"b", d->b},
-                            {"same", d->same},
-                            {"compared", d->compared},
-                            {"note", d->note.empty() ? Json(nullptr) : Json(d->note)}});
-        }
-        sections[section] = {
-            {"same", same}, {"decides", !comparison.ignored.contains(section)}, {"lines", std::move(list)}};
-    }
-    Json left_out = Json::array();
-    for (const auto& left : comparison.left_out)
-        left_out.push_back({{"file", left.of_a ? "a" : "b"}, {"what", left.what}});
-    return {{"a", name_a},
-            {"b", name_b},
-            {"same", !comparison.differs()},
-            {"complete", comparison.complete()},
-            {"left_out", std::move(left_out)},
-            {"geometry_of", comparison.deviation
-                                ? Json{{"a", comparison.geometry_a}, {"b", comparison.geometry_b}}
-                                : Json(nullptr)},
-            {"sections", std::move(sections)},
-            {"hint", comparison.hint.empty() ? Json(nullptr) : Json(comparison.hint)},
-            {"deviation", comparison.deviation ? deviation_json(*comparison.deviation) : Json(nullptr)}};
-}
-
-namespace {
-
-Json typed(const char* type, const char* about = nullptr) {
-    Json schema = {{"type", type}};
-    if (about) schema["description"] = about;
-    return schema;
-}
-
-Json closed_object(Json properties) {
-    Json required = Json::array();
-    for (const auto& [key, value] : properties.items()) required.push_back(key);
-    return {{"type", "object"},
-            {"required", std::move(required)},
-            {"additionalProperties", false},
-            {"properties", std::move(properties)}};
-}
-
-} // namespace
-
-Json comparison_schema() {
-    const Json value = {{"type", Json::array({"null", "boolean", "number", "string"})}};
-    const Json line =
-        closed_object({{"name", typed("string")},
-                       {"a", value},
-                       {"b", value},
-                       {"same", typed("boolean")},
-                       {"compared", typed("boolean", "False when it could not be: the note says why")},
-                       {"note", {{"type", Json::array({"string", "null"})}}}});
-    const Json section = closed_object({{"same", typed("boolean")},
-                                        {"decides", typed("boolean", "False when ignored")},
-                                        {"lines", {{"type", "array"}, {"items", line}}}});
-    Json sections =
-        typed("object", "By section: counts, topology, geometry, attributes, materials, parts, document");
-    sections["additionalProperties"] = section;
-    const Json left_out =
-        closed_object({{"file", {{"enum", Json::array({"a", "b"})}}}, {"what", typed("string")}});
-    const Json kind = {{"enum", Json::array({"surface", "points", "nothing"})}};
-    Json geometry_of = closed_object({{"a", kind}, {"b", kind}});
-    geometry_of["type"] = Json::array({"object", "null"});
-    geometry_of["description"] = "What the deviation is of; null when ignored";
-    Json schema = closed_object(
-        {{"a", typed("string", "The first file")},
-         {"b", typed("string", "The second file")},
-         {"same", typed("boolean", "Nothing that decides differs: the exit code is 0")},
-         {"complete", typed("boolean", "Nothing was left out, and all that decides could be compared")},
-         {"left_out",
-          {{"type", "array"}, {"items", left_out}, {"description", "Contents of a file that were not read"}}},
-         {"geometry_of", geometry_of},
-         {"sections", std::move(sections)},
-         {"hint",
-          {{"type", Json::array({"string", "null"})},
-           {"description", "A unit or an up axis that would explain how the geometry differs"}}},
-         {"deviation",
-          {{"type", Json::array({"object", "null"})}, {"description", "As in reports; null when ignored"}}}});
-    Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "facetmill diff"}};
-    out.update(schema);
-    return out;
 }
 
 } // namespace facetmill::report

@@ -172,6 +172,7 @@ void check_head(const Value& document, const std::vector<std::string>& keys, Pro
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems) {
     Plan plan;
     plan.name = settings.name;
+    plan.command = settings.command;
     plan.places = settings.places;
     plan.others = settings.others;
     plan.allowed = settings.allowed;
@@ -208,16 +209,19 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
 
 Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems) {
     auto source = std::make_shared<const SourceText>(SourceText{settings.name, std::move(text)});
-    const Value document = parse_yaml(std::move(source), problems);
+    const Value document = parse_yaml(source, problems);
     // What the tree still tells after an error is worth planning only when it is whole.
     if (problems.any_errors() && !document.is_map()) {
         Plan nothing;
         nothing.name = settings.name;
         nothing.places = settings.places;
         nothing.reports = read_reports(nullptr, {}, settings, nothing.others, problems);
+        nothing.text = source->text;
         return nothing;
     }
-    return make_plan(document, settings, problems);
+    Plan plan = make_plan(document, settings, problems);
+    plan.text = source->text;
+    return plan;
 }
 
 PipelineSource read_pipeline(const fs::path& file) {

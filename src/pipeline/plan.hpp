@@ -62,7 +62,8 @@ struct PlannedFile {
 };
 
 struct PlanSettings {
-    std::string name; ///< of the pipeline, for messages and the report
+    std::string name;    ///< of the pipeline, for messages and the report
+    std::string command; ///< that runs it again, for a shell; empty: unknown
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
     /// Where values of defines stand that are not of -D: in a table, in a preset.
     std::map<std::string, Mark> defined_at;
@@ -84,6 +85,8 @@ struct PlanSettings {
 
 struct Plan {
     std::string name, about;
+    std::string text;    ///< as it was written, for pages
+    std::string command; ///< of PlanSettings
     Json params = Json::object();
     Steps steps;
     std::vector<std::string> reports;

@@ -6,17 +6,16 @@
 #include "base/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "io/gltf/looks.hpp"
-#include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
+#include "pipeline/page.hpp"
 #include "pipeline/page_view.hpp"
 #include "pipeline/reuse.hpp"
-#include "report/check_text.hpp"
 #include "report/contents.hpp"
 #include "report/render.hpp"
+#include "report/scene_picture.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -82,6 +81,8 @@ class Runner {
         record().pipeline = plan.name;
         record().about = plan.about;
         record().params = plan.params;
+        record().text = plan.text;
+        record().command = plan.command;
     }
 
     report::RunRecord run() {
@@ -89,8 +90,9 @@ class Runner {
         stages_ = count_stages(plan_.steps);
         keeps_loaded_ = compares_with_load(plan_.steps);
         if (keeps_loaded_) reuse_.keep_loads();
-        takes_pictures_ = std::any_of(plan_.reports.begin(), plan_.reports.end(),
-                                      [](const std::string& path) { return path.ends_with(".html"); });
+        const auto is_page = [](const std::string& path) { return path.ends_with(".html"); };
+        takes_pictures_ =
+            settings_.takes_pictures || std::any_of(plan_.reports.begin(), plan_.reports.end(), is_page);
         for (const auto& warning : plan_.warnings) {
             failures_.warn(warning);
             record().warnings.push_back(warning);
@@ -110,10 +112,12 @@ class Runner {
                 const Share share = beside_stages("inspection at the end");
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
                 if (takes_pictures_) view_.at_end(flow.scene);
+                if (takes_pictures_) page_.at_end(flow.scene);
             });
         if (settings_.last_picture && !takes_pictures_ && !failures_.any() && !record().stages.empty() &&
             fetch({}, "a picture", flow))
-            add_small_picture(flow.scene, record().stages.back());
+            failures_.guarded({}, "a picture",
+                              [&] { record().stages.back().picture = report::small_picture(flow.scene); });
         finish_outputs();
         record().seconds = watch.seconds();
         record().peak_memory = peak_memory();
@@ -221,7 +225,9 @@ class Runner {
             if (step.kind != Step::Kind::stage)
                 checked = record().checks.size(); // those of the arms are judged
             if (step.ensure && !failures_.guarded(step.where, step.name, [&] {
+                    const std::size_t first = record().checks.size();
                     check_contract(step, flow.scene, entered, reference.get());
+                    if (takes_pictures_) page_.failures(step.name, flow.scene, first);
                 }))
                 return false;
             holds = failures_.judge_checks(checked) && holds;
@@ -269,10 +275,19 @@ class Runner {
         if (takes_pictures_ && fetch(step.where, "a picture", flow))
             failures_.guarded({}, "the 3D view", [&] { view_.before(step, flow.scene); });
         const Stopwatch watch;
+        const std::size_t outputs = record().outputs.size(), checks = record().checks.size();
+        if (takes_pictures_ && fetch(step.where, "a picture", flow))
+            failures_.guarded({}, "a picture", [&] { page_.before(step, flow.scene); });
         const bool recalled = reuse_.recall(step, flow, state_, stage);
         const bool done = recalled || perform_stage(step, flow, stage);
         if (recalled) stage.seconds = watch.seconds();
-        if (done && takes_pictures_ && fetch(step.where, "a picture", flow)) add_picture(flow.scene, stage);
+        stage.peak_memory = peak_memory();
+        if (done && takes_pictures_ && fetch(step.where, "a picture", flow))
+            failures_.guarded({}, "a picture", [&] {
+                const Share share = beside_stages(fmt::format("picture after {}", step.name));
+                page_.after(step, flow.scene, stage, outputs);
+                page_.failures(step.name, flow.scene, checks);
+            });
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
@@ -312,78 +327,6 @@ class Runner {
     Share beside_stages(const std::string& what) const {
         if (settings_.progress) settings_.progress->beside_stages(what);
         return Share(settings_.progress);
-    }
-
-    /// A page shows what a stage changed, as long as it stays small.
-    void add_picture(const Scene& scene, report::StageRecord& stage) {
-        constexpr std::size_t max_bytes = 5 << 19; // of a page of 3 MB
-        if (picture_bytes_ > max_bytes) return;
-        const Share share = beside_stages(fmt::format("picture after {}", stage.name));
-        failures_.guarded({}, "a picture", [&] {
-            const std::vector<Vec3> locations = failing_locations_of(stage);
-            PictureSettings settings;
-            if (locations.empty()) settings.camera = camera_for(scene);
-            std::string picture =
-                locations.empty() ? picture_for_page(scene, settings) : picture_of_failures(scene, locations);
-            if (picture == last_picture_) return;
-            picture_bytes_ += picture.size();
-            stage.camera = settings.camera ? cameras_ : 0;
-            last_picture_ = stage.picture = std::move(picture);
-        });
-    }
-
-    /// The camera of the picture before, so that the two can be compared, unless the scene goes far beyond it
-    /// or became much smaller.
-    const Camera& camera_for(const Scene& scene) {
-        const Camera own = camera_of(scene);
-        const Box& now = own.seen;
-        const Box& before = camera_.seen;
-        const Vec3 size = before.extent(), left = before.min - size * 0.04, right = before.max + size * 0.04;
-        const bool inside = !before.empty() && !now.empty() && now.min.x >= left.x && now.min.y >= left.y &&
-                            now.max.x <= right.x && now.max.y <= right.y;
-        if (!inside || now.diagonal() < before.diagonal() / 3) {
-            camera_ = own;
-            ++cameras_;
-        }
-        return camera_;
-    }
-
-    /// What the stage's checks have just found.
-    std::vector<Vec3> failing_locations_of(const report::StageRecord& stage) {
-        std::vector<Vec3> locations;
-        for (const auto& check : record().checks) {
-            if (check.stage != stage.name) continue;
-            const std::vector<Vec3> more = report::failing_locations(check);
-            locations.insert(locations.end(), more.begin(), more.end());
-        }
-        return locations;
-    }
-
-    /// The whole scene with a ring around each place, and the first of them magnified, with its faces' edges.
-    std::string picture_of_failures(const Scene& scene, const std::vector<Vec3>& locations) {
-        PictureSettings whole, close;
-        whole.paint = close.paint = Paint::plain;
-        whole.marks = locations;
-        close.marks = {locations.front()};
-        close.at = locations.front();
-        close.zoom = 10;
-        close.edges = EdgeLines::all;
-        return io::base64(io::png(sheet_of({picture_of(scene, whole), picture_of(scene, close)}, 2)));
-    }
-
-    /// One of many in an index.
-    void add_small_picture(const Scene& scene, report::StageRecord& stage) {
-        PictureSettings small;
-        small.width = 160;
-        small.height = 120;
-        failures_.guarded({}, "a picture", [&] { stage.picture = picture_for_page(scene, small); });
-    }
-
-    /// A texture that cannot be drawn is no fault of the run: the stage render warns of it.
-    std::string picture_for_page(const Scene& scene, PictureSettings settings) {
-        std::vector<Diagnostic> ignored;
-        settings.looks = looks_.looks(scene, ignored);
-        return io::base64(io::png(picture_of(scene, settings)));
     }
 
     static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {
@@ -474,8 +417,11 @@ class Runner {
     /// What joins is one where its documents are the same objects, which those of the cache need not be.
     bool run_arm(const Step& step, const Arm& arm, Flow& inside) {
         inside.without_cache |= step.join && (!inside.scene.documents.empty() || loads(*arm.steps));
-        return run_steps(*arm.steps, inside, step.join) &&
-               (!step.join || fetch(step.where, step.name, inside));
+        const auto reference = page_.reference();
+        const bool done =
+            run_steps(*arm.steps, inside, step.join) && (!step.join || fetch(step.where, step.name, inside));
+        page_.set_reference(reference);
+        return done;
     }
 
     bool run_part_arms(const Step& step, Flow& flow) {
@@ -604,11 +550,7 @@ class Runner {
     std::set<fs::path> unwritable_; ///< folders
     CellPlan on_cells_;
     bool keeps_loaded_ = false, takes_pictures_ = false;
-    std::string last_picture_;
-    Camera camera_;        ///< of the pictures of a page
-    int cameras_ = 0;      ///< so far
-    io::LookReader looks_; ///< textures of the pictures, decoded once
-    std::size_t picture_bytes_ = 0;
+    Page page_{state_.record};
     int number_ = 0, stages_ = 0;
 };
 
@@ -619,6 +561,8 @@ std::vector<std::string> report_refusal(const Plan& plan, const Problems& proble
     record.pipeline = plan.name;
     record.about = plan.about;
     record.params = plan.params;
+    record.text = plan.text;
+    record.command = plan.command;
     record.exit_code = static_cast<int>(ErrorKind::usage);
     for (const auto& d : problems.all())
         if (d.severity == Severity::error)

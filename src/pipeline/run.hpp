@@ -13,7 +13,8 @@ struct RunSettings {
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
     bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
-    bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
+    bool last_picture = false;   ///< the record of the last stage gets a small picture, whatever the reports
+    bool takes_pictures = false; ///< the record is for a page, whatever the reports
     cache::Store* store = nullptr; ///< results of stages are taken from it, and put there; none: no cache
     io::CommitSettings commit{};   ///< of outputs and reports
     CellSettings cells{};          ///< whether a mesh that is larger than memory is processed on disk

@@ -4,6 +4,7 @@
 #include "base/words.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::report {
@@ -90,6 +91,32 @@ std::string shares_text(const CheckEvidence& evidence) {
 
 std::string found_text(const Check& check) {
     return check.found_words.empty() ? std::visit(FoundText(), check.found) : check.found_words;
+}
+
+std::string evidence_text(const EvidenceEntry& entry) {
+    return entry.at ? location_text(entry) : share_text(entry);
+}
+
+std::string margin_text(const Check& check) {
+    double found = 0;
+    const auto* count = std::get_if<std::int64_t>(&check.found);
+    if (count)
+        found = static_cast<double>(*count);
+    else if (const auto* number = std::get_if<double>(&check.found))
+        found = *number;
+    else
+        return {};
+    if (!check.min && !check.max) return {};
+    const double below = check.max ? *check.max - found : HUGE_VAL;
+    const double above = check.min ? found - *check.min : HUGE_VAL;
+    const double margin = std::min(below, above), limit = below <= above ? *check.max : *check.min;
+    if (!std::isfinite(margin)) return {};
+    const std::string share =
+        limit != 0 ? fmt::format(" ({:.3g} % of the limit)", 100 * std::abs(margin / limit)) : "";
+    const std::string amount = fmt::format("{:.6g}", std::abs(margin));
+    if (margin >= 0) return margin == 0 ? "none" : fmt::format("{} to spare{}", amount, share);
+    if (count) return fmt::format("{} too {}{}", amount, below < above ? "many" : "few", share);
+    return fmt::format("{} too {}{}", amount, below < above ? "much" : "little", share);
 }
 
 std::string locations_text(const Check& check) {

@@ -9,26 +9,54 @@ namespace facetmill::report {
 namespace {
 
 constexpr const char* style = R"(
-:root { color-scheme: light dark; --line: #8884; --good: #1f6b33; --bad: #a82a20; --warn: #8a5200; --soft: #8882; }
-@media (prefers-color-scheme: dark) { :root { --good: #6fca86; --bad: #ff8a80; --warn: #f0b45a; } }
-html { background: Canvas; color: CanvasText; }
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 68rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.5rem; margin-bottom: .2rem; overflow-wrap: break-word; } h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; width: 100%; }
-th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
-td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
-code { font-family: ui-monospace, monospace; font-size: .9em; overflow-wrap: break-word; }
-.good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { opacity: .8; }
-h3 { font-size: 1rem; margin: 0 0 .2rem; overflow-wrap: break-word; } h4 { font-size: .9rem; margin: .8rem 0 .2rem; }
-.stage { border-left: 3px solid var(--line); padding-left: .8rem; margin: 0 0 1.2rem; } .stage p { margin: .1rem 0; }
-figure { margin: .5rem 0; max-width: 30rem; background: var(--soft); border-radius: .4rem; } .wide { max-width: none; }
+:root { color-scheme: light dark; --ink: #1d2228; --paper: #fff; --soft: #f3f4f6; --line: #dfe2e6; --quiet: #5a6370;
+  --good: #1f6b33; --bad: #a82a20; --warn: #855000; --accent: #2b5fb4; --bar: #7d9fd0; --before: #99420c; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --paper: #15181c; --soft: #20242a; --line: #363c44;
+  --quiet: #a3adb9; --good: #6fca86; --bad: #ff8a80; --warn: #f0b45a; --accent: #8ab4f8; --bar: #55779f; --before: #f2a66b; } }
+html { background: var(--paper); color: var(--ink); -webkit-text-size-adjust: 100%; }
+body { font: 15px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; max-width: 72rem; margin: 0 auto;
+  padding: 2.2rem 1.25rem 4rem; overflow-wrap: break-word; }
+h1 { font-size: 1.6rem; line-height: 1.25; margin: 0 0 .25rem; } h2 { font-size: 1.15rem; margin: 2.3rem 0 .6rem; }
+h3 { font-size: 1rem; margin: 0 0 .3rem; } h4 { font-size: .85rem; margin: .9rem 0 .3rem; color: var(--quiet); }
+h1, h2, h3, h4 { overflow-wrap: break-word; text-wrap: balance; } p { margin: .35rem 0; } a { color: var(--accent); }
+.scroll { overflow-x: auto; } :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
+table { border-collapse: collapse; min-width: 100%; font-size: .93rem; }
+th, td { text-align: left; padding: .38rem 1.1rem .38rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
+tr > :last-child { padding-right: 0; } th { font-weight: 600; } tr > th[scope=row] { font-weight: 400; color: var(--quiet);
+  white-space: nowrap; width: 10rem; } td.number, th.number { text-align: right; font-variant-numeric: tabular-nums;
+  white-space: nowrap; } tr.sum td { font-weight: 600; }
+code, pre { font-family: ui-monospace, SFMono-Regular, Menlo, Consolas, monospace; font-size: .88em; }
+pre { background: var(--soft); border-radius: .4rem; padding: .7rem .9rem; overflow-x: auto; margin: .3rem 0; }
+.good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { color: var(--quiet); }
+p.soft { font-size: .88rem; max-width: 46rem; } td:first-child span { white-space: nowrap; }
+.digest code { overflow-wrap: anywhere; display: inline-block; min-width: 18em; font-size: .78em; }
+.badge { font-size: .82rem; font-weight: 600; border: 1px solid; border-radius: 1rem; padding: .02rem .55rem; }
+.verdict { font-weight: 600; padding: .75rem 1.1rem; background: var(--soft); border-left: .3rem solid;
+  border-radius: .3rem; margin: 1.1rem 0 .4rem; }
+.stage, .check { border-top: 1px solid var(--line); padding: 1rem 0; } .stage { display: grid; gap: 0 2rem; }
+section.check { color: inherit; } .check.bad { border-top-color: var(--bad); } .stage > * { min-width: 0; } .stage p { margin: .1rem 0; }
+figure { margin: .6rem 0; max-width: 30rem; background: var(--soft); border-radius: .5rem; overflow: hidden; }
+figure.wide { max-width: 60rem; } figcaption { padding: .45rem .8rem .55rem; font-size: .85rem; color: var(--quiet); }
 img { display: block; width: 100%; height: auto; } .layers { display: grid; } .layers img { grid-area: 1 / 1; }
 figure.compared [data-of] { clip-path: inset(0 calc(100% - var(--at)) 0 0); }
-figure.compared [id] { clip-path: inset(0 0 0 var(--at)); }
-input[type=range] { width: calc(100% - 1.4rem); margin: .2rem .7rem; } [hidden] { display: none !important; }
-figcaption { padding: .3rem .7rem .5rem; font-size: .9em; } summary { cursor: pointer; font-size: .9em; }
-td:first-child span { white-space: nowrap; }
-.verdict { font-weight: 600; padding: .6rem 1rem; background: var(--soft); border-radius: .4rem; }
+figure.compared [id] { clip-path: inset(0 0 0 var(--at)); } [hidden] { display: none !important; }
+input[type=range] { width: calc(100% - 1.6rem); margin: .3rem .8rem; accent-color: var(--accent); }
+details { margin: .3rem 0; } summary { cursor: pointer; font-size: .88rem; color: var(--quiet); }
+dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .25rem 1.2rem; margin: .4rem 0; }
+dt { color: var(--quiet); } dd { margin: 0; } dl.ranges { font-size: .85rem; } dd pre { margin: 0; }
+svg.chart { display: block; width: 100%; height: auto; max-width: 40rem; } .chart text { font-size: 12px; fill: var(--quiet); }
+.chart .bar { fill: var(--bar); } .chart .axis { stroke: var(--line); fill: none; }
+.chart .before { stroke: var(--before); stroke-width: 1.5; fill: none; }
+.charts { display: grid; gap: 1rem 2rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr)); }
+.deviation { display: grid; gap: 0 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 19rem), 1fr)); }
+.deviation .wide { grid-column: 1 / -1; } .card { min-width: 0; }
+td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height: .75rem; margin-top: .35rem;
+  border-radius: .2rem; background: var(--bar); min-width: 1px; }
+@media (min-width: 800px) { .stage.pictured { grid-template-columns: minmax(0, 26rem) minmax(0, 1fr); }
+  .stage.pictured > .shown { grid-column: 1; } .stage.pictured > .told { grid-column: 2; } }
+@media (max-width: 480px) { body { padding: 1.2rem 1rem 3rem; } dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
+  dd { margin-bottom: .5rem; } tr > th[scope=row] { white-space: normal; width: auto; } }
+@media print { body { max-width: none; padding: 0; } details { display: none; } .scroll { overflow: visible; } }
 )";
 
 /// Shows the picture before beneath a stage's own, left of the slider; without scripts the page has no

@@ -5,6 +5,7 @@
 #include "base/words.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"
+#include "report/html_sections.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -132,15 +133,6 @@ std::string counts(const StageRecord& stage) {
                        100.0 * static_cast<double>(after) / static_cast<double>(before), vertices);
 }
 
-/// "'closed', 'manifold'": the checks of the stage whose places its picture shows; empty when there are none.
-std::string shown_failures(const RunRecord& record, const StageRecord& stage) {
-    std::string names;
-    for (const auto& c : record.checks)
-        if (c.stage == stage.name && !failing_locations(c).empty())
-            append_item(names, fmt::format("'{}'", c.name));
-    return names;
-}
-
 std::string picture_id(std::size_t stage) { return fmt::format("picture-{}", stage); }
 
 /// The picture of a stage; where the one before was seen in the same way, a slider goes from one to the
@@ -154,11 +146,6 @@ std::string picture_of(const RunRecord& record, std::size_t number, std::size_t&
     const auto shown = [&](const std::string& caption) {
         return picture(picture_id(number), caption, stage.picture);
     };
-    if (const std::string failures = shown_failures(record, stage); !failures.empty()) {
-        const std::string caption = fmt::format(
-            "{}: where {} did not hold; on the right the first location, magnified", stage.name, failures);
-        return figure(shown(caption), caption, true);
-    }
     const std::string caption =
         fmt::format("{}: {} faces", stage.name, grouped(stage.after ? stage.after->faces : 0));
     if (!before || stage.camera == 0 || stage.camera != before->camera)
@@ -169,13 +156,19 @@ std::string picture_of(const RunRecord& record, std::size_t number, std::size_t&
 
 std::string section(const RunRecord& record, std::size_t number, std::size_t& last) {
     const StageRecord& stage = record.stages[number];
-    std::string out =
-        fmt::format("<section class=\"stage\">\n<h3>{0} {1}</h3>\n<p>{2}</p>\n", escaped(stage.name),
-                    stage.name == stage.stage ? "" : code(stage.stage), counts(stage));
-    for (const auto& line : stage.said) out += fmt::format("<p>{}</p>\n", escaped(line));
+    std::string told = fmt::format("<h3>{0} {1}</h3>\n<p>{2}</p>\n", escaped(stage.name),
+                                   stage.name == stage.stage ? "" : code(stage.stage), counts(stage));
+    for (const auto& line : stage.said) told += fmt::format("<p>{}</p>\n", escaped(line));
     for (const auto& w : stage.warnings)
-        out += fmt::format("<p class=\"warn\">{}: {}</p>\n", escaped(w.id), escaped(w.message));
-    return out + picture_of(record, number, last) + details(stage) + "</section>\n";
+        told += fmt::format("<p class=\"warn\">{}: {}</p>\n", escaped(w.id), escaped(w.message));
+    const std::string shown = picture_of(record, number, last);
+    std::string out = fmt::format("<section class=\"stage{}\">\n", shown.empty() ? "" : " pictured");
+    if (!shown.empty()) out += fmt::format("<div class=\"shown\">{}</div>\n", shown);
+    out += fmt::format("<div class=\"told\">{}{}</div>\n", told, details(stage));
+    if (stage.deviation)
+        out += "<div class=\"wide\">" +
+               deviation_html(*stage.deviation, fmt::format("stage-{}", number), stage.name) + "</div>\n";
+    return out + "</section>\n";
 }
 
 } // namespace
@@ -193,9 +186,14 @@ std::string stage_sections(const RunRecord& record) {
     for (std::size_t i = 0; i < record.stages.size(); ++i) out += section(record, i, last);
     if (out.empty()) return out;
     return fmt::format(
-        "<h2>Stages</h2>\n{}<p class=\"soft\">A picture follows each stage that changed what is seen. "
-        "The inner side of a surface is orange.</p>\n",
-        out);
+        "<h2>Stages</h2>\n{}<p class=\"soft\">Each stage that changed what is seen has a picture. "
+        "The inner side of a surface is orange. Distances of a single stage are shown of scenes of up to "
+        "500,000 faces.{}{}</p>\n",
+        out, record.pictures_shrunk ? " Later pictures are smaller, so that the page stays below 3 MB." : "",
+        record.pictures_left_out > 0
+            ? fmt::format(" {} left out for the same reason.",
+                          counted(record.pictures_left_out, "picture is", "pictures are"))
+            : "");
 }
 
 } // namespace facetmill::report

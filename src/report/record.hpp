@@ -4,7 +4,9 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/vec.hpp"
+#include "io/gltf/byte_kinds.hpp"
 #include "mesh/attribute_changes.hpp"
+#include "report/views.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -63,6 +65,7 @@ struct Check {
     std::optional<std::size_t> fresh = {}; ///< how many of these a baseline does not know; none without one
     bool waived = false;                   ///< it did not hold, but that is known; passed is true
     Mark where = {};
+    std::string picture = {}; ///< for pages: its places when it did not hold, a PNG in base64
 };
 
 struct PartChange {
@@ -105,6 +108,9 @@ struct StageRecord {
     std::string
         picture;    ///< of the scene after it, for pages: a PNG in base64; empty: as after the stage before
     int camera = 0; ///< pictures of one number are seen in the same way; 0: it has a way of its own
+    std::optional<DeviationView>
+        deviation;               ///< for pages: how far it moved the surface, of stages that measure it
+    std::size_t peak_memory = 0; ///< bytes, of the process so far
 };
 
 struct FileRecord {
@@ -114,6 +120,7 @@ struct FileRecord {
     std::string sha256;
     Json read_back; ///< of meshes among the outputs: properties of the file decoded again, and how far
                     ///< positions moved
+    std::optional<io::ByteKinds> kinds = {}; ///< what its bytes are spent on
 };
 
 /// Why a run failed.
@@ -124,14 +131,19 @@ struct RunError : Diagnostic {
 struct RunRecord {
     std::string pipeline; ///< the file's name as given, or "pipe"
     std::string about;
+    std::string text;    ///< of the pipeline, for pages
+    std::string command; ///< that runs it again, for a shell; empty: unknown
     Json params = Json::object();
     std::vector<FileRecord> inputs, outputs;
     std::vector<std::string> absent;  ///< files that inputs name and that are not there: a run goes on
     std::vector<std::string> reports; ///< that were written, from the output folder
     std::vector<StageRecord> stages;
     std::vector<Check> checks;
-    std::vector<Diagnostic> warnings; ///< of the run as a whole
-    std::vector<RunError> errors;     ///< why it failed
+    std::vector<OutputView> views;     ///< for pages: what was written, or where the run ended
+    std::size_t pictures_left_out = 0; ///< of a page, which would have become too large
+    bool pictures_shrunk = false;      ///< some are smaller than usual for the same reason
+    std::vector<Diagnostic> warnings;  ///< of the run as a whole
+    std::vector<RunError> errors;      ///< why it failed
     int exit_code = 0;
     double seconds = 0;
     std::size_t peak_memory = 0; ///< bytes

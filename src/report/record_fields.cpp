@@ -131,6 +131,13 @@ void declare_file(DeclareFields<FileRecord>& d, bool read_back) {
     d.field("path", &FileRecord::path, "");
     d.field("bytes", &FileRecord::bytes, "");
     d.field("sha256", &FileRecord::sha256, "").field().schema["pattern"] = "^([0-9a-f]{64})?$";
+    d.object("contents", &FileRecord::kinds, "What its bytes are spent on.",
+             [](DeclareFields<io::ByteKinds>& k) {
+                 k.field("geometry", &io::ByteKinds::geometry, "Bytes of meshes, animations and skins.");
+                 k.field("textures", &io::ByteKinds::textures, "Bytes of images.");
+                 k.field("json", &io::ByteKinds::json, "Bytes of JSON, or of a file of materials.");
+             })
+        .null_when("it is not a file of a mesh");
     if (read_back)
         d.field("read_back", as_it_is(&FileRecord::read_back), "The result of reading the written file back");
 }
@@ -170,6 +177,7 @@ void declare_timings(DeclareFields<RunRecord>& d) {
            [](DeclareFields<StageRecord>& s) {
                s.field("name", &StageRecord::name, "");
                s.field("seconds", &StageRecord::seconds, "");
+               s.field("peak_memory", &StageRecord::peak_memory, "Bytes, of the process until its end");
            });
 }
 

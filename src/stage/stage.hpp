@@ -50,7 +50,9 @@ struct StageInfo {
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
     bool tells = false;  ///< something is left of it beside the scene: a file, or lines on the terminal
-    bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
+    bool moves = false;  ///< it may move the scene as a whole: distances from before it tell nothing
+    bool measures_deviation = false;   ///< it tells how far it moved the surface
+    bool loads = false;                ///< it adds to the scene rather than working on it (may come first)
     MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
     /// What is done about faces that cross themselves before it runs, unless its options say otherwise: the
     /// most that any of them ask for.

@@ -308,7 +308,10 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     CHECK(page.starts_with("<!DOCTYPE html>"));
     CHECK(page.find("a<1>") == std::string::npos);
     CHECK(page.find("<p class=\"verdict bad\">differ</p>") != std::string::npos);
-    for (const std::string& png : {pictures.a, pictures.b, pictures.distance}) {
+    REQUIRE(pictures.forward);
+    REQUIRE(pictures.backward);
+    for (const std::string& png :
+         {pictures.a, pictures.b, pictures.backward->picture, pictures.forward->close}) {
         REQUIRE(png.starts_with("iVBOR"));
         CHECK(page.find("src=\"data:image/png;base64," + png + "\"") != std::string::npos);
     }
@@ -317,7 +320,8 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     CHECK(page.find("<section class=\"viewer\" hidden>") != std::string::npos);
     CHECK(page.find("data-of=\"first\"") != std::string::npos);
     CHECK(page.find("<td><code>faces</code></td><td>320</td><td>1280</td>") != std::string::npos);
-    CHECK(report::comparison_pictures(Scene{}, b, "a", "b").distance.empty());
+    CHECK_FALSE(report::comparison_pictures(Scene{}, b, "a", "b").backward);
+    CHECK_FALSE(report::comparison_pictures(b, b, "a", "b").backward);
     const std::string text = report::to_markdown(d, "a|b.ply", "b.ply");
     CHECK(text.starts_with("## a\\|b.ply and b.ply\n\n**differ**\n"));
     CHECK(text.find("| differs | faces | 320 | 1280 |  |\n") != std::string::npos);

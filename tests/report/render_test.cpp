@@ -289,22 +289,59 @@ TEST_CASE("pictures that one camera took are compared by a slider", "[report]") 
     CHECK(html.find("clip: 0 faces; left of the slider before (load)") != std::string::npos);
 }
 
-TEST_CASE("the picture of a stage whose checks failed says what it shows", "[report]") {
+TEST_CASE("a check that did not hold has its picture, its places and commands", "[report]") {
     RunRecord record;
-    auto& stage = record.stages.emplace_back();
-    stage.name = stage.stage = "validate";
-    stage.picture = "iVBORw0KGgo=";
+    record.inputs = {{"a b.ply", 1, "", {}}};
+    record.command = "facetmill run 'my pipe.yaml'";
     auto& check = record.checks.emplace_back();
     check.name = "closed";
     check.stage = "validate";
+    check.expected = "true";
+    check.picture = "iVBORw0KGgo=";
     check.evidence = CheckEvidence{{.of = EvidenceEntry::Of::part, .name = "a", .at = Vec3{1, 2.5, -3}},
                                    {.of = EvidenceEntry::Of::part, .name = "b", .amount = 2}};
     CHECK(failing_locations(check).empty());
     CHECK(to_html(record).find("did not hold") == std::string::npos);
     check.passed = false;
     CHECK(failing_locations(check) == std::vector<Vec3>{{1, 2.5, -3}});
-    CHECK(to_html(record).find("validate: where &#39;closed&#39; did not hold; on the right") !=
+    const std::string html = to_html(record);
+    CHECK(html.find("where &#39;closed&#39; does not hold") != std::string::npos);
+    CHECK(html.find(
+              "facetmill pipe load &#39;a b.ply&#39; ! clean --holes minimal ! orient ! validate --closed "
+              "true</pre>") != std::string::npos);
+    CHECK(html.find("facetmill run &#39;my pipe.yaml&#39;</pre>") != std::string::npos);
+    CHECK(html.find("<li>part &#39;b&#39; 2</li>") != std::string::npos);
+}
+
+TEST_CASE("the margin of a check is what is left of its limit, or missing", "[report]") {
+    Check check{.found = std::int64_t{3}, .max = 5};
+    CHECK(margin_text(check) == "2 to spare (40 % of the limit)");
+    check.found = std::int64_t{9};
+    CHECK(margin_text(check) == "4 too many (80 % of the limit)");
+    check.min = check.max = 10;
+    CHECK(margin_text(check) == "1 too few (10 % of the limit)");
+    check.found = 0.5;
+    CHECK(margin_text(check) == "9.5 too little (95 % of the limit)");
+    check.max = 0.25;
+    check.min = {};
+    CHECK(margin_text(check) == "0.25 too much (100 % of the limit)");
+    check.found = true;
+    CHECK(margin_text(check).empty());
+}
+
+TEST_CASE("a page says what was left out of it, and times only when asked", "[report]") {
+    RunRecord record = full_record();
+    record.pictures_left_out = 2;
+    record.text = "stages:\n  - load: <x>";
+    std::string html = to_html(record);
+    CHECK(html.find("2 pictures are left out") != std::string::npos);
+    CHECK(html.find("load: &lt;x&gt;") != std::string::npos);
+    CHECK(html.find("Time and memory") == std::string::npos);
+    record.stages[0].peak_memory = 5000000;
+    html = to_html_with_times(record);
+    CHECK(html.find("<td>cut</td><td class=\"number\">0.25 s</td><td class=\"number\">16.7 %</td>") !=
           std::string::npos);
+    CHECK(html.find("5.0 MB") != std::string::npos);
 }
 
 TEST_CASE("a report's suffix chooses its form", "[report]") {

@@ -129,6 +129,8 @@ struct Property {
     Join join = Join::sum;
     std::string_view help; ///< for the manual
     std::string_view hint; ///< the stage that fixes it
+    std::string_view mend =
+        {}; ///< stages as `facetmill pipe` takes them that do so; empty: none does for sure
     Member member = {};
     bool costly = false;  ///< a member that needs InspectSettings::self_intersections
     bool is_size = false; ///< how much there is, rather than how it hangs together

@@ -44,6 +44,7 @@ ValueRange value_range(const Scene& scene, const std::string& attribute, const C
     std::vector<double> values = finite_values(scene, attribute, shows);
     if (values.empty()) return range;
     range.known = true;
+    range.diverging = wanted.diverging;
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     range.min = range.low = *least;
     range.max = range.high = *most;

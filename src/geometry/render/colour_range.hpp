@@ -18,12 +18,14 @@ struct ColourRange {
     };
     Kind kind = Kind::automatic;
     double min = 0, max = 0; ///< of Kind::given
+    bool diverging = false;  ///< in colours that tell the two sides of the middle apart
 };
 
 struct ValueRange {
     bool known = false;                                     ///< there are numbers at all
     double low = 0, high = 0;                               ///< the first and the last colour
     double min = 0, max = 0;                                ///< of all numbers
+    bool diverging = false;                                 ///< of ColourRange
     bool percentiles = false;                               ///< low and high are the 1st and 99th percentile
     bool beyond() const { return min < low || max > high; } ///< some numbers lie outside
 };

@@ -38,6 +38,26 @@ Colour on_a_scale(double t) {
     return colour;
 }
 
+Colour on_a_diverging_scale(double t) {
+    if (std::isnan(t)) return {0.5f, 0.5f, 0.5f};
+    // Red, green and blue in sRGB at eighths.
+    static constexpr double c[9][3] = {{59, 76, 192},   {98, 130, 234},  {141, 176, 254},
+                                       {184, 208, 249}, {221, 221, 221}, {245, 196, 173},
+                                       {244, 154, 123}, {222, 96, 77},   {180, 4, 38}};
+    const double x = 8 * std::clamp(t, 0.0, 1.0);
+    const auto i = std::min(static_cast<std::size_t>(x), std::size_t{7});
+    const double part = x - static_cast<double>(i);
+    Colour colour{};
+    for (std::size_t k = 0; k < 3; ++k)
+        colour[k] =
+            linear_of(static_cast<std::uint8_t>(std::floor(c[i][k] * (1 - part) + c[i + 1][k] * part + 0.5)));
+    return colour;
+}
+
+Colour on_the_scale_of(const ValueRange& range, double t) {
+    return range.diverging ? on_a_diverging_scale(t) : on_a_scale(t);
+}
+
 double in_range(double x, const ValueRange& range) {
     if (!(range.low < range.high)) return std::isnan(x) ? x : 0.5;
     // Halves, because the span of all doubles is none.

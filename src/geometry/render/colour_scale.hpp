@@ -2,6 +2,7 @@
 // Colours for numbers and for identifiers.
 
 #include "geometry/render/canvas.hpp"
+#include "geometry/render/colour_range.hpp"
 
 namespace facetmill {
 
@@ -11,6 +12,13 @@ Colour distinct_colour(std::uint64_t number);
 /// The map "viridis" (S. van der Walt and N. Smith, 2015), whose steps look equal, for 0 to 1, by M. Zucker's
 /// polynomials; what lies beyond has the colour of the end. Grey for what is not a number.
 Colour on_a_scale(double t);
+
+/// Blue over light grey, at 0.5, to red (K. Moreland, "Diverging color maps for scientific visualization",
+/// 2009), for 0 to 1; else as on_a_scale.
+Colour on_a_diverging_scale(double t);
+
+/// On the scale of the range.
+Colour on_the_scale_of(const ValueRange& range, double t);
 
 /// Where x lies in the range, 0 to 1 inside; 0.5 when the range is a point.
 double in_range(double x, const ValueRange& range);

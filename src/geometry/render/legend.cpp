@@ -150,7 +150,7 @@ Picture with_legend(const Picture& picture, const PictureSettings& settings, con
     write_text(out, left, line, scale, shortened(settings.attribute), ink);
     if (!settings.unit.empty()) write_text(out, left, 2 * line, scale, shortened("in " + settings.unit), ink);
     for (int y = top; y < bottom; ++y) {
-        const Colour c = on_a_scale((bottom - y - 0.5) / (bottom - top));
+        const Colour c = on_the_scale_of(range, (bottom - y - 0.5) / (bottom - top));
         fill(out, left, y, bar, y + 1, {srgb_of(c[0]), srgb_of(c[1]), srgb_of(c[2]), 255});
     }
     const auto most = static_cast<std::size_t>(std::clamp((bottom - top) / (3 * line), 2, 9));

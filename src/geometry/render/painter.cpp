@@ -70,7 +70,7 @@ Texel Painter::of_value(const FacePlace& place) const {
         double t = 0;
         for (std::size_t k = 0; k < 3; ++k)
             if (w[k] != 0) t += w[k] * in_range(value(k), range_);
-        colour = on_a_scale(t);
+        colour = on_the_scale_of(range_, t);
     }
     return {colour[0], colour[1], colour[2], 1};
 }

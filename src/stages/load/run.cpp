@@ -66,13 +66,16 @@ void verify(const LoadOptions& o, const Value& given, Problems& problems) {
                  suggestion(o.format, io::names_of_readers()));
 }
 
-void record_input(Context& context, const std::string& path, std::size_t bytes, std::string sum) {
+/// contents: the bytes themselves, where they are at hand.
+void record_input(Context& context, const std::string& path, std::size_t bytes, std::string sum,
+                  io::Span contents = {}) {
     context.run().outputs.protect(path, sum);
-    context.run().record.inputs.push_back({path, bytes, std::move(sum), {}});
+    context.run().record.inputs.push_back(
+        {path, bytes, std::move(sum), {}, io::byte_kinds(path, bytes, contents)});
 }
 
 void record_input(Context& context, const std::string& path, io::Span bytes) {
-    record_input(context, path, bytes.size(), sha256(bytes));
+    record_input(context, path, bytes.size(), sha256(bytes), bytes);
 }
 
 /// With the sum of what was read, which a file that was replaced since then no longer has.

@@ -15,6 +15,7 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
                   "simplify: {ratio: 10%, method: shortest-edge}",
                   "simplify: {ratio: 2%, method: cluster, measure: false}",
                   "simplify: {ratio: 20%, weights: {uv: 2, colour: 0}, topology: allow}"},
+     .measures_deviation = true,
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill,
      .ends_cells = true},

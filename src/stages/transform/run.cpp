@@ -98,6 +98,7 @@ const RegisterStage registered = make_stage<TransformOptions>(
                   "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
                   "transform: {unit: m, up: y, centre: true, ground: true}",
                   "transform: {translate: [0, 0, 2mm]}"},
+     .moves = true,
      .may_lose = MayLose::area,
      .roles = {.sets_unit = "unit"}},
     declare_transform, declare_transform_report, run, {.verify = verify_transform});

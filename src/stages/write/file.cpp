@@ -221,7 +221,13 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
         const auto& staged = run.outputs.add(context.places().output(name.string()),
                                              packs ? packed : file.bytes, context.where());
         if (!main) main = &staged;
-        run.record.outputs.push_back({name.lexically_normal().string(), staged.bytes, staged.sha256, {}});
+        const std::string told = name.lexically_normal().string();
+        run.record.outputs.push_back(
+            {told,
+             staged.bytes,
+             staged.sha256,
+             {},
+             io::byte_kinds(told, staged.bytes, packed.empty() ? io::Span(file.bytes) : io::Span{})});
     }
     if (!main || !run.read_back) return;
     steps.next();

@@ -8,7 +8,7 @@
 #include "support/surface.hpp"
 
 using namespace facetmill;
-using Shading = NormalSeams::Shading;
+using SeamShading = NormalSeams::Shading;
 
 namespace {
 
@@ -74,7 +74,7 @@ TEST_CASE("a flat-shaded mesh is one surface, and flat-shaded again afterwards",
     Mesh m = flat_shaded(shapes::icosphere(2));
     CHECK(m.wedge_count() == 960);
     const auto seams = merge_normal_seams(m, thirty);
-    CHECK(seams.shading == Shading::faceted);
+    CHECK(seams.shading == SeamShading::faceted);
     CHECK(seams.merged == 960 - 162);
     CHECK_FALSE(m.has_seams());
     CHECK(broken_invariants(m).empty());
@@ -97,7 +97,7 @@ TEST_CASE("normal seams go where faces meet at less than the feature angle", "[g
     const double turn = 10 * pi / 180;
     Mesh round = prism(24, turn); // 15 degrees at every edge
     const auto merged = merge_normal_seams(round, thirty);
-    CHECK(merged.shading == Shading::smoothed);
+    CHECK(merged.shading == SeamShading::smoothed);
     CHECK_FALSE(round.has_seams());
     const Attribute& n = *round.find("NORMAL", Domain::wedge);
     for (Index w = 0; w < round.wedge_count(); ++w) { // outward, as the faces around are
@@ -126,7 +126,7 @@ TEST_CASE("seams of texture coordinates stay when normals are merged", "[geometr
 TEST_CASE("a flat-shaded sphere simplifies like any other", "[geometry]") {
     const auto r = simplify(flat_shaded(shapes::icosphere(3)), {.ratio = 0.1});
     CHECK(r.stop == SimplifyResult::Stop::ratio);
-    CHECK(r.shading == Shading::faceted);
+    CHECK(r.shading == SeamShading::faceted);
     CHECK(test::sound(r.mesh, 2));
     CHECK(worst_facing(r.mesh) > 0.9999);
     REQUIRE(r.changes.size() == 1);

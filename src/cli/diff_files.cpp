@@ -1,0 +1,102 @@
+#include "cli/diff_files.hpp"
+
+#include "io/codec.hpp"
+#include "io/convert.hpp"
+#include "options/types.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+/// The file with those that it names.
+report::SizeOnDisk size_of(const std::string& name, io::Span bytes, const io::ReadLog& log) {
+    report::SizeOnDisk size;
+    const auto add = [&](const std::string& path, std::uint64_t count, io::Span contents) {
+        const io::ByteKinds kinds = io::byte_kinds(path, count, contents);
+        size.bytes += count;
+        size.kinds.geometry += kinds.geometry;
+        size.kinds.textures += kinds.textures;
+        size.kinds.json += kinds.json;
+    };
+    add(name, bytes.size(), bytes);
+    for (const io::ReadFile& file : log.files) {
+        std::error_code unknown;
+        const auto count = file.sha256.empty() ? std::filesystem::file_size(file.path, unknown) : file.bytes;
+        if (!unknown) add(file.path.string(), count, {});
+    }
+    return size;
+}
+
+/// A length on the command line, in A's units or in percent.
+std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& text, const std::string& option,
+                                                          Unit unit, const CommandLine& line) {
+    if (text.empty()) return {};
+    Length length;
+    Problems problems;
+    const Mark mark = line.find(option);
+    if (OptionType<Length>::parse(Value::scalar(text, mark), length, problems) && !(length.amount >= 0))
+        problems.add(mark, "E-RANGE", fmt::format("{} is a distance, found {}", option, text), "at least 0");
+    problems.throw_if_any(ErrorKind::usage);
+    if (length.kind == Length::Kind::percent) return report::ComparisonSettings::Limit{length.amount, true};
+    if (length.kind == Length::Kind::scene) return report::ComparisonSettings::Limit{length.amount, false};
+    if (!(metres(unit) > 0))
+        throw Error(ErrorKind::usage, "E-UNIT",
+                    fmt::format("{} is {}, but the first file has no unit", option, text),
+                    "give a bare number or a percentage", mark);
+    return report::ComparisonSettings::Limit{length.amount / metres(unit), false};
+}
+
+/// Reads a file; what its reader could not keep is noted, so that it is not taken for the same.
+Scene read(const std::string& name, bool is_a, report::Comparison& notes, const Console& console) {
+    io::ReadLog log;
+    const io::Input input = io::Input::open(name);
+    Scene scene = io::read_scene(input, {}, log);
+    (is_a ? notes.size_a : notes.size_b) = size_of(name, input.stored(), log);
+    for (const auto& warning : log.warnings) {
+        console.diagnostic(warning);
+        if (warning.is_loss) notes.left_out.push_back({is_a, warning.message});
+    }
+    return scene;
+}
+
+/// What a file does not state is as the command line says.
+void state(Scene& scene, const DiffOptions& options) {
+    if (scene.unit == Unit::unknown) scene.unit = unit_named(options.unit).value_or(Unit::unknown);
+    if (scene.up == UpAxis::unknown && !options.up.empty())
+        scene.up = options.up == "y" ? UpAxis::y : UpAxis::z;
+}
+
+/// Whether the scene is one part that is called like its file: a format without names.
+bool is_named_by_file(const Scene& scene, const std::string& file) {
+    const std::string own = file == "-" ? "standard input" : std::filesystem::path(file).stem().string();
+    return scene.parts.size() == 1 && scene.parts[0].name == own;
+}
+
+} // namespace
+
+ComparedFiles compared_files(const DiffOptions& options, const std::string& name_a, const std::string& name_b,
+                             const CommandLine& line, const Console& console) {
+    report::Comparison notes;
+    ComparedFiles out;
+    Scene &a = out.a, &b = out.b;
+    a = read(name_a, true, notes, console);
+    b = read(name_b, false, notes, console);
+    state(a, options);
+    state(b, options);
+    io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
+                    b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
+    if (is_named_by_file(a, name_a) && is_named_by_file(b, name_b)) b.parts[0].name = a.parts[0].name;
+    auto settings = options.settings;
+    settings.maximum = limit_of(options.maximum, "--max", a.unit, line);
+    settings.rms = limit_of(options.rms, "--rms", a.unit, line);
+    settings.mean = limit_of(options.mean, "--mean", a.unit, line);
+    out.comparison = report::compare(a, b, settings);
+    out.comparison.left_out = std::move(notes.left_out);
+    out.comparison.size_a = notes.size_a;
+    out.comparison.size_b = notes.size_b;
+    return out;
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,38 @@
+#pragma once
+// What `facetmill diff` does with one pair of files, and with two folders of them.
+
+#include "cli/command.hpp"
+#include "cli/confine.hpp"
+#include "diff/comparison.hpp"
+
+#include <filesystem>
+
+namespace facetmill::cli {
+
+struct DiffOptions {
+    std::string a, b, maximum, rms, mean;
+    std::vector<std::string> ignored;
+    report::ComparisonSettings settings;
+    std::string unit, up;             ///< of files that state none
+    std::vector<std::string> reports; ///< pages and Markdown files to write
+    bool json = false, all = false;
+    int threads = 0;
+    SandboxOptions sandbox;
+};
+
+/// A pair that was read and compared, the second scene in the convention of the first.
+struct ComparedFiles {
+    Scene a, b;
+    report::Comparison comparison;
+};
+/// Throws as a file is read: missing, malformed, usage for a limit in a unit that the first file has not.
+ComparedFiles compared_files(const DiffOptions& options, const std::string& a, const std::string& b,
+                             const CommandLine& line, const Console& console);
+
+/// Where the pages of the pairs are: "changes.html" -> "changes".
+std::filesystem::path folder_of_pages(const std::string& index);
+/// Compares the files below both folders one pair after the other, prints, writes the reports, and returns
+/// the exit code: the gravest of those of the pairs.
+int diff_of_folders(const DiffOptions& options, const CommandLine& line, const Console& console);
+
+} // namespace facetmill::cli

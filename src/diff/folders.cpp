@@ -1,0 +1,262 @@
+#include "diff/folders.hpp"
+
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "base/words.hpp"
+#include "io/codec.hpp"
+#include "report/html_parts.hpp"
+#include "report/markdown_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::report {
+
+namespace fs = std::filesystem;
+using FolderOutcome = FolderPair::Outcome;
+
+namespace {
+
+void add_paths(const fs::path& folder, std::set<std::string>& paths) {
+    std::error_code error;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+        std::error_code unknown;
+        if (!at->is_regular_file(unknown)) continue;
+        const auto* codec = io::codec_for(at->path());
+        if (codec && codec->read) paths.insert(at->path().lexically_relative(folder).generic_string());
+    }
+    if (error)
+        throw Error(ErrorKind::missing, "E-FILE",
+                    fmt::format("cannot look into '{}': {}", folder.string(), error.message()),
+                    "check its permissions");
+}
+
+std::string tally(const FolderComparison& c) {
+    std::string text;
+    for (const auto outcome : {FolderOutcome::failed, FolderOutcome::differs, FolderOutcome::removed,
+                               FolderOutcome::added, FolderOutcome::same}) {
+        const auto count = std::count_if(c.pairs.begin(), c.pairs.end(),
+                                         [&](const FolderPair& p) { return p.outcome == outcome; });
+        if (count > 0)
+            append_item(text,
+                        fmt::format("{} {}", grouped(static_cast<std::uint64_t>(count)), to_string(outcome)));
+    }
+    return text.empty() ? "no mesh files" : text;
+}
+
+std::string percent_text(const FolderPair& pair) {
+    if (!pair.percent) return {};
+    return std::isfinite(*pair.percent) ? fmt::format("{:.3g} %", *pair.percent) : "not comparable";
+}
+
+const char* kind_of_pair(const FolderPair& pair) {
+    if (pair.outcome == FolderOutcome::same) return "good";
+    return pair.outcome == FolderOutcome::added ? "warn" : "bad";
+}
+
+std::string change_text(std::uint64_t a, std::uint64_t b, std::string (*tell)(std::uint64_t)) {
+    return a == b ? tell(a) : fmt::format("{} → {}", a > 0 ? tell(a) : "-", b > 0 ? tell(b) : "-");
+}
+
+/// Small ones stay in the page, as long as it stays one that a browser opens at once.
+std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
+    constexpr std::size_t most = 2'500'000;
+    std::string cells;
+    for (const auto* picture : {&pair.picture_a, &pair.picture_b}) {
+        const bool fits = !picture->empty() && bytes + picture->size() <= most;
+        if (fits) bytes += picture->size();
+        cells += cell(
+            fits ? fmt::format("<img alt=\"{}: {}\" style=\"width:7rem\" src=\"data:image/png;base64,{}\">",
+                               escaped(pair.path), picture == &pair.picture_a ? "first" : "second", *picture)
+                 : "");
+    }
+    return cells;
+}
+
+/// A path as a relative address.
+std::string address(const std::string& path) {
+    std::string out;
+    for (const char c : path) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                           std::string_view("-_./~").find(c) != std::string_view::npos;
+        out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out;
+}
+
+std::string name_html(const FolderPair& pair) {
+    if (pair.page.empty()) return code(pair.path);
+    return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), code(pair.path));
+}
+
+} // namespace
+
+const char* to_string(FolderOutcome outcome) {
+    switch (outcome) {
+    case FolderOutcome::failed:
+        return "failed";
+    case FolderOutcome::differs:
+        return "differs";
+    case FolderOutcome::removed:
+        return "removed";
+    case FolderOutcome::added:
+        return "added";
+    case FolderOutcome::same:
+        break;
+    }
+    return "same";
+}
+
+bool FolderComparison::differs() const {
+    return std::any_of(pairs.begin(), pairs.end(),
+                       [](const FolderPair& p) { return p.outcome != FolderOutcome::same; });
+}
+
+std::vector<std::string> paths_in(const fs::path& a, const fs::path& b) {
+    std::set<std::string> paths;
+    add_paths(a, paths);
+    add_paths(b, paths);
+    return {paths.begin(), paths.end()};
+}
+
+void tell(const Comparison& comparison, FolderPair& pair) {
+    pair.outcome = comparison.differs() ? FolderOutcome::differs : FolderOutcome::same;
+    pair.verdict = verdict_of(comparison);
+    pair.faces_a = static_cast<std::uint64_t>(comparison.properties_a.faces);
+    pair.faces_b = static_cast<std::uint64_t>(comparison.properties_b.faces);
+    if (comparison.size_a) pair.bytes_a = comparison.size_a->bytes;
+    if (comparison.size_b) pair.bytes_b = comparison.size_b->bytes;
+    if (comparison.deviation) pair.percent = comparison.deviation->percent(comparison.deviation->maximum());
+    for (const char* section : comparison_sections)
+        if (std::any_of(comparison.lines.begin(), comparison.lines.end(), [&](const Difference& d) {
+                return d.section == section && !d.same && !comparison.ignored.contains(section);
+            }))
+            append_item(pair.differs_in, section);
+}
+
+std::vector<std::size_t> worst_first(const FolderComparison& comparison) {
+    std::vector<std::size_t> order(comparison.pairs.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto far = [&](std::size_t i) { return comparison.pairs[i].percent.value_or(0); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+        const auto x = comparison.pairs[i].outcome, y = comparison.pairs[k].outcome;
+        return x != y ? x < y : far(i) > far(k);
+    });
+    return order;
+}
+
+std::string to_text(const FolderComparison& c, const std::string& name_a, const std::string& name_b,
+                    bool all) {
+    std::string text =
+        fmt::format("{} and {} {}: {}\n", name_a, name_b, c.differs() ? "differ" : "agree", tally(c));
+    for (const std::size_t i : worst_first(c)) {
+        const FolderPair& pair = c.pairs[i];
+        if (pair.outcome == FolderOutcome::same && !all) continue;
+        std::string more = pair.outcome == FolderOutcome::failed ? pair.verdict : pair.differs_in;
+        if (const std::string percent = percent_text(pair); !percent.empty())
+            append_item(more, "deviation " + percent, "; ");
+        text += fmt::format("  {:<8} {:<40} {}\n", to_string(pair.outcome), pair.path, more);
+    }
+    return text;
+}
+
+Json to_json(const FolderComparison& c, const std::string& name_a, const std::string& name_b) {
+    Json files = Json::array();
+    for (const std::size_t i : worst_first(c)) {
+        const FolderPair& p = c.pairs[i];
+        files.push_back(
+            {{"path", p.path},
+             {"outcome", to_string(p.outcome)},
+             {"exit_code", p.exit_code},
+             {"verdict", p.verdict},
+             {"differs_in", p.differs_in},
+             {"deviation_percent", p.percent && std::isfinite(*p.percent) ? Json(*p.percent) : Json(nullptr)},
+             {"faces", {{"a", p.faces_a}, {"b", p.faces_b}}},
+             {"bytes", {{"a", p.bytes_a}, {"b", p.bytes_b}}},
+             {"page", p.page.empty() ? Json(nullptr) : Json(p.page)}});
+    }
+    return {{"a", name_a}, {"b", name_b}, {"same", !c.differs()}, {"files", std::move(files)}};
+}
+
+std::string to_html(const FolderComparison& c, const std::string& name_a, const std::string& name_b) {
+    std::string rows;
+    std::size_t bytes = 0;
+    for (const std::size_t i : worst_first(c)) {
+        const FolderPair& p = c.pairs[i];
+        rows += fmt::format(
+            "<tr>{}{}{}{}{}{}{}</tr>\n",
+            cell(fmt::format("<span class=\"badge {}\">{}</span>", kind_of_pair(p), to_string(p.outcome))),
+            cell(name_html(p)), picture_cells(p, bytes), number_cell(percent_text(p)),
+            number_cell(change_text(p.faces_a, p.faces_b, grouped)),
+            number_cell(change_text(p.bytes_a, p.bytes_b, sized)),
+            cell(escaped(p.outcome == FolderOutcome::failed ? p.verdict : p.differs_in)));
+    }
+    std::string out =
+        html_begin(fmt::format("{} and {}", name_a, name_b), "Compared by facetmill diff, the worst first.");
+    out += fmt::format("<p class=\"verdict {}\">{}: {}</p>\n", c.differs() ? "bad" : "good",
+                       c.differs() ? "differ" : "agree", tally(c));
+    return out +
+           table(
+               "Files",
+               heads({"outcome", "file", "first", "second", "#deviation", "#faces", "#bytes", "differs in"}),
+               rows) +
+           html_end();
+}
+
+std::string to_markdown(const FolderComparison& c, const std::string& name_a, const std::string& name_b) {
+    std::vector<std::vector<std::string>> rows;
+    std::size_t same = 0;
+    for (const std::size_t i : worst_first(c)) {
+        const FolderPair& p = c.pairs[i];
+        if (p.outcome == FolderOutcome::same) {
+            ++same;
+            continue;
+        }
+        const std::string name = p.page.empty()
+                                     ? markdown_escaped(p.path)
+                                     : fmt::format("[{}]({})", markdown_escaped(p.path), address(p.page));
+        rows.push_back({to_string(p.outcome), name, percent_text(p),
+                        change_text(p.faces_a, p.faces_b, grouped), change_text(p.bytes_a, p.bytes_b, sized),
+                        markdown_escaped(p.outcome == FolderOutcome::failed ? p.verdict : p.differs_in)});
+    }
+    std::string out = fmt::format("## {} and {}\n\n**{}: {}**\n", markdown_escaped(name_a),
+                                  markdown_escaped(name_b), c.differs() ? "differ" : "agree", tally(c));
+    out += markdown_table("Files", {"outcome", "file", "deviation", "faces", "bytes", "differs in"}, rows);
+    if (same > 0) out += fmt::format("\n{} the same.\n", counted(same, "file is", "files are"));
+    return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
+}
+
+Json folder_comparison_schema() {
+    const auto typed = [](const char* type) { return Json{{"type", type}}; };
+    const auto closed = [](Json properties) {
+        Json required = Json::array();
+        for (const auto& [key, value] : properties.items()) required.push_back(key);
+        return Json{{"type", "object"},
+                    {"required", required},
+                    {"additionalProperties", false},
+                    {"properties", properties}};
+    };
+    const Json both = closed({{"a", typed("integer")}, {"b", typed("integer")}});
+    const Json file = closed({{"path", typed("string")},
+                              {"outcome", {{"enum", {"failed", "differs", "removed", "added", "same"}}}},
+                              {"exit_code", typed("integer")},
+                              {"verdict", typed("string")},
+                              {"differs_in", typed("string")},
+                              {"deviation_percent", {{"type", {"number", "null"}}}},
+                              {"faces", both},
+                              {"bytes", both},
+                              {"page", {{"type", {"string", "null"}}}}});
+    Json schema = closed({{"a", typed("string")},
+                          {"b", typed("string")},
+                          {"same", typed("boolean")},
+                          {"files", {{"type", "array"}, {"items", file}}}});
+    Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                {"title", "facetmill diff of folders"}};
+    out.update(schema);
+    return out;
+}
+
+} // namespace facetmill::report

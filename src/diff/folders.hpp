@@ -1,0 +1,50 @@
+#pragma once
+// Two folders of mesh files side by side: what `facetmill diff A/ B/` finds, as text, JSON and an index.
+
+#include "diff/comparison.hpp"
+
+#include <filesystem>
+
+namespace facetmill::report {
+
+/// A file of either folder, by its path in them.
+struct FolderPair {
+    enum class Outcome { failed, differs, removed, added, same }; ///< the worst first
+    std::string path;                                             ///< with slashes
+    Outcome outcome = Outcome::same;
+    int exit_code = 0;   ///< as that of `facetmill diff` of the two
+    std::string verdict; ///< "agree", or why it failed
+    std::optional<double>
+        percent; ///< the largest deviation, of the first file's diagonal; none: not measured
+    std::uint64_t faces_a = 0, faces_b = 0, bytes_a = 0, bytes_b = 0;
+    std::string differs_in;           ///< "counts, geometry"
+    std::string page;                 ///< of this pair, from the index; empty: none
+    std::string picture_a, picture_b; ///< small PNGs in base64; empty: none
+};
+const char* to_string(FolderPair::Outcome outcome);
+
+struct FolderComparison {
+    std::vector<FolderPair> pairs; ///< in the order of their paths
+    bool differs() const;          ///< anything but the same files that agree
+};
+
+/// The mesh files below both folders, by their paths in them, in that order; what is there twice, once.
+/// Links to folders are not followed. Throws missing (E-FILE) when a folder cannot be looked into.
+std::vector<std::string> paths_in(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Fills in what an index tells of a pair.
+void tell(const Comparison& comparison, FolderPair& pair);
+
+/// Numbers of the pairs, the worst first: failures, then by how far they are apart.
+std::vector<std::size_t> worst_first(const FolderComparison& comparison);
+
+std::string to_text(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b,
+                    bool all);
+Json to_json(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b);
+/// A page with a row for each pair, linked to the pair's own page.
+std::string to_html(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b);
+std::string to_markdown(const FolderComparison& comparison, const std::string& name_a,
+                        const std::string& name_b);
+Json folder_comparison_schema();
+
+} // namespace facetmill::report

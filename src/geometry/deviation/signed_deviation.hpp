@@ -1,0 +1,44 @@
+#pragma once
+// On which side of a surface a scene lies, and how far off: what pages show as colours.
+
+#include "geometry/spatial/face_tree.hpp"
+#include "mesh/scene.hpp"
+
+#include <string_view>
+
+namespace facetmill {
+
+/// The vertex attribute of SignedDeviation::scene.
+inline constexpr std::string_view distance_attribute = "distance";
+
+struct SignedDeviationSettings {
+    /// Vertices that are looked up. Where there are more, one stands for those in its cell of a grid, but
+    /// around the farthest of these all are looked up.
+    std::size_t vertices = 60000;
+    std::size_t samples = 20000; ///< points spread over the area
+    std::uint64_t seed = 1;
+};
+
+/// Distances are positive outside: on the side that the nearest face of the reference looks to.
+struct SignedDeviation {
+    /// The faces alone, each vertex with its distance (0 where it is not finite). Large faces are
+    /// cut into small ones, so that what happens inside them is seen.
+    Scene scene;
+    bool is_cut = false;        ///< some are
+    std::vector<float> samples; ///< distances of points spread over the area; of vertices where there is none
+    std::size_t looked_up = 0;  ///< points in all
+    double low = 0, high = 0;   ///< the smallest and the largest distance that was seen
+    double mean = 0, rms = 0;   ///< of the amounts of the samples
+    Vec3 worst;                 ///< the vertex or sample that is farthest, in the world
+    double worst_distance = 0;
+    Vec3 worst_normal; ///< of the faces there, not of unit length; zero where there are none
+    bool any() const { return looked_up > 0; }
+};
+
+/// From the scene, in world space, to the reference: what the reference has and the scene has not does not
+/// show. Nothing when the reference is empty, or the scene. The same for any number of threads.
+/// O((vertices + samples) log n).
+SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
+                                 const SignedDeviationSettings& settings = {});
+
+} // namespace facetmill

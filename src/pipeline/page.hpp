@@ -1,0 +1,62 @@
+#pragma once
+// What a page shows of a run and nothing else needs: pictures, distances as colours, histograms.
+
+#include "geometry/render/render.hpp"
+#include "geometry/spatial/face_tree.hpp"
+#include "io/gltf/looks.hpp"
+#include "pipeline/plan.hpp"
+#include "report/record.hpp"
+
+#include <memory>
+
+namespace facetmill::pipeline {
+
+/// Collects it while a run goes on. Pictures become smaller, and are left out at last, before the page goes
+/// beyond its 3 MB; the record says so. Calls throw as pictures do (limit).
+class Page {
+  public:
+    explicit Page(report::RunRecord& record) : record_(record) {}
+
+    /// A scene that distances are taken from. Shared by the arms of a branch.
+    struct Reference {
+        std::string name; ///< "the scene as loaded"
+        std::shared_ptr<const Surface> surface;
+        std::shared_ptr<const FaceTree> tree; ///< made when it is first needed
+        ShapeHistograms shape;
+        std::size_t faces = 0;
+    };
+    /// Of results; an arm that moves the scene has one of its own from there on.
+    std::shared_ptr<Reference> reference() const { return loaded_; }
+    void set_reference(std::shared_ptr<Reference> reference) { loaded_ = std::move(reference); }
+
+    /// Before the stage works on the scene.
+    void before(const Step& step, const Scene& scene);
+    /// After it: its picture, distances where it measured such, and the results that it wrote, which are the
+    /// outputs from that number on.
+    void after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output);
+    /// Pictures of the checks from that number on that did not hold; a run that ends there shows its scene.
+    void failures(const std::string& step, const Scene& scene, std::size_t first_check);
+    /// When nothing was written.
+    void at_end(const Scene& scene);
+
+  private:
+    bool is_full() const;
+    PictureSettings sized_for_page() const;
+    const Camera& camera_for(const Scene& scene);
+    void add_picture(const Scene& scene, report::StageRecord& stage);
+    void add_result(const std::string& name, const Scene& scene);
+    report::DeviationView distances(const Scene& scene, Reference& from);
+    std::string picture_of_failure(const Scene& scene, const report::Check& check);
+
+    report::RunRecord& record_;
+    std::shared_ptr<Reference> loaded_, entering_;
+    std::shared_ptr<const Surface> shown_, shown_from_; ///< of the last distances, and of what they were from
+    std::string shown_at_;                              ///< where these stand
+    std::string last_picture_;
+    Camera camera_;
+    int cameras_ = 0;      ///< so far
+    io::LookReader looks_; ///< textures of the pictures, decoded once
+    std::size_t bytes_ = 0, measured_stages_ = 0, failures_shown_ = 0;
+};
+
+} // namespace facetmill::pipeline

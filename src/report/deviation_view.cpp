@@ -1,0 +1,79 @@
+#include "report/deviation_view.hpp"
+
+#include "base/portable_math.hpp"
+#include "geometry/deviation/signed_deviation.hpp"
+#include "io/png.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facetmill::report {
+
+namespace {
+
+/// Half the width of the scale: all of it, or, where few points are far off, what holds all but a hundredth.
+double colour_limit(const SignedDeviation& d) {
+    const double most = std::max(-d.low, d.high);
+    std::vector<float> amounts;
+    for (const float x : d.samples) amounts.push_back(std::abs(x));
+    if (amounts.empty()) return most;
+    const auto at = amounts.begin() + static_cast<std::ptrdiff_t>((amounts.size() - 1) * 99 / 100);
+    std::nth_element(amounts.begin(), at, amounts.end());
+    return *at > 0 && *at < most / 4 ? static_cast<double>(*at) : most;
+}
+
+std::vector<std::uint64_t> counted_in_bins(const std::vector<float>& distances, double limit) {
+    constexpr std::size_t bins = 41; // an odd number: one around 0
+    std::vector<std::uint64_t> counts(bins);
+    for (const double d : distances) {
+        const double at = limit > 0 ? (d / limit + 1) / 2 * bins : bins / 2.0;
+        ++counts[static_cast<std::size_t>(std::clamp(at, 0.0, bins - 1.0))];
+    }
+    return counts;
+}
+
+std::string encoded_picture(const Scene& scene, const PictureSettings& settings) {
+    return io::base64(io::png(picture_of(scene, settings)));
+}
+
+void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& normal, bool cut,
+                   DeviationView& view) {
+    settings.attribute = std::string(distance_attribute);
+    settings.range = {ColourRange::Kind::given, -view.limit, view.limit, true};
+    settings.edges = EdgeLines::no;
+    view.picture = encoded_picture(scene, settings);
+    settings.camera.reset();
+    settings.turn = pi;
+    view.behind = encoded_picture(scene, settings);
+    settings.turn = 0;
+    if (length(normal) > 0 && is_finite(normal)) settings.from = normal;
+    settings.zoom = 10;
+    settings.at = view.worst;
+    settings.marks = {view.worst};
+    if (!cut) settings.edges = EdgeLines::all;
+    view.close = encoded_picture(scene, settings);
+}
+
+} // namespace
+
+DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
+                             const std::optional<PictureSettings>& pictures) {
+    const SignedDeviation d = signed_deviation(scene, from.tree);
+    DeviationView view;
+    view.from = from.name;
+    view.unit = scene.unit == Unit::unknown ? "" : to_string(scene.unit);
+    view.diagonal = from.diagonal;
+    view.points = d.looked_up;
+    view.low = d.low;
+    view.high = d.high;
+    view.mean = d.mean;
+    view.rms = d.rms;
+    view.worst = d.worst;
+    view.worst_distance = d.worst_distance;
+    view.limit = colour_limit(d);
+    view.counts = counted_in_bins(d.samples, view.limit);
+    if (pictures && d.any()) take_pictures(d.scene, *pictures, d.worst_normal, d.is_cut, view);
+    return view;
+}
+
+} // namespace facetmill::report

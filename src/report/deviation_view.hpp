@@ -1,0 +1,22 @@
+#pragma once
+// Distances of a scene from an earlier one as pages show them: numbers, a histogram, pictures in colours.
+
+#include "geometry/render/render.hpp"
+#include "geometry/spatial/face_tree.hpp"
+#include "report/views.hpp"
+
+namespace facetmill::report {
+
+/// What distances are from.
+struct EarlierSurface {
+    std::string name; ///< "the scene as loaded"
+    double diagonal = 0;
+    const FaceTree& tree;
+};
+
+/// Both in world space. pictures: their size and camera; none: only numbers. Throws as picture_of.
+/// O((vertices + faces) log n), of at most 60000 vertices and some around the worst place.
+DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
+                             const std::optional<PictureSettings>& pictures);
+
+} // namespace facetmill::report

@@ -1,0 +1,92 @@
+// How far a scene is from an earlier one, on a page.
+
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "geometry/render/colour_scale.hpp"
+#include "geometry/render/srgb.hpp"
+#include "report/html_parts.hpp"
+#include "report/html_sections.hpp"
+#include "report/svg.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+/// "0.012", with a sign, and without one of a zero.
+std::string signed_text(double x) { return x == 0 ? "0" : fmt::format("{:+.3g}", x); }
+
+std::string length_text(const DeviationView& view, double x) {
+    const std::string unit = view.unit.empty() ? "" : " " + view.unit;
+    if (!(view.diagonal > 0) || !std::isfinite(view.diagonal)) return fmt::format("{:.4g}{}", x, unit);
+    return fmt::format("{:.4g}{} ({:.3g} %)", x, unit, 100 * std::abs(x) / view.diagonal);
+}
+
+BarChart chart_of(const DeviationView& view, const std::string& id) {
+    BarChart chart{.id = id + "-histogram", .title = "Distances from " + view.from};
+    double total = 0;
+    for (const auto count : view.counts) total += static_cast<double>(count);
+    const auto bins = static_cast<double>(view.counts.size());
+    for (std::size_t i = 0; i < view.counts.size(); ++i) {
+        // Roots, so that the few points far off are seen beside the many on the surface.
+        chart.heights.push_back(std::sqrt(static_cast<double>(view.counts[i]) / std::max(total, 1.0)));
+        const Colour c = on_a_diverging_scale((static_cast<double>(i) + 0.5) / bins);
+        chart.colours.push_back(
+            fmt::format("#{:02x}{:02x}{:02x}", srgb_of(c[0]), srgb_of(c[1]), srgb_of(c[2])));
+    }
+    for (const double at : {0.0, 0.25, 0.5, 0.75, 1.0})
+        chart.ticks.emplace_back(at, signed_text((2 * at - 1) * view.limit));
+    chart.scale = true;
+    chart.description = fmt::format(
+        "Points of the surface by their signed distance, from {} inside to {} outside; their mean "
+        "amount is {}, the root mean square {}. Bars are drawn by the square root of their share.",
+        length_text(view, view.low), length_text(view, view.high), length_text(view, view.mean),
+        length_text(view, view.rms));
+    return chart;
+}
+
+std::string number_rows(const DeviationView& view) {
+    const auto row = [](const char* name, const std::string& text) {
+        return fmt::format("<tr><th scope=\"row\">{}</th>{}</tr>\n", name, cell(escaped(text)));
+    };
+    return row("farthest inside", length_text(view, view.low)) +
+           row("farthest outside", length_text(view, view.high)) + row("mean", length_text(view, view.mean)) +
+           row("root mean square", length_text(view, view.rms)) + row("farthest at", readable(view.worst)) +
+           row("points measured", grouped(view.points));
+}
+
+std::string beyond_text(const DeviationView& view) {
+    return std::max(-view.low, view.high) > view.limit * (1 + 1e-9)
+               ? " What is farther has the colour of the end."
+               : "";
+}
+
+} // namespace
+
+std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name) {
+    const std::string caption =
+        fmt::format("{}: signed distance from {}; red is outside, blue inside", name, view.from);
+    std::string out = "<div class=\"deviation\">\n";
+    if (!view.picture.empty()) out += figure(picture(id + "-colours", caption, view.picture), caption);
+    if (!view.behind.empty()) {
+        const std::string behind = fmt::format("{}: the same from behind", name);
+        out += figure(picture(id + "-behind", behind, view.behind), behind);
+    }
+    if (!view.close.empty()) {
+        const std::string worst = fmt::format("{}: the worst place, magnified ten times ({})", name,
+                                              length_text(view, view.worst_distance));
+        out += figure(picture(id + "-worst", worst, view.close), worst);
+    }
+    out += "<div class=\"wide\">" + svg_of(chart_of(view, id)) +
+           fmt::format(
+               "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
+               "diagonal of {}.{} What {} has and {} lost is not seen here.</p>\n",
+               view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(view.from), beyond_text(view),
+               escaped(view.from), escaped(name)) +
+           subtable("Distances", "", number_rows(view)) + "</div>\n";
+    return out + "</div>\n";
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,73 @@
+// What people ask first of a run.
+
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "base/words.hpp"
+#include "report/check_text.hpp"
+#include "report/html_parts.hpp"
+#include "report/html_sections.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+struct FaceCounts {
+    const StageRecord *first = nullptr, *last = nullptr;
+    std::size_t warnings = 0;
+};
+
+FaceCounts counts_of(const RunRecord& record) {
+    FaceCounts out{nullptr, nullptr, record.warnings.size()};
+    for (const auto& stage : record.stages) {
+        out.warnings += stage.warnings.size();
+        if (stage.after && !out.first) out.first = &stage;
+        if (stage.after) out.last = &stage;
+    }
+    return out;
+}
+
+std::string total_of(const std::vector<FileRecord>& files) {
+    std::uint64_t bytes = 0;
+    for (const auto& file : files) bytes += file.bytes;
+    return fmt::format("{} in {}", sized(bytes), counted(files.size(), "file"));
+}
+
+/// The largest of the outputs; empty when none was measured.
+std::string deviation_text(const RunRecord& record) {
+    const DeviationView* worst = nullptr;
+    for (const OutputView& view : record.views)
+        if (view.deviation &&
+            (!worst || std::abs(view.deviation->worst_distance) > std::abs(worst->worst_distance)))
+            worst = &*view.deviation;
+    if (!worst) return {};
+    const double most = std::abs(worst->worst_distance);
+    return worst->diagonal > 0 ? fmt::format("{:.3g} % of the diagonal, from {}",
+                                             100 * most / worst->diagonal, escaped(worst->from))
+                               : fmt::format("{:.4g}", most);
+}
+
+} // namespace
+
+std::string glance_section(const RunRecord& record, bool with_time) {
+    const FaceCounts counts = counts_of(record);
+    std::string rows;
+    const auto row = [&](const char* name, const std::string& text) {
+        if (!text.empty()) rows += fmt::format("<tr><th scope=\"row\">{}</th>{}</tr>\n", name, cell(text));
+    };
+    if (counts.first)
+        row("faces", fmt::format("{} &rarr; {}", grouped(counts.first->after->faces),
+                                 grouped(counts.last->after->faces)));
+    row("inputs", total_of(record.inputs));
+    row("outputs", total_of(record.outputs));
+    row("deviation", deviation_text(record));
+    row("checks", passed_text(record) + " passed");
+    row("warnings", grouped(counts.warnings));
+    if (with_time)
+        row("time", fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory)));
+    return table("At a glance", "", rows);
+}
+
+} // namespace facetmill::report

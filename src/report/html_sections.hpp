@@ -1,0 +1,26 @@
+#pragma once
+// The sections of a run's page. Each is empty when there is nothing to tell.
+
+#include "report/record.hpp"
+
+#include <string>
+
+namespace facetmill::report {
+
+/// What people ask first: faces, bytes, deviation, checks, warnings, and the time where it is asked for.
+std::string glance_section(const RunRecord& record, bool with_time);
+/// Each check that did not hold, with its margin and how to go on, and a table of all.
+std::string check_section(const RunRecord& record);
+/// What was written: its shape beside that of the input, and how far it is from it.
+std::string output_sections(const RunRecord& record);
+/// How far a scene is from an earlier one: a picture in colours, their scale with a histogram, and the worst
+/// place magnified. id: of its pictures in the page.
+std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name);
+/// Inputs and outputs: bytes and what they are spent on, digests, what reading back found.
+std::string file_sections(const RunRecord& record);
+/// Time and memory of each stage.
+std::string times_section(const RunRecord& record);
+/// The pipeline as it was written, and the command that runs it again.
+std::string source_section(const RunRecord& record);
+
+} // namespace facetmill::report

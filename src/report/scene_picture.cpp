@@ -1,0 +1,21 @@
+#include "report/scene_picture.hpp"
+
+#include "io/png.hpp"
+
+namespace facetmill::report {
+
+std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks) {
+    std::vector<Diagnostic> ignored;
+    settings.looks = looks.looks(scene, ignored);
+    return io::base64(io::png(picture_of(scene, settings)));
+}
+
+std::string small_picture(const Scene& scene) {
+    PictureSettings small;
+    small.width = 160;
+    small.height = 120;
+    io::LookReader looks;
+    return scene_picture(scene, small, looks);
+}
+
+} // namespace facetmill::report

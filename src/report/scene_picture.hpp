@@ -1,0 +1,18 @@
+#pragma once
+// Pictures of scenes inside pages.
+
+#include "geometry/render/render.hpp"
+#include "io/gltf/looks.hpp"
+
+#include <string>
+
+namespace facetmill::report {
+
+/// With the textures of its materials, a PNG in base64. A texture that cannot be drawn is left out without a
+/// word: the stage render warns of it.
+std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks);
+
+/// One of many in an index.
+std::string small_picture(const Scene& scene);
+
+} // namespace facetmill::report

@@ -1,0 +1,304 @@
+"""Pages for people: reports and comparisons as HTML. A browser (Chromium, without a window) opens them from disk: nothing
+is fetched, nothing is said on its console, and nothing sticks out at the widths of a phone, a tablet and a desk, in light
+and dark."""
+
+import html
+import json
+import re
+import shlex
+import subprocess
+import unittest
+
+from support import SLOW, Case, main
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+CLOSED = OPEN.replace("4 3 0", "4 4 0") + "3 0 2 1\n"
+
+# The page in frames of several widths; each tells how wide it became.
+FRAMES = """<!DOCTYPE html><html><body><pre id="told"></pre><script>
+const told = [];
+addEventListener("message", event => {{ told.push(event.data); told.sort();
+  document.getElementById("told").textContent = "TOLD" + JSON.stringify(told) + "END"; }});
+</script>{}</body></html>"""
+TELL = """<script>addEventListener("load", () => {
+  for (const part of document.querySelectorAll("details")) part.open = true;
+  const slider = document.querySelector("input[type=range]:not([hidden])");
+  if (slider) { slider.value = 80; slider.dispatchEvent(new Event("input")); }
+  const wide = [...document.querySelectorAll("body *")].filter(e => !e.closest(".scroll") && !e.closest("pre") &&
+    !e.closest("svg") && e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + "." + e.className);
+  parent.postMessage([innerWidth, document.documentElement.scrollWidth, matchMedia("(prefers-color-scheme: dark)").matches,
+    slider ? slider.closest("figure").style.getPropertyValue("--at") : "", wide.slice(0, 5).join(" ")], "*");
+});</script></body>"""
+WIDTHS = (390, 800, 1400)
+
+
+def shown(page):
+    """The text of a page, as people read it: without its style, its scripts and its tags."""
+    page = re.sub(r"<(style|script)>.*?</\1>", " ", page, flags=re.S)
+    page = re.sub(r' src="data:[^"]*"', "", page)
+    return html.unescape(re.sub(r"<[^>]+>", " ", page))
+
+
+def numbers(text):
+    return re.findall(r"(?<![\w.])-?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?", text)
+
+
+class Pages(Case):
+    def report(self, *line, expect=0, name="r.html", before=()):
+        run = self.mill("pipe", "--report", name, *before, *line, expect=expect)
+        return (self.dir / name).read_text(), run.stderr
+
+    def in_browser(self, name):
+        """[width, scrollable width, dark, slider, what sticks out] of each frame, light and dark."""
+        chromium = self.need("chromium", in_ci=False)
+        page = (self.dir / name).read_text()
+        self.write("framed.html", page.replace("</body>", TELL))
+        self.write("frames.html", FRAMES.format("".join(
+            f'<iframe src="framed.html" width="{w}" height="900" style="border:0"></iframe>' for w in WIDTHS)))
+        told = []
+        for dark in (0, 1):
+            run = subprocess.run(
+                [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
+                 "--virtual-time-budget=10000", "--window-size=1500,1000", f"--user-data-dir={self.dir / 'profile'}",
+                 f"--blink-settings=preferredColorScheme={1 - dark}", "--dump-dom", f"file://{self.dir}/frames.html"],
+                capture_output=True, text=True, timeout=300)
+            console = [line for line in run.stderr.splitlines() if "CONSOLE" in line]
+            self.assertEqual(console, [], name)
+            found = re.search(r"TOLD(.*?)END", run.stdout, re.S)
+            self.assertIsNotNone(found, f"{name}: the browser said nothing\n{run.stderr[-2000:]}")
+            frames = json.loads(html.unescape(found[1]))
+            self.assertEqual(sorted(f[0] for f in frames), sorted(WIDTHS), name)
+            for width, scroll, is_dark, _, wide in frames:
+                self.assertEqual(is_dark, bool(dark))
+                self.assertLessEqual(scroll, width, f"{name} at {width}: {wide}")
+                self.assertEqual(wide, "", f"{name} at {width}")
+            told += frames
+        return told
+
+    def fetches_nothing(self, page):
+        self.assertNotRegex(page, r'(?:src|href)="(?!data:)(?!\w[\w./-]*\.html")')
+        self.assertNotIn("http://", re.sub(r"<pre.*?</pre>", "", page, flags=re.S))
+        self.assertNotIn("@import", page)
+
+    @unittest.skipIf(SLOW, "a browser waits for the release build")
+    def test_a_browser_opens_reports(self):
+        self.write("o.off", OPEN)
+        page, _ = self.report("load", "o.off", "!", "validate", "--closed", "--edges", "6", "!", "write", "x.ply", expect=1)
+        self.fetches_nothing(page)
+        self.in_browser("r.html")
+        page, _ = self.report("generate", "sphere", "!", "relax", "2", "!", "simplify", "30%", "!", "write",
+                              "a-rather-long-name-of-a-file-that-does-not-fit-a-phone-" + "x" * 60 + ".glb",
+                              before=("--timings", "t.html"))
+        self.fetches_nothing(page)
+        self.in_browser("t.html")
+        frames = self.in_browser("r.html")
+        self.assertTrue(all(f[3] == "80%" for f in frames), "the slider moves the pictures")
+
+    @unittest.skipIf(SLOW, "a browser waits for the release build")
+    def test_a_browser_opens_comparisons(self):
+        for folder, ratio in (("a", "50%"), ("b", "40%")):
+            (self.dir / folder).mkdir()
+            self.mill("pipe", "generate", "sphere", "!", "simplify", ratio, "!", "write", f"{folder}/sphere.glb")
+        self.write("a/gone.off", OPEN)
+        self.write("b/new.off", OPEN)
+        self.mill("diff", "a", "b", "--report", "i.html", expect=1)
+        for name in ("i.html", "i/sphere.glb.html"):
+            self.fetches_nothing((self.dir / name).read_text())
+            self.in_browser(name)
+
+    def test_the_page_has_every_number_of_the_terminal(self):
+        self.write("o.off", CLOSED)
+        for line in ("load o.off ! measure --density 2 --curvature ! section z=0.2 ! probe 0.1,0.1,0.1 ! write o.ply",
+                     "generate sphere ! simplify 50% --certify ! write s.glb",
+                     "load o.off ! split ! clip z=0.25 --cap ! clean ! validate --closed --area.max 1 ! write o.stl"):
+            for timings in ((), ("--timings", "t.html")):
+                page, terminal = self.report(*line.split(), before=timings, expect=None)
+                text = shown((self.dir / "t.html").read_text() if timings else page)
+                terminal = terminal[terminal.index("\npipe\n"):] if "\npipe\n" in terminal else terminal
+                if not timings:  # times differ from run to run, and so does memory
+                    terminal = re.sub(r"[\d.]+ s\b|peak memory [\d.]+ \w+", "", terminal)
+                there = set(numbers(text))
+                self.assertGreater(len(numbers(terminal)), 5)
+                missing = [n for n in numbers(terminal) if n not in there]
+                self.assertEqual(missing, [], f"{line}\n{terminal}")
+
+    def test_times_are_told_where_they_are_asked_for(self):
+        self.write("o.off", CLOSED)
+        line = ("load", "o.off", "!", "split", "!", "write", "o.ply")
+        first, _ = self.report(*line)
+        again, _ = self.report(*line, before=("-j", "1"))
+        self.assertEqual(first, again)
+        self.assertNotIn("Time and memory", first)
+        beside, _ = self.report(*line, before=("--timings", "t.html"))
+        self.assertEqual(first, beside)
+        timed = (self.dir / "t.html").read_text()
+        section = timed[timed.index("<h2>Time and memory"):]
+        for name in ("load", "split", "write"):
+            self.assertIn(f"<td>{name}</td>", section)
+        self.mill("pipe", "--timings", "t.json", *line)
+        self.assertGreater(json.loads((self.dir / "t.json").read_text())["stages"][0]["peak_memory"], 0)
+
+    def test_a_failing_check_says_how_to_go_on(self):
+        self.write("o.off", OPEN)
+        page, _ = self.report("load", "o.off", "!", "validate", "--closed", "--faces.max", "2", expect=1)
+        text = shown(page)
+        for words in ("expected", "true", "found", "false", "margin", "1 too many (50 % of the limit)", "evidence",
+                      "clean: {holes: minimal}"):
+            self.assertIn(words, text)
+        self.assertIn('id="check-1" src="data:image/png', page)  # where it fails
+        commands = [html.unescape(c) for c in re.findall(r"<dt>(?:mend the input|reproduce)</dt><dd><pre[^>]*>(.*?)</pre>", page)]
+        self.assertEqual(commands[1], "facetmill pipe load o.off ! validate --closed --faces.max 2")
+        for command, code in zip(commands, (0, 1)):
+            self.mill(*shlex.split(command)[1:], expect=code)
+
+    def test_a_page_has_distances_histograms_files_and_the_pipeline(self):
+        page, _ = self.report("generate", "sphere", "!", "simplify", "25%", "!", "write", "s.glb")
+        self.assertEqual(page.count('role="img"'), 4)  # distances, edges, angles, aspect ratios
+        for title in ("Distances from", "Edge length", "Smallest angle of faces", "Aspect ratio of faces"):
+            self.assertRegex(page, f"<title[^>]*>{title}")
+        for id in re.findall(r'aria-labelledby="([^"]+)"', page):
+            for one in id.split():
+                self.assertEqual(page.count(f'id="{one}"'), 1)
+        self.assertIn("-worst\"", page)
+        self.assertIn("<h2>Pipeline</h2>", page)
+        self.assertIn("simplify: 25%", shown(page))
+        report = json.loads(self.mill("pipe", "--report", "r.json", "generate", "sphere", "!", "write", "s.glb") and
+                            (self.dir / "r.json").read_text())
+        contents = report["outputs"][0]["contents"]
+        self.assertEqual(sum(contents.values()), report["outputs"][0]["bytes"])
+        self.assertGreater(contents["json"], 100)
+
+    def test_names_are_text(self):
+        name = "<script>alert(1)</script>"
+        self.write("s.obj", f"o {name}\n" + "".join(f"v {x}\n" for x in ("0 0 0", "1 0 0", "0 1 0", "0 0 1")) +
+                   "f 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        page, _ = self.report("load", "s.obj", "!", "validate", "--closed", expect=1)
+        self.mill("diff", "s.obj", "s.obj", "--report", "d.html")
+        self.mill("pipe", "load", "s.obj", "!", "separate", "!", "write", "t.obj")
+        (self.dir / "x").mkdir()
+        (self.dir / "y").mkdir()
+        self.write("x/<img src=x>.obj", (self.dir / "s.obj").read_text())
+        self.write("y/other.obj", (self.dir / "s.obj").read_text())
+        self.mill("diff", "x", "y", "--report", "i.html", "--report", "i.md", expect=1)
+        for text in (page, (self.dir / "d.html").read_text(), (self.dir / "i.html").read_text()):
+            self.assertNotIn("<script>alert", text)
+            self.assertNotIn("<img src=x", text)
+        self.assertIn("&lt;script&gt;alert", page)
+
+    def test_nasty_scenes_have_pages(self):
+        self.write("empty.obj", "# nothing\n")
+        self.write("point.obj", "v 1 2 3\n")
+        self.write("line.off", "OFF\n3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2\n")
+        self.write("broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                   "property float quality\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                   "0 0 0 nan\n1 0 0 inf\n0 1 0 2\n3 0 1 2\n")
+        self.write("far.off", OPEN.replace("1 0 0", "1e300 0 0"))
+        for name in ("empty.obj", "point.obj", "line.off", "broken.ply", "far.off"):
+            run = self.mill("pipe", "--report", "r.html", "load", name, "!", "clean", "!", "simplify", "50%", "!",
+                            "write", "o.ply", expect=None)
+            self.assertIn(run.returncode, (0, 1, 5, 6), f"{name}\n{run.stderr}")
+            page = (self.dir / "r.html").read_text()
+            self.assertTrue(page.endswith("</html>\n"), name)
+            self.assertNotRegex(shown(page), r"\bnan\b|-nan", name)
+            run = self.mill("diff", name, "broken.ply", "--report", "d.html", expect=None)
+            self.assertIn(run.returncode, (0, 1, 6), f"{name}\n{run.stderr}")
+
+    def test_a_page_that_cannot_be_written(self):
+        self.write("o.off", OPEN)
+        (self.dir / "closed").mkdir()
+        (self.dir / "file").write_text("")
+        run = self.mill("pipe", "--report", "file/r.html", "load", "o.off", "!", "write", "x.ply", expect=4)
+        self.assertIn("file", run.stderr)
+        self.mill("diff", "o.off", "o.off", "--report", "file/d.html", expect=4)
+        (self.dir / "m").mkdir()
+        self.write("m/o.off", OPEN)
+        self.mill("diff", "m", "m", "--report", "file/i.html", expect=4)
+        self.assertEqual((self.dir / "file").read_text(), "")
+
+    def test_a_page_stays_small(self):
+        stages = []
+        for i in range(40):
+            stages += ["!", "crumple", "0.5%", "--seed", str(i), "--grid", "1"]
+        page, _ = self.report("generate", "sphere", *stages, "!", "write", "s.glb")
+        self.assertLess(len(page.encode()), 3_000_000)
+        self.assertIn("Later pictures are smaller", page)
+        self.assertRegex(page, r"<h3>crumple\D*40")
+
+    # --- folders
+
+    def folders(self):
+        for folder in ("a/sub", "b/sub"):
+            (self.dir / folder).mkdir(parents=True)
+        self.write("a/same.off", OPEN)
+        self.write("b/same.off", OPEN)
+        self.write("a/sub/moved.off", OPEN)
+        self.write("b/sub/moved.off", OPEN.replace("0 0 1", "0 0 1.5"))
+        self.write("a/little.off", OPEN)
+        self.write("b/little.off", OPEN.replace("0 0 1", "0 0 1.01"))
+        self.write("a/gone.off", OPEN)
+        self.write("b/new.off", OPEN)
+        self.write("b/readme.txt", "no mesh")
+
+    def test_folders_are_compared_worst_first(self):
+        self.folders()
+        run = self.mill("diff", "a", "b", expect=1)
+        order = [line.split()[:2] for line in run.stdout.splitlines()[1:]]
+        self.assertEqual(order, [["differs", "sub/moved.off"], ["differs", "little.off"], ["removed", "gone.off"],
+                                 ["added", "new.off"]])
+        self.mill("diff", "a", "b", "--report", "out/i.html", "--report", "out/i.md", expect=1)
+        self.assertEqual(sorted(p for p in self.files(self.dir / "out")),
+                         ["i.html", "i.md", "i/little.off.html", "i/same.off.html", "i/sub/moved.off.html"])
+        index = (self.dir / "out/i.html").read_text()
+        self.assertIn('<a href="i/sub/moved.off.html">', index)
+        self.assertLess(index.index("sub/moved.off"), index.index("little.off"))
+        self.assertIn("[sub/moved.off](i/sub/moved.off.html)", (self.dir / "out/i.md").read_text())
+        first = self.files(self.dir / "out")
+        self.mill("diff", "a", "b", "--report", "out/i.html", "--report", "out/i.md", "-j", "1", expect=1)
+        self.assertEqual(first, self.files(self.dir / "out"))
+
+    def test_exit_codes_of_folders(self):
+        self.folders()
+        self.mill("diff", "a", "a")
+        self.mill("diff", "a", "b", "--max", "90%", expect=1)  # files came and went
+        self.write("b/little.off", "OFF\nbroken")
+        run = self.mill("diff", "a", "b", "--report", "i.html", expect=6)
+        self.assertIn("failed   little.off", run.stdout)
+        self.assertIn("little.off", (self.dir / "i.html").read_text())
+        self.mill("diff", "a", "a/same.off", expect=2)
+        self.mill("diff", "a", "nowhere", expect=None)
+        (self.dir / "none").mkdir()
+        self.assertIn("no mesh files", self.mill("diff", "none", "none").stdout)
+
+    @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_comparisons_follow_their_schemas(self):
+        self.folders()
+        schema = json.loads(self.mill("schema", "diff-folders").stdout)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.validate(json.loads(self.mill("diff", "a", "b", "--json", expect=1).stdout), schema)
+        schema = json.loads(self.mill("schema", "diff").stdout)
+        found = json.loads(self.mill("diff", "a/little.off", "b/little.off", "--json", expect=1).stdout)
+        jsonschema.validate(found, schema)
+        self.assertEqual(found["changes"], [{"of": "part", "name": "little", "change": "changed", "note": "moved by up to 0.01"}])
+        self.assertEqual(found["bytes"]["a"]["all"], len(OPEN))
+
+    def test_a_comparison_tells_parts_and_materials(self):
+        def obj(parts):
+            return "".join(f"o {n}\nusemtl {m}\n" + "".join(f"v {x + dx} {y} {z}\n" for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0)))
+                           + f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i, (n, m, dx) in enumerate(parts))
+        self.write("a.obj", obj([("body", "red", 0), ("left", "blue", 3), ("right", "blue", 6)]))
+        self.write("b.obj", obj([("body", "red", 0), ("right", "blue", 7), ("top", "green", 9)]))
+        self.mill("diff", "a.obj", "b.obj", "--report", "d.html", "--report", "d.md", expect=1)
+        text = shown((self.dir / "d.html").read_text())
+        for words in (r"removed\s+left", r"changed\s+right", r"added\s+top", r"moved by up to 1\b", r"added\s+green",
+                      r"verdict\s+\d+ of \d+ sound", r"of geometry"):
+            self.assertRegex(text, words)
+        self.assertIn("| removed | left |", (self.dir / "d.md").read_text())
+
+
+if __name__ == "__main__":
+    main()
