@@ -115,10 +115,9 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "The folder that the paths of outputs are relative to. Default: the working directory.");
     arguments.add("--report", &options.reports,
                   "Also write a report: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
-    arguments.add(
-        "--timings", &options.timings,
-        "Write times, memory and threads to F.json, and show them in HTML reports. Other reports leave them "
-        "out, to be reproducible.");
+    arguments.add("--timings", &options.timings,
+                  "Write times, memory and threads to F.json, or the report's page with them to F.html.\n"
+                  "Reports leave them out, to be reproducible.");
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
