@@ -180,7 +180,7 @@ class Runner {
         stage.before = brief_of_cells(cells);
         trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, TracedStep::Way::always});
         const Stopwatch watch;
-        const Share share(settings_.progress ? &settings_.progress->share : nullptr);
+        const Share share(settings_.progress);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
             if (step.stage->loads) context.say(on_cells_.why);
@@ -190,7 +190,9 @@ class Runner {
         });
         stage.seconds = watch.seconds();
         if (done) stage.after = brief_of_cells(cells);
-        if (done && takes_pictures_ && cells.scene) add_picture(*cells.scene, stage);
+        if (done && takes_pictures_ && cells.scene)
+            failures_.guarded({}, "a picture",
+                              [&] { page_.after(step, *cells.scene, stage, record().outputs.size()); });
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
