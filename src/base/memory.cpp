@@ -67,6 +67,8 @@ std::optional<std::uint64_t> available_memory() {
     return least;
 }
 
+std::uint64_t memory_there() { return available_memory().value_or(std::uint64_t{4} << 30); }
+
 void require_memory(double bytes, const std::string& what, const std::string& hint) {
     if (bytes < 1 << 28) return; // not worth asking
     const auto there = available_memory();

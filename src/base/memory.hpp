@@ -10,6 +10,8 @@ namespace facetmill {
 /// Bytes that this process may still take: the least of what the machine has available, what its cgroups
 /// leave, and what RLIMIT_AS leaves. None where the system does not say.
 std::optional<std::uint64_t> available_memory();
+/// The same, and 4 GiB where the system does not say.
+std::uint64_t memory_there();
 
 /// Throws limit (E-MEMORY) when bytes are more than are available: "WHAT needs about 3.2 GiB, 1.9 GiB are
 /// available".

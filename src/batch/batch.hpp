@@ -123,8 +123,6 @@ Summary run(std::vector<Work> works, const Settings& settings, const Listener& l
 Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, ErrorKind kind,
                 const std::vector<Diagnostic>& why);
 
-/// Bytes that all assets together may take, if they may take all that is there.
-std::uint64_t memory_there();
 /// What jobs that run at a time may take: what was asked for, else (0) three quarters of what is there.
 std::uint64_t memory_for_jobs(std::uint64_t asked);
 

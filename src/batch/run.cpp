@@ -434,11 +434,6 @@ Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, E
     return summary;
 }
 
-std::uint64_t memory_there() {
-    constexpr std::uint64_t of_unknown = std::uint64_t{1} << 32;
-    return available_memory().value_or(of_unknown);
-}
-
 std::uint64_t memory_for_jobs(std::uint64_t asked) { return asked > 0 ? asked : memory_there() / 4 * 3; }
 
 std::vector<std::string> former_assets(const fs::path& output_dir, const std::string& pipeline) {

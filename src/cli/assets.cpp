@@ -1,7 +1,5 @@
 #include "cli/assets.hpp"
 
-#include "base/numbers.hpp"
-#include "options/byte_count.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -30,22 +28,6 @@ void add_memory_option(Arguments& arguments, AssetOptions& options, const std::s
                   fmt::format("The memory for all {} that run at the same time:\n8G, 500MB, 50% of what is "
                               "available. Default: 75%.",
                               jobs));
-}
-
-std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
-    if (text.empty()) return 0;
-    const Value value = Value::scalar(text, line.value(text));
-    Problems problems;
-    std::optional<double> bytes;
-    if (!text.ends_with('%'))
-        bytes = read_byte_count(value, problems);
-    else if (const auto share = parse_real(std::string_view(text).substr(0, text.size() - 1)))
-        bytes = static_cast<double>(batch::memory_there()) * std::min(*share, 100.0) / 100;
-    if (bytes && *bytes > 0) return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(*bytes));
-    const std::string hint = problems.all().empty() ? "" : problems.all().front().hint;
-    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
-                hint.empty() ? "8GB (1000000000 bytes each), 8GiB or 8G (1073741824), or 50%" : hint,
-                value.mark);
 }
 
 void check_sources(const AssetOptions& options, const CommandLine& line, Problems& problems) {

@@ -18,8 +18,6 @@ void add_asset_options(Arguments& arguments, AssetOptions& options);
 
 /// --memory: for all `jobs` ("assets") that run at the same time.
 void add_memory_option(Arguments& arguments, AssetOptions& options, const std::string& jobs);
-/// Bytes: "8GB", "8G", "50%" of what is there; 0 when it is not given. Throws usage (E-ARGUMENT).
-std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
 
 /// Adds what is wrong with the sources: none, some that exclude each other, standard input twice.
 void check_sources(const AssetOptions& options, const CommandLine& line, Problems& problems);

@@ -65,7 +65,6 @@ void add_sync_option(Arguments& arguments, PipelineOptions& options) {
 }
 
 std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
-    constexpr std::uint64_t of_unknown = std::uint64_t{4} << 30;
     if (text.empty()) return 0;
     const Value value = Value::scalar(text, line.value(text));
     Problems problems;
@@ -73,7 +72,7 @@ std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
     if (!text.ends_with('%'))
         bytes = read_byte_count(value, problems);
     else if (const auto share = parse_real(std::string_view(text).substr(0, text.size() - 1)))
-        bytes = static_cast<double>(available_memory().value_or(of_unknown)) * std::min(*share, 100.0) / 100;
+        bytes = static_cast<double>(memory_there()) * std::min(*share, 100.0) / 100;
     if (bytes && *bytes > 0) return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(*bytes));
     const std::string hint = problems.all().empty() ? "" : problems.all().front().hint;
     throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),

@@ -26,14 +26,14 @@ struct PipelineOptions {
 
 /// -D, --preset and --set.
 void add_param_options(Arguments& arguments, PipelineOptions& options);
+/// ... and --update-baseline.
+void add_value_options(Arguments& arguments, PipelineOptions& options);
 /// --memory, --partition and --scratch: meshes larger than memory.
 void add_cell_options(Arguments& arguments, PipelineOptions& options);
 /// What they ask for. Throws usage (E-ARGUMENT).
 pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);
 /// Bytes: "8GB", "8G", "50%" of what is there; 0 of an empty text. Throws usage (E-ARGUMENT).
 std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
-/// ... and --update-baseline.
-void add_value_options(Arguments& arguments, PipelineOptions& options);
 /// --no-sync.
 void add_sync_option(Arguments& arguments, PipelineOptions& options);
 /// --strict, --allow, --check-invariants.

@@ -151,8 +151,7 @@ class Runner {
         if (keeps_loaded_ && !failures_.guarded({}, "the plan", [] { refuse_reference(); })) return false;
         CellFlow cells;
         cells.means = {settings_.cells.scratch, settings_.cells.memory};
-        if (cells.means.memory == 0)
-            cells.means.memory = available_memory().value_or(std::uint64_t{4} << 30) / 4 * 3;
+        if (cells.means.memory == 0) cells.means.memory = memory_there() / 4 * 3;
         for (std::size_t i = 0; i < on_cells_.steps; ++i)
             if (!run_stage_on_cells(plan_.steps[i], cells)) return false;
         flow.scene = std::move(*cells.scene);
