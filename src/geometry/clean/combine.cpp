@@ -56,9 +56,26 @@ std::optional<CombineFailure> misfit(const Mesh& mesh, const Solids& solids) {
     return {};
 }
 
+/// Of the first mesh that encloses less than nothing: beside others it would pass for a cavity.
+std::optional<CombineFailure> turned_over(const Mesh& mesh, const Solids& solids, std::size_t meshes) {
+    std::vector<double> volumes(meshes, 0);
+    std::vector<Index> first(meshes, none);
+    std::vector<std::uint8_t> counted(solids.components.count, 0);
+    const auto mesh_of = mesh_of_faces(mesh);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Index p = solids.components.of_face[f], m = mesh_of[f];
+        if (first[m] == none) first[m] = f;
+        if (!std::exchange(counted[p], 1)) volumes[m] += solids.six_volumes[p];
+    }
+    for (Index m = 0; m < meshes; ++m)
+        if (volumes[m] < 0) return CombineFailure{"it is inside out", m, corner_mean(mesh, first[m])};
+    return {};
+}
+
 class Combining {
   public:
-    Combining(std::vector<Mesh> meshes, const CombineSettings& settings) : settings_(settings) {
+    Combining(std::vector<Mesh> meshes, const CombineSettings& settings)
+        : settings_(settings), meshes_(meshes.size()) {
         work_.mesh = all_of(std::move(meshes));
     }
 
@@ -71,6 +88,7 @@ class Combining {
                            none, corner_mean(work_.mesh, found.pairs[0].first)});
         Solids solids = find_solids(work_.mesh, {});
         if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
+        if (auto failure = turned_over(work_.mesh, solids, meshes_)) return failed(std::move(*failure));
         for (const auto& pair : overlaps_at_edges(work_.mesh, solids.edges)) found.pairs.push_back(pair);
         std::sort(found.pairs.begin(), found.pairs.end());
         found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
@@ -138,6 +156,7 @@ class Combining {
     }
 
     CombineSettings settings_;
+    std::size_t meshes_;
     Work work_;
     AttributeChanges turned_;
 };

@@ -110,11 +110,11 @@ Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
     s.edges = build_edges(mesh);
     s.components = face_components(mesh, s.edges);
     const auto fitness = fitness_of(mesh, s.edges, s.components);
-    const auto volumes = six_volumes(mesh, s.components);
+    s.six_volumes = six_volumes(mesh, s.components);
     for (Index p = 0; p < s.components.count; ++p) {
         s.closed.push_back(fitness[p] == Fitness::fit);
         s.why_not.push_back(reason(fitness[p]));
-        s.inward.push_back(volumes[p] < 0);
+        s.inward.push_back(s.six_volumes[p] < 0);
     }
     s.unfit = unfit_places(mesh, s.components, fitness, found);
     DisjointSets sets(s.components.count);

@@ -13,6 +13,7 @@ struct Solids {
     Components components;            ///< faces that hang together over edges
     std::vector<std::uint8_t> closed; ///< [components] and consistent, finite and without faces of no area
     std::vector<const char*> why_not; ///< [components] are they not closed
+    std::vector<double> six_volumes;  ///< [components]
     std::vector<std::uint8_t> inward; ///< [components] the volume is negative
     std::vector<Index> cluster;       ///< [components] none for those that intersect no closed component
     std::vector<NotDone>

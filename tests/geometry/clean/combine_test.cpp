@@ -211,7 +211,13 @@ TEST_CASE("combine refuses what is no solid, and says which it is", "[geometry][
     std::swap(unsure.corners[0], unsure.corners[1]);
     CHECK(names(why(unsure), 1, "inconsistently oriented"));
     const Mesh turned = orient(test::moved(solid, {0.5, 0, 0}), {OrientMethod::flip, {}}).mesh;
-    CHECK(names(why(turned), none, "inside out"));
+    CHECK(names(why(turned), 1, "is inside out"));
+    const Mesh within = orient(solid, {OrientMethod::flip, {}}).mesh; // a cavity only of its own mesh
+    Mesh around = solid;
+    for (Vec3& p : around.positions) p *= 2.0;
+    CHECK(combine({around, within}, {}).failure);
+    append(around, within);
+    CHECK(!combine({around}, {}).failure);
 }
 
 TEST_CASE("combine gives the same bytes for any number of threads", "[geometry][combine]") {
