@@ -161,6 +161,7 @@ const std::vector<Capability>& capabilities() {
         {"normals", &Capabilities::normals},
         {"transforms", &Capabilities::transforms},
         {"skins", &Capabilities::skins},
+        {"points", &Capabilities::points},
         {"text", &Capabilities::text},
         {"big_endian", &Capabilities::big_endian},
         {"full_precision", &Capabilities::full_precision},

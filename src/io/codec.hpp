@@ -146,6 +146,7 @@ struct Capabilities {
     bool normals = true;
     bool transforms = false; ///< parts keep their transforms and names; else all are in world space
     bool skins = false;
+    bool points = false;         ///< scenes without faces: point clouds
     bool text = false;           ///< WriteSettings::ascii
     bool big_endian = false;     ///< WriteSettings::big_endian
     bool full_precision = false; ///< WriteSettings::double_positions

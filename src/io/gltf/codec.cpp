@@ -10,6 +10,7 @@
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/patch.hpp"
+#include "io/gltf/points.hpp"
 #include "io/image_files.hpp"
 
 #include <fmt/format.h>
@@ -165,8 +166,7 @@ void refuse_without_faces(const Json& document, const std::string& name) {
     }
     if (primitives > 0)
         throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no faces: its {} primitive{} are placed nowhere or hold points and "
-                                "lines only",
+                    fmt::format("'{}' has no faces: its {} primitive{} are placed nowhere or hold lines only",
                                 name, primitives, primitives == 1 ? "" : "s"),
                     lines ? hint_for_lines : "");
 }
@@ -199,7 +199,12 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         scene.materials.push_back(read_material(item(json, "materials", i), i));
     Source source(json, document->buffers);
     read_parts(scene, source, settings, log);
-    if (scene.parts.empty() && log.lines.empty()) refuse_without_faces(json, input.name());
+    if (scene.parts.empty() && log.lines.empty()) {
+        scene.parts = decode_points(source, node_frames(json), settings.max_vertices);
+        if (scene.parts.empty()) refuse_without_faces(json, input.name());
+        scene.materials.clear(); // of the document, which points do without
+        return scene;
+    }
     scene.documents.push_back(std::move(document));
     return scene;
 }
@@ -392,6 +397,7 @@ Capabilities abilities(std::string companion) {
     const bool copies = !companion.empty();
     return {.transforms = true,
             .skins = true,
+            .points = true,
             .mesh_manifold = true,
             .lods = true,
             .textures = true,

@@ -316,17 +316,34 @@ bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
            std::none_of(mesh.primitives.begin(), mesh.primitives.end(), lists);
 }
 
+namespace {
+
+/// All wedges as points.
+Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
+                      const EncodeSettings& settings) {
+    Table table;
+    for (Index w = 0; w < mesh.wedge_count(); ++w) table.wedges.push_back(w);
+    constexpr int points = 0;
+    return {{"mode", points}, {"attributes", add_attributes(builder, mesh, table, columns, settings)}};
+}
+
+} // namespace
+
 EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSettings& settings,
                         Written& written) {
     EncodedMesh out;
     Mesh cut;
     if (!given.all_triangles()) cut = triangles_of(given);
     const Mesh& mesh = given.all_triangles() ? given : cut;
-    if (mesh.face_count() == 0) return out;
+    if (mesh.vertex_count() == 0 || (mesh.face_count() == 0 && !settings.points)) return out;
     require_floats(mesh, fmt::format("part '{}'", settings.name));
     const auto columns = columns_of(mesh, settings.columns, written.changes);
     for (const auto& column : columns)
         out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));
+    if (mesh.face_count() == 0) {
+        out.primitives.push_back(points_primitive(builder, mesh, columns, settings));
+        return out;
+    }
     auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);
     if (!settings.draco.on && !keeps_order(mesh, settings))
         order_triangles(mesh, tables, settings.order, settings.manifold, out.cache);

@@ -16,6 +16,7 @@ struct EncodeSettings {
     TriangleOrder order = TriangleOrder::keep; ///< not automatic
     bool keep_exact = false;                   ///< positions in doubles go to Builder::exact_positions, too
     bool keep_features = true;                 ///< metadata that primitives refer to is in the document
+    bool points = false;                       ///< a mesh without faces is written as points, else not at all
     ColumnSettings columns;
     std::string name; ///< of the part, for messages
     /// The document's index for a scene material; -1: none.

@@ -496,6 +496,7 @@ const RegisterCodec codec({
     .about = "Wavefront object, with its materials and their textures; texture points and normals by corner",
     .extensions = {"obj"},
     .can = {.polygons = true,
+            .points = true,
             .full_precision = true,
             .attributes = "texture points and normals by corner, colours of vertices, materials",
             .library = ".mtl"},

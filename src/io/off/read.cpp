@@ -326,7 +326,10 @@ const RegisterCodec codec({
     .name = "off",
     .about = "Geomview object file, text or binary; polygons with colours",
     .extensions = {"off", "coff", "noff"},
-    .can = {.polygons = true, .full_precision = true, .attributes = "normals, colours of vertices or faces"},
+    .can = {.polygons = true,
+            .points = true,
+            .full_precision = true,
+            .attributes = "normals, colours of vertices or faces"},
     .sniff =
         [](Span bytes) {
             static const std::string nameless;

@@ -614,6 +614,7 @@ const RegisterCodec codec({
     .about = "Stanford polygon file, text or binary; all attributes are kept",
     .extensions = {"ply"},
     .can = {.polygons = true,
+            .points = true,
             .text = true,
             .big_endian = true,
             .full_precision = true,

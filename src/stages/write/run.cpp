@@ -3,6 +3,7 @@
 #include "stages/write/file.hpp"
 #include "stages/write/help.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::write_stage {
@@ -56,6 +57,25 @@ void declare_order(DeclareFields<io::VertexCacheUse>& d) {
     d.field("atvr", per(&Use::after, &Use::vertices), "The same, as written; 1 at best.");
 }
 
+/// Throws stage (E-EMPTY) unless the scene is a point cloud that the format holds as it is asked for.
+void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
+    const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
+                                 [](const Part& part) { return part.mesh.vertex_count() > 0; });
+    const bool compressed =
+        (o.draco && o.draco->on) || (o.quantize && o.quantize->on) || (o.meshopt && o.meshopt->on);
+    if (any && codec.can.points && !compressed) return;
+    std::vector<std::string> formats;
+    for (const io::Codec& other : io::codecs())
+        if (other.write && other.can.points) formats.push_back(other.name);
+    throw Error(
+        ErrorKind::stage, "E-EMPTY",
+        fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
+                    any ? "points and no faces" : "no faces"),
+        any ? fmt::format("points go to {}, without compression", fmt::join(formats, ", "))
+            : "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
+        context.where());
+}
+
 void declare_report(DeclareFields<WriteReport>& d) {
     d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
         .only_when("it is not 1");
@@ -95,11 +115,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
         if (context.selects(scene.parts[i], scene))
             lent.push_back({i, scene.parts[i].transform, scene.parts[i].changed});
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
-    if (out.face_count() == 0)
-        throw Error(ErrorKind::stage, "E-EMPTY",
-                    fmt::format("there is nothing to write to '{}': the scene has no faces", o.path.text),
-                    "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
-                    context.where());
+    if (out.face_count() == 0) check_points(out, o, *codec, context);
     ShareOfSteps steps({1, 4, 5});
     give_normals(out, lent, o, context);
     give_tangents_to_all(out, lent, o, context);
