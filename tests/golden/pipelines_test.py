@@ -114,7 +114,7 @@ class Ready(Case):
         a, faces_a = cube(0, 1, 0)
         b, faces_b = cube(0.5, 1.7, 8)
         faces_b[2].reverse()
-        corners, faces = [*a, *b, (0, 0, 9)], [*faces_a[1:], *faces_b, [0, 4, 16]]  # a hole, a turned face and a fin
+        corners, faces = [*a, *b, (0, 0, 9)], [*faces_a[1:], *faces_b, [14, 15, 16]]  # a hole, a turned face and a fin
         (self.dir / "broken.off").write_text(
             f"OFF\n{len(corners)} {len(faces)} 0\n" + "".join("%r %r %r\n" % p for p in corners)
             + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in faces))
