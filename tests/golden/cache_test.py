@@ -456,14 +456,14 @@ class Trouble(Cache):
         return high
 
     def test_a_disk_that_is_nearly_full(self):
-        """It keeps its last 64 MiB, without a word."""
+        """It keeps its last 64 MiB, and says so once, since the folder was named."""
         self.cache.mkdir()
         mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48m", "tmpfs", str(self.cache)], capture_output=True)
         if mount.returncode:
             self.skipTest("only root may mount")
         self.addCleanup(subprocess.run, ["umount", str(self.cache)], check=False)
         code, said, _ = self.run_it()
-        self.assertEqual((code, "W-CACHE" in said), (0, False), said)
+        self.assertEqual((code, said.count("W-CACHE")), (0, 1), said)
         self.assertEqual([p for p in self.cache.rglob("*") if p.is_file()], [])
 
     def test_names_that_another_process_has_taken(self):

@@ -109,6 +109,5 @@ TEST_CASE("line primitives of a glTF come where their node stands", "[io]") {
     CHECK((indexed.segments[0].from == 0 && indexed.segments[0].to == 2));
     CHECK(failure([] { load("a.gltf", gltf_lines(1), false); }) ==
           "malformed [E-EMPTY] a.gltf: 'a.gltf' has no faces: its 1 primitive are placed nowhere or hold "
-          "points and "
           "lines only | load: {path: ..., lines: 1%} makes tubes of the lines");
 }

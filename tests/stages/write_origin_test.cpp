@@ -43,7 +43,7 @@ double distance_between(const Part& a, const Part& b) {
 
 TEST_CASE("far from the origin, the nodes of a file take the offset", "[stages]") {
     const std::pair<const char*, std::vector<std::pair<const char*, const char*>>> files[] = {
-        {"a.glb", {}},
+        {"a.glb", {{"order", "keep"}}},
         {"b.glb", {{"draco", "{position_bits: 16}"}}},
         {"c.glb", {{"quantize", "{position: 16}"}}},
         {"d.glb", {{"meshopt", "true"}}},
@@ -68,7 +68,8 @@ TEST_CASE("far from the origin, the nodes of a file take the offset", "[stages]"
         CHECK(back.bounds().min.x > 499999);
         const bool steps = b.record.result.contains("quantize"); // coordinates are those of the grid
         if (!steps) CHECK(back.parts[0].mesh.bounds().max.y < 3);
-        if (settings.empty()) CHECK(distance_between(back.parts[0], given.parts[0]) < 1e-6);
+        if (settings.empty() || settings[0].first == std::string("order"))
+            CHECK(distance_between(back.parts[0], given.parts[0]) < 1e-6);
         const auto& last = b.state.record.outputs.back().read_back;
         CHECK(last["position_error"].get<double>() < 1e-4);
     }

@@ -35,16 +35,22 @@ TEST_CASE("point clouds are written with their colours, and read again", "[stage
 }
 
 TEST_CASE("formats of faces only refuse point clouds, and scenes without anything are refused", "[stages]") {
-    Bench b;
-    b.scene.unit = Unit::mm;
-    b.scene.parts.emplace_back().mesh.positions = {{0, 0, 0}, {1, 0, 0}};
+    const auto refusal = [](const Value& given) {
+        Bench b;
+        b.scene.unit = Unit::mm;
+        b.scene.parts.emplace_back().mesh.positions = {{0, 0, 0}, {1, 0, 0}};
+        return failure([&] { b.run("write", given); });
+    };
     const std::string hint = " | points go to glb, gltf, obj, off, ply, without compression";
     for (const char* name : {"a.stl", "a.3mf"})
-        CHECK(failure([&] { b.run("write", Value::scalar(name)); }) ==
+        CHECK(refusal(Value::scalar(name)) ==
               fmt::format(
                   "stage [E-EMPTY] there is nothing to write to '{}': the scene has points and no faces{}",
                   name, hint));
-    CHECK(failure([&] { b.run("write", options({{"path", "a.glb"}, {"draco", "true"}})); }).ends_with(hint));
+    CHECK(refusal(options({{"path", "a.glb"}, {"draco", "true"}})).ends_with(hint));
+    Bench empty;
+    CHECK(failure([&] { empty.run("write", Value::scalar("a.ply")); }).find("the scene has no faces") !=
+          std::string::npos);
 }
 
 } // namespace write_points_test
