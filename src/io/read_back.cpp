@@ -151,11 +151,12 @@ class Grid {
         for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
     }
 
-    /// The distance to the nearest point when it is below half a cell, else infinity or more than that.
-    double nearest(const Vec3& p) const {
+    /// The distance to the nearest point when it is below half a cell, else infinity or more than that; that
+    /// to any point which is no farther than `enough` will do.
+    double nearest(const Vec3& p, double enough) const {
         const Cell centre = cell_of(p);
-        double best = nearest_in(centre, p, HUGE_VAL);
-        for (int i = 1; i < 8; ++i) {
+        double best = nearest_in(centre, p, HUGE_VAL, enough);
+        for (int i = 1; i < 8 && best > enough; ++i) {
             Cell c = centre;
             double gap = 0; // to the cell, squared
             for (std::size_t axis = 0; axis < 3; ++axis)
@@ -166,7 +167,7 @@ class Grid {
                     gap += side * side;
                 }
             // The margin: a point beside the border is looked for on both sides, however that was rounded.
-            if (gap * (1 - 1e-9) <= best * best) best = nearest_in(c, p, best);
+            if (gap * (1 - 1e-9) <= best * best) best = nearest_in(c, p, best, enough);
         }
         return best;
     }
@@ -177,9 +178,9 @@ class Grid {
         std::uint64_t key;
         Index point;
     };
-    double nearest_in(const Cell& cell, const Vec3& p, double best) const {
+    double nearest_in(const Cell& cell, const Vec3& p, double best, double enough) const {
         const std::uint64_t k = key(cell);
-        for (std::size_t i = begins_[share(k)]; i < begins_[share(k) + 1]; ++i)
+        for (std::size_t i = begins_[share(k)]; i < begins_[share(k) + 1] && best > enough; ++i)
             if (entries_[i].key == k) best = std::min(best, length(points_[entries_[i].point] - p));
         return best;
     }
@@ -205,9 +206,46 @@ class Grid {
     std::vector<std::size_t> begins_;
 };
 
+/// A cell that holds few of the points of a surface, and whose number fits an integer wherever they are.
+double cell_of_few(const std::vector<Vec3>& points) {
+    Box box;
+    for (const Vec3& p : points) box.add(p);
+    const Vec3 e = box.extent();
+    const double share = 2 * std::max({e.x, e.y, e.z}) / std::sqrt(static_cast<double>(points.size()));
+    return std::max(share, 1e-15 * std::max(length(box.min), length(box.max)));
+}
+
+/// The largest distance from a point to the nearest of the others; more than tolerance, or infinity, when it
+/// is more. What is not found in small cells is looked for in larger ones: where coordinates are large,
+/// cells of the tolerance might hold all points.
 double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double tolerance) {
-    const Grid grid(to, std::max(2.5 * tolerance, 1e-300));
-    return largest(from.size(), [&](std::size_t i) { return grid.nearest(from[i]); });
+    const double largest_cell = std::max(2.5 * tolerance, 1e-300);
+    double cell = to.empty() ? largest_cell : cell_of_few(to);
+    if (!(cell > 0 && cell < largest_cell)) cell = largest_cell; // NaN, too
+    double most = 0;
+    std::vector<Vec3> open = from;
+    for (;; cell = std::min(8 * cell, largest_cell)) {
+        const Grid grid(to, cell);
+        const bool is_last = cell >= largest_cell;
+        std::vector<std::uint8_t> is_open(open.size());
+        most = parallel_reduce(
+            open.size(), most,
+            [&](std::size_t begin, std::size_t end) {
+                double enough = most;
+                for (std::size_t i = begin; i < end; ++i) {
+                    const double d = grid.nearest(open[i], enough);
+                    is_open[i] = d > enough && d > cell / 2 && !is_last;
+                    if (!is_open[i]) enough = std::max(enough, d);
+                }
+                return enough;
+            },
+            [](double a, double b) { return std::max(a, b); });
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < open.size(); ++i)
+            if (is_open[i]) open[left++] = open[i];
+        open.resize(left);
+        if (left == 0) return most;
+    }
 }
 
 /// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
