@@ -49,6 +49,12 @@ class FaceSource {
 
   protected:
     explicit FaceSource(io::Input input) : input_(std::move(input)) {}
+    Contents& own_contents() { return contents_; }
+    void drop(std::string what) { dropped_.push_back(std::move(what)); }
+    void add_skipped_face() { ++skipped_faces_; }
+    void forget_skipped_faces() { skipped_faces_ = 0; }
+
+  private:
     io::Input input_;
     Contents contents_;
     std::vector<std::string> dropped_;

@@ -67,8 +67,8 @@ bool has_list(const ply::Element& e) {
 class PlySource final : public FaceSource {
   public:
     PlySource(io::Input opened, const io::ReadSettings& settings)
-        : FaceSource(std::move(opened)), settings_(settings), header_(ply::read_header(input_)),
-          file_(input_.path()), swap_(header_.encoding == ply::Encoding::big_endian) {
+        : FaceSource(std::move(opened)), settings_(settings), header_(ply::read_header(input())),
+          file_(input().path()), swap_(header_.encoding == ply::Encoding::big_endian) {
         std::uint64_t at = header_.size;
         for (const auto& e : header_.elements) {
             if (e.name == "vertex") {
@@ -87,7 +87,7 @@ class PlySource final : public FaceSource {
         if (at > bytes()) ends_in(*vertices_, (bytes() - vertices_at_) / stride_);
         find_coordinates();
         for (const auto& p : faces_->properties)
-            if (!p.list) dropped_.push_back(fmt::format("'{}' of faces", p.name));
+            if (!p.list) drop(fmt::format("'{}' of faces", p.name));
         scan();
     }
 
@@ -97,11 +97,11 @@ class PlySource final : public FaceSource {
         RecordCache vertices(file_, vertices_at_, stride_, vertices_->count, memory);
         Stream faces(file_, faces_at_, bytes());
         std::vector<std::uint32_t> corners;
-        skipped_faces_ = 0;
+        forget_skipped_faces();
         for (std::uint64_t f = 0; f < faces_->count; ++f) {
             read_face(faces, f, corners);
             if (corners.size() < 3)
-                ++skipped_faces_;
+                add_skipped_face();
             else if (corners.size() == 3)
                 give({corners[0], corners[1], corners[2]}, vertices, take);
             else
@@ -126,7 +126,7 @@ class PlySource final : public FaceSource {
             bytes.insert(bytes.end(), raw.begin(), raw.end());
         }
         io::ReadLog log;
-        Scene scene = io::read_scene(io::Input::of(input_.name(), std::move(bytes)), settings_, log,
+        Scene scene = io::read_scene(io::Input::of(input().name(), std::move(bytes)), settings_, log,
                                      io::codec_named("ply"));
         return {std::move(scene.parts.front().mesh), {numbers.begin(), numbers.end()}};
     }
@@ -139,7 +139,7 @@ class PlySource final : public FaceSource {
 
   private:
     [[noreturn]] void ends_in(const ply::Element& e, std::uint64_t record) const {
-        io::malformed(input_.name(), 0, "E-PLY",
+        io::malformed(input().name(), 0, "E-PLY",
                       fmt::format("the file ends in element '{}', {} of {}, at byte {}", e.name, record,
                                   e.count, bytes()));
     }
@@ -156,7 +156,7 @@ class PlySource final : public FaceSource {
             offset += ply::size_of(p.type);
         }
         if (found != 3)
-            io::malformed(input_.name(), vertices_->line, "E-PLY",
+            io::malformed(input().name(), vertices_->line, "E-PLY",
                           "element 'vertex' lacks one of the properties x, y and z");
     }
 
@@ -180,14 +180,14 @@ class PlySource final : public FaceSource {
             const Vec3 p = position(all.take(stride_));
             if (!is_finite(p))
                 io::malformed(
-                    input_.name(), 0, "E-NAN",
+                    input().name(), 0, "E-NAN",
                     fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers", v, p.x, p.y, p.z));
-            contents_.bounds.add(p);
+            own_contents().bounds.add(p);
         }
         while (all.left() > 0)
             all.take(static_cast<std::size_t>(std::min<std::uint64_t>(all.left(), 1 << 16)));
-        contents_.vertices = vertices_->count;
-        contents_.sha256 = sum.digest();
+        own_contents().vertices = vertices_->count;
+        own_contents().sha256 = sum.digest();
     }
 
     void read_face(Stream& faces, std::uint64_t f, std::vector<std::uint32_t>& corners) const {
@@ -208,7 +208,7 @@ class PlySource final : public FaceSource {
             for (std::uint32_t& corner : corners) {
                 const double number = value_at(at, p.type, swap_);
                 if (!(number >= 0 && number < static_cast<double>(vertices_->count)))
-                    io::malformed(input_.name(), faces_->line, "E-PLY",
+                    io::malformed(input().name(), faces_->line, "E-PLY",
                                   fmt::format("face {} of {} names vertex {}, there are {}", f, faces_->count,
                                               number, vertices_->count));
                 corner = static_cast<std::uint32_t>(number);

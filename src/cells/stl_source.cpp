@@ -28,11 +28,11 @@ std::uint64_t key_of(const Point& p) {
 class StlSource final : public FaceSource {
   public:
     StlSource(io::Input opened, const io::ReadSettings& settings)
-        : FaceSource(std::move(opened)), settings_(settings), file_(input_.path()) {
-        count_ = static_cast<std::uint32_t>(stl_faces(input_));
+        : FaceSource(std::move(opened)), settings_(settings), file_(input().path()) {
+        count_ = static_cast<std::uint32_t>(stl_faces(input()));
         const std::uint64_t held = (bytes() - stl_head) / stl_record;
         if (count_ > held)
-            io::malformed(input_.name(), 0, "E-STL",
+            io::malformed(input().name(), 0, "E-STL",
                           fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}",
                                       count_, held, bytes()));
         scan();
@@ -56,7 +56,7 @@ class StlSource final : public FaceSource {
         std::memcpy(bytes.data() + stl_head - sizeof n, &n, sizeof n);
         bytes.insert(bytes.end(), records.begin(), records.end());
         io::ReadLog log;
-        Scene scene = io::read_scene(io::Input::of(input_.name(), std::move(bytes)), settings_, log,
+        Scene scene = io::read_scene(io::Input::of(input().name(), std::move(bytes)), settings_, log,
                                      io::codec_named("stl"));
         Piece piece{std::move(scene.parts.front().mesh), {}};
         piece.names.resize(piece.mesh.vertex_count());
@@ -92,15 +92,15 @@ class StlSource final : public FaceSource {
             for (const Point& p : corners_of(all.take(stl_record))) {
                 const Vec3 at{p[0], p[1], p[2]};
                 if (!is_finite(at))
-                    io::malformed(input_.name(), 0, "E-NAN",
+                    io::malformed(input().name(), 0, "E-NAN",
                                   fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected "
                                               "finite numbers",
                                               f, stl_head + std::uint64_t{f} * stl_record, at.x, at.y, at.z));
-                contents_.bounds.add(at);
+                own_contents().bounds.add(at);
             }
         while (all.left() > 0)
             all.take(static_cast<std::size_t>(std::min<std::uint64_t>(all.left(), 1 << 16)));
-        contents_.sha256 = sum.digest();
+        own_contents().sha256 = sum.digest();
     }
 
     io::ReadSettings settings_;

@@ -1,6 +1,5 @@
 #include "cli/assets.hpp"
 
-
 #include <algorithm>
 #include <fmt/format.h>
 

@@ -217,8 +217,10 @@ namespace {
 std::string command_for(const std::string& pipeline, const pipeline::PlanSettings& settings) {
     if (!settings.defined_at.empty()) return {};
     std::string line = "facetmill run " + for_shell(pipeline);
-    for (const auto& [name, value] : settings.defines) line += " -D " + for_shell(name + "=" + value);
-    for (const auto& [option, value] : settings.sets) line += " --set " + for_shell(option + "=" + value);
+    for (const auto& [name, value] : settings.defines)
+        line += fmt::format(" -D {}", for_shell(fmt::format("{}={}", name, value)));
+    for (const auto& [option, value] : settings.sets)
+        line += fmt::format(" --set {}", for_shell(fmt::format("{}={}", option, value)));
     return line;
 }
 

@@ -266,6 +266,7 @@ SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
     const Surface surface = surface_of(out.scene);
     const auto samples = sample_area(surface, settings.samples, settings.seed);
     std::vector<Vec3> spread;
+    spread.reserve(samples.size());
     for (const SurfaceSample& sample : samples) spread.push_back(sample.point);
     out.looked_up += spread.size();
     out.samples = spread.empty() ? distances : signed_distances(reference, spread);

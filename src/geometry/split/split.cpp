@@ -136,6 +136,7 @@ std::vector<double> lengths_of_passes(const Mesh& mesh, const SplitSettings& s) 
            std::ldexp(faces, 2 * static_cast<int>(passes)) > static_cast<double>(s.max_faces))
         --passes;
     std::vector<double> lengths;
+    lengths.reserve(static_cast<std::size_t>(std::max(passes, 0.0)));
     for (int pass = 0; pass < passes; ++pass)
         lengths.push_back(s.min_angle > 0 ? 1 : std::ldexp(1.0, 2 * pass));
     return lengths;

@@ -32,8 +32,9 @@ std::vector<Told> read_places(Source& source, const Place& attributes, std::size
         if (!first && a.count != count) attributes.fail("the attributes of instances have different counts");
         count = a.count;
         first = false;
-        const auto known =
-            std::find_if(told.begin(), told.end(), [&](const Told& t) { return name == t.semantic; });
+        const auto known = std::find_if(told.begin(), told.end(), [&, &semantic = name](const Told& t) {
+            return semantic == t.semantic;
+        });
         if (known == told.end()) {
             others.push_back(name);
             continue;

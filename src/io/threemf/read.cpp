@@ -196,6 +196,7 @@ class SceneMaker {
         for (const auto& [path, model] : models_)
             for (const auto& [what, count] : model.skipped) all[what] += count;
         std::vector<std::string> words;
+        words.reserve(all.size());
         for (const auto& [what, count] : all) words.push_back(fmt::format("{} ({})", what, count));
         if (!words.empty())
             log_.warnings.push_back(

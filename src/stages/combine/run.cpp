@@ -163,6 +163,7 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     std::vector<const Part*> all{&part};
     all.insert(all.end(), others.begin(), others.end());
     std::vector<Mesh> meshes;
+    meshes.reserve(all.size());
     for (const Part* p : all) meshes.push_back(in_space_of(part, *p));
     const bool unites = operation == Operation::unite;
     const Index first_cut = unites ? 0 : largest_number(part.mesh, cut_id_attribute);
