@@ -44,6 +44,7 @@ WorldMesh::WorldMesh(const Scene& scene) {
 }
 
 void leave_documents(Written& written, const Scene& scene, const char* format) {
+    std::size_t animations = 0, skins = 0;
     for (const auto& document : scene.documents) {
         const Json json = parse_json(document->json, Broken::discarded);
         if (!json.is_object()) continue;
@@ -51,13 +52,26 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
             written.changes.push_back({what, Domain::face, AttributeChange::Kind::dropped,
                                        fmt::format("{} cannot represent it", format)});
         };
+        const auto count = [&](const char* what) {
+            const auto at = json.find(what);
+            return at != json.end() && at->is_array() ? at->size() : 0;
+        };
         for (const char* what : {"textures", "skins", "animations", "cameras"})
-            if (const auto at = json.find(what); at != json.end() && at->is_array() && !at->empty())
-                leave(fmt::format("{} ({})", what, at->size()));
+            if (count(what) > 0) leave(fmt::format("{} ({})", what, count(what)));
+        animations += count("animations");
+        skins += count("skins");
         if (const auto at = json.find("extensionsUsed"); at != json.end() && at->is_array())
             for (const auto& name : *at)
                 if (name.is_string()) leave(name.get<std::string>());
     }
+    if (animations + skins > 0)
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-ANIMATION",
+             fmt::format("{} and {} are not written to {}: the mesh is in its rest pose",
+                         counted(animations, "animation"), counted(skins, "skin"), format),
+             {},
+             "glTF keeps them: write .glb"});
 }
 
 void warn_of_textures(Written& written, const Scene& scene, const char* format) {

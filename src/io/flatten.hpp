@@ -29,7 +29,7 @@ void require_floats(const Mesh& mesh, const std::string& what);
 void dropped(Written& written, const Attribute& attribute, std::string why);
 
 /// ... and what of glTF documents it leaves behind: textures and other properties of materials, skins,
-/// animations, cameras, extensions. `format` is spelled as in "STL".
+/// animations (W-ANIMATION for these two), cameras, extensions. `format` is spelled as in "STL".
 void leave_documents(Written& written, const Scene& scene, const char* format);
 
 /// Warns (W-TEXTURES) of textured materials that the scene's faces have, by a format that could hold

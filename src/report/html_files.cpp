@@ -59,7 +59,7 @@ std::string before_and_after(const RunRecord& record) {
         return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", what, number_cell(sized(before)),
                            number_cell(sized(after)), number_cell(share));
     };
-    return table("Bytes", heads({"", "#inputs", "#outputs", "#share"}),
+    return table("Bytes", heads({"kind", "#inputs", "#outputs", "#share"}),
                  row("geometry", in.kinds.geometry, out.kinds.geometry) +
                      row("textures", in.kinds.textures, out.kinds.textures) +
                      row("JSON", in.kinds.json, out.kinds.json) + row("all", in.bytes, out.bytes));

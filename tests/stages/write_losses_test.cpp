@@ -50,6 +50,26 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
             CHECK(warnings_of(one, fmt::format(fmt::runtime(options), glb)).empty());
 }
 
+TEST_CASE("animations and skins that a format does not get are said", "[stages]") {
+    const TemporaryDirectory dir;
+    io::ReadLog log;
+    const Scene scene = test::read_text(
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"name":"bone"}],
+ "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+ "animations":[{"samplers":[{"input":1,"output":0}],"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+ {"bufferView":0,"byteOffset":12,"componentType":5126,"count":3,"type":"SCALAR","min":[0],"max":[1]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})",
+        &log);
+    for (const char* name : {"b.stl", "b.obj", "b.ply", "b.off", "b.3mf"}) {
+        INFO(name);
+        CHECK(warnings_of(scene, (dir / name).string())
+                  .find("W-ANIMATION 1 animation and 0 skins are not written to ") != std::string::npos);
+    }
+    CHECK(warnings_of(scene, (dir / "b.glb").string()).find("W-ANIMATION") == std::string::npos);
+}
+
 TEST_CASE("textures that a format does not get are said", "[stages]") {
     const TemporaryDirectory dir;
     put(dir / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
