@@ -243,6 +243,7 @@ class PlySource final : public FaceSource {
     /// Each vertex once, ascending.
     static std::vector<std::uint32_t> numbers_of(io::Span records) {
         std::vector<std::uint32_t> numbers(records.size() / sizeof(std::uint32_t));
+        if (numbers.empty()) return numbers;
         std::memcpy(numbers.data(), records.data(), numbers.size() * sizeof(std::uint32_t));
         std::sort(numbers.begin(), numbers.end());
         numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

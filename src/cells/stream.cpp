@@ -40,7 +40,7 @@ const std::byte* Stream::take(std::size_t n) {
     constexpr std::size_t usual = std::size_t{1} << 20;
     if (filled_ - at_ < n) {
         const std::size_t kept = filled_ - at_;
-        std::memmove(buffer_.data(), buffer_.data() + at_, kept);
+        if (kept > 0) std::memmove(buffer_.data(), buffer_.data() + at_, kept);
         buffer_.resize(std::max({n, usual, buffer_.size()}));
         const std::size_t more =
             static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size() - kept, end_ - read_));
