@@ -13,7 +13,7 @@ using io::Packing;
 TEST_CASE("zstd is decompressed, frames one after another, and its stored bytes are known", "[io]") {
     const TemporaryDirectory dir;
     std::string text;
-    for (int i = 0; i < 50000; ++i) text += fmt::format("v {} {} 0\n", i, i * i % 1009);
+    for (unsigned i = 0; i < 50000; ++i) text += fmt::format("v {} {} 0\n", i, i * i % 1009);
     const io::Bytes packed = io::packed(bytes_of(text), Packing::zstd);
     CHECK(packed.size() < text.size() / 3);
     CHECK(io::packed(bytes_of(text), Packing::zstd) == packed);
