@@ -214,6 +214,26 @@ bool remove_duplicates(Work& work) {
     return true;
 }
 
+namespace {
+
+/// Components that go, with their faces, which are added to the counts.
+template <class Goes>
+bool remove_where(Work& work, const Components& components, Goes&& goes, std::size_t& count,
+                  std::size_t& faces) {
+    std::size_t going = 0;
+    for (Index p = 0; p < components.count; ++p) going += goes(p) ? 1 : 0;
+    if (going == 0) return false;
+    std::vector<std::uint8_t> gone(work.mesh.face_count());
+    for (Index f = 0; f < gone.size(); ++f) gone[f] = goes(components.of_face[f]);
+    const auto kept = faces_without(gone);
+    count += going;
+    faces += gone.size() - kept.size();
+    work.mesh = keep_faces(work.mesh, kept);
+    return true;
+}
+
+} // namespace
+
 bool remove_components(Work& work, const ComponentSettings& s) {
     const Mesh& mesh = work.mesh;
     const Components components = face_components(mesh, false);
@@ -242,16 +262,9 @@ bool remove_components(Work& work, const ComponentSettings& s) {
                          [&](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
         for (std::size_t i = s.keep; i < order.size(); ++i) all[order[i]].goes = true;
     }
-    std::vector<std::uint8_t> gone(mesh.face_count());
-    for (Index f = 0; f < gone.size(); ++f) gone[f] = all[components.of_face[f]].goes;
-    const auto count = static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [](const Component& p) { return p.goes; }));
-    if (count == 0) return false;
-    const auto kept = faces_without(gone);
-    work.counts.components += count;
-    work.counts.component_faces += gone.size() - kept.size();
-    work.mesh = keep_faces(mesh, kept);
-    return true;
+    return remove_where(
+        work, components, [&](Index p) { return all[p].goes; }, work.counts.components,
+        work.counts.component_faces);
 }
 
 bool remove_isolated(Work& work) {
@@ -287,15 +300,10 @@ bool remove_open_components(Work& work) {
     const Mesh& mesh = work.mesh;
     const Components components = face_components(mesh, false);
     const auto closed = closed_components(mesh, components);
-    const auto open = static_cast<std::size_t>(std::count(closed.begin(), closed.end(), 0));
-    if (open == 0 || open == components.count) return false;
-    std::vector<std::uint8_t> gone(mesh.face_count());
-    for (Index f = 0; f < gone.size(); ++f) gone[f] = !closed[components.of_face[f]];
-    const auto kept = faces_without(gone);
-    work.counts.open_components += open;
-    work.counts.open_component_faces += gone.size() - kept.size();
-    work.mesh = keep_faces(mesh, kept);
-    return true;
+    if (std::count(closed.begin(), closed.end(), 1) == 0) return false; // none would be left
+    return remove_where(
+        work, components, [&](Index p) { return !closed[p]; }, work.counts.open_components,
+        work.counts.open_component_faces);
 }
 
 bool remove_inner_components(Work& work) {
@@ -321,15 +329,9 @@ bool remove_inner_components(Work& work) {
         for (const Index q : around)
             if (!touching.contains({std::min(p, q), std::max(p, q)})) inside[p] = 1;
     }
-    const auto count = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
-    if (count == 0) return false;
-    std::vector<std::uint8_t> gone(mesh.face_count());
-    for (Index f = 0; f < gone.size(); ++f) gone[f] = inside[components.of_face[f]];
-    const auto kept = faces_without(gone);
-    work.counts.inner_components += count;
-    work.counts.inner_component_faces += gone.size() - kept.size();
-    work.mesh = keep_faces(mesh, kept);
-    return true;
+    return remove_where(
+        work, components, [&](Index p) { return inside[p] != 0; }, work.counts.inner_components,
+        work.counts.inner_component_faces);
 }
 
 } // namespace facetmill::clean_steps
