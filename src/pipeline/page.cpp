@@ -21,14 +21,6 @@ constexpr std::size_t most_results = 8, most_measured = 6, most_failures = 8;
 constexpr std::size_t most_faces_of_a_stage = 500'000; // a tree of more takes too long for what it shows
 constexpr int close_zoom = 10;
 
-std::shared_ptr<Page::Reference> reference_to(const Scene& scene, std::string name) {
-    auto reference = std::make_shared<Page::Reference>();
-    reference->name = std::move(name);
-    reference->surface = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
-    reference->faces = scene.face_count();
-    return reference;
-}
-
 bool is_same(const Surface& a, const Surface& b) {
     return a.positions == b.positions && a.corners == b.corners;
 }
@@ -75,6 +67,19 @@ void look_at_first(const Scene& scene, const report::Check& check, PictureSettin
 
 } // namespace
 
+const FaceTree& Page::Reference::tree() {
+    if (!tree_) tree_ = std::make_shared<const FaceTree>(*surface, FaceTree::Use::near);
+    return *tree_;
+}
+
+std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::string name) {
+    auto reference = std::make_shared<Reference>();
+    reference->name = std::move(name);
+    reference->surface = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
+    reference->faces = scene.face_count();
+    return reference;
+}
+
 bool Page::is_full() const { return bytes_ > most_bytes; }
 
 PictureSettings Page::sized_for_page() const {
@@ -118,7 +123,6 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
 }
 
 report::DeviationView Page::distances(const Scene& scene, Reference& from) {
-    if (!from.tree) from.tree = std::make_shared<const FaceTree>(*from.surface, FaceTree::Use::near);
     std::optional<PictureSettings> settings;
     if (is_full())
         record_.pictures_left_out += 3;
@@ -126,7 +130,7 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
         settings = sized_for_page();
     if (settings) settings->camera = camera_for(scene);
     auto view =
-        report::deviation_view(scene, {from.name, from.surface->bounds().diagonal(), *from.tree}, settings);
+        report::deviation_view(scene, {from.name, from.surface->bounds().diagonal(), from.tree()}, settings);
     bytes_ += view.picture.size() + view.behind.size() + view.close.size();
     return view;
 }

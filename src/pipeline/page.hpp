@@ -21,13 +21,22 @@ class Page {
     struct Reference {
         std::string name; ///< "the scene as loaded"
         std::shared_ptr<const Surface> surface;
-        std::shared_ptr<const FaceTree> tree; ///< made when it is first needed
         ShapeHistograms shape;
         std::size_t faces = 0;
+
+        /// Made when it is first needed.
+        const FaceTree& tree();
+
+      private:
+        std::shared_ptr<const FaceTree> tree_;
     };
+    static std::shared_ptr<Reference> reference_to(const Scene& scene, std::string name);
     /// Of results; an arm that moves the scene has one of its own from there on.
     std::shared_ptr<Reference> reference() const { return loaded_; }
     void set_reference(std::shared_ptr<Reference> reference) { loaded_ = std::move(reference); }
+
+    /// Reads textures once for all that is shown.
+    io::LookReader& looks() { return looks_; }
 
     /// Before the stage works on the scene.
     void before(const Step& step, const Scene& scene);

@@ -1,7 +1,5 @@
 #include "pipeline/page_view.hpp"
 
-#include "geometry/triangulate/crossing_faces.hpp"
-
 #include <algorithm>
 
 namespace facetmill::pipeline {
@@ -33,19 +31,16 @@ bool has_measured(const report::RunRecord& record) {
 
 } // namespace
 
-PageView::PageView(const Steps& steps) : viewed_(1 + count_outputs(steps)) {}
+PageView::PageView(const Steps& steps, Page& page) : viewed_(1 + count_outputs(steps)), page_(page) {}
 
 std::shared_ptr<const MaterialLooks> PageView::looks(const Scene& scene) {
     std::vector<Diagnostic> ignored; // a texture that cannot be drawn is no fault of the run
-    return reader_.looks(scene, ignored);
+    return page_.looks().looks(scene, ignored);
 }
 
 void PageView::before(const Step& step, const Scene& scene) {
     if (step.stage->loads) {
-        if (has_before_) { // another scene begins
-            loaded_.reset();
-            tree_.reset();
-        }
+        if (has_before_) loaded_.reset(); // another scene begins
         return;
     }
     if (has_before_) return;
@@ -53,12 +48,11 @@ void PageView::before(const Step& step, const Scene& scene) {
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     viewed_.add_before(scene, "as loaded", looks(scene));
     if (scene.face_count() > 0 && scene.face_count() <= most_to_compare)
-        loaded_ = surface_of(scene, filled_surface);
+        loaded_ = page_.reference() ? page_.reference() : Page::reference_to(scene, "the scene as loaded");
 }
 
 void PageView::add(const Scene& scene, const std::string& name, bool show_deviation) {
-    if (show_deviation && loaded_ && !tree_) tree_.emplace(*loaded_, FaceTree::Use::near);
-    viewed_.add_after(scene, name, looks(scene), show_deviation && tree_ ? &*tree_ : nullptr,
+    viewed_.add_after(scene, name, looks(scene), show_deviation && loaded_ ? &loaded_->tree() : nullptr,
                       "the scene as loaded");
     any_after_ = true;
 }

@@ -1,9 +1,7 @@
 #pragma once
 // What the 3D view of a run's page shows: the scene as loaded, and what was written.
 
-#include "io/gltf/looks.hpp"
-#include "mesh/surface.hpp"
-#include "pipeline/plan.hpp"
+#include "pipeline/page.hpp"
 #include "report/viewer.hpp"
 
 namespace facetmill::pipeline {
@@ -11,7 +9,8 @@ namespace facetmill::pipeline {
 /// Collects it while a run goes on. Calls throw as pictures do (limit).
 class PageView {
   public:
-    explicit PageView(const Steps& steps);
+    /// The page's textures and its surface of what was loaded are used, too.
+    PageView(const Steps& steps, Page& page);
 
     /// Before a stage works on the scene: what has been loaded by then is what outputs are compared with.
     void before(const Step& step, const Scene& scene);
@@ -29,10 +28,9 @@ class PageView {
     std::shared_ptr<const MaterialLooks> looks(const Scene& scene);
 
     report::ViewedScenes viewed_;
-    io::LookReader reader_;
+    Page& page_;
     bool has_before_ = false, any_after_ = false;
-    std::optional<Surface> loaded_; ///< none: nothing was, or something more later on
-    std::optional<FaceTree> tree_;  ///< of loaded_, once it is needed
+    std::shared_ptr<Page::Reference> loaded_; ///< none: nothing was, or something more later on
 };
 
 } // namespace facetmill::pipeline

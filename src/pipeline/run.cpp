@@ -272,7 +272,6 @@ class Runner {
 
     bool run_stage(const Step& step, Flow& flow) {
         auto stage = new_record(step);
-        const std::size_t outputs_before = record().outputs.size();
         if (takes_pictures_ && fetch(step.where, "a picture", flow))
             failures_.guarded({}, "the 3D view", [&] { view_.before(step, flow.scene); });
         const Stopwatch watch;
@@ -293,8 +292,7 @@ class Runner {
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
         if (done && takes_pictures_)
-            failures_.guarded({}, "the 3D view",
-                              [&] { view_.after(step, flow.scene, record(), outputs_before); });
+            failures_.guarded({}, "the 3D view", [&] { view_.after(step, flow.scene, record(), outputs); });
         return done;
     }
 
@@ -546,12 +544,12 @@ class Runner {
     RunState state_;
     Failures failures_{state_.record, settings_, plan_.allowed};
     Trace trace_;
-    PageView view_{plan_.steps};
     Reuse reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
     std::set<fs::path> unwritable_; ///< folders
     CellPlan on_cells_;
     bool keeps_loaded_ = false, takes_pictures_ = false;
     Page page_{state_.record};
+    PageView view_{plan_.steps, page_};
     int number_ = 0, stages_ = 0;
 };
 
