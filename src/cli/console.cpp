@@ -3,6 +3,7 @@
 #include "base/readable_numbers.hpp"
 #include "base/stopwatch.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -52,11 +53,10 @@ class Bar : public Progress {
   public:
     ~Bar() override { done(); }
     void stage(int number, int number_of, const std::string& name) override {
-        begin(number_of > 0 ? static_cast<double>(number - 1) / number_of : 0,
-              fmt::format("{}/{} {}", number, number_of, name));
-        after_ = number_of > 0 ? static_cast<double>(number) / number_of : 1;
+        const double all = std::max(number_of, 1);
+        begin((number - 1) / all, number / all, fmt::format("{}/{} {}", number, number_of, name));
     }
-    void beside_stages(const std::string& what) override { begin(after_, what); }
+    void beside_stages(const std::string& what) override { begin(until_, until_, what); }
     void share(double done) override {
         if (done <= share_) return;
         share_ = done;
@@ -74,9 +74,10 @@ class Bar : public Progress {
     }
 
   private:
-    void begin(double filled, std::string what) {
+    void begin(double filled, double until, std::string what) {
         const std::lock_guard lock(guard_);
         filled_ = filled;
+        until_ = until;
         what_ = std::move(what);
         watch_ = {};
         share_ = told_ = 0;
@@ -95,8 +96,8 @@ class Bar : public Progress {
 
     void draw() {
         constexpr int width = 24;
-        const int filled = static_cast<int>(width * filled_);
-        const double since = watch_.seconds();
+        const double share = std::clamp<double>(share_, 0, 1), since = watch_.seconds();
+        const int filled = static_cast<int>(width * (filled_ + share * (until_ - filled_)));
         tell("\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(filled), '#'),
              std::string(static_cast<std::size_t>(width - filled), '.'), what_,
              how_far(since, {share_, told_}));
@@ -104,7 +105,7 @@ class Bar : public Progress {
         drawn_ = true;
     }
 
-    double filled_ = 0, after_ = 0; ///< shares of the bar, now and after the stage
+    double filled_ = 0, until_ = 0; ///< shares of the bar, before the stage and after it
     std::string what_;
     Stopwatch watch_;
     std::atomic<double> share_ = 0, told_ = 0; ///< the latter: when the former was told, in seconds
@@ -144,13 +145,22 @@ class Lines : public Progress {
 
 } // namespace
 
+namespace {
+
+/// In whole seconds: it is read at a glance, and the time left is a guess.
+std::string in_seconds(double seconds) {
+    return seconds < 60 ? fmt::format("{:.0f} s", std::ceil(seconds)) : timed(seconds);
+}
+
+} // namespace
+
 std::string how_far(double seconds, const Told& last) {
     constexpr double long_enough = 1; // what is over sooner needs no number
     if (seconds < long_enough) return {};
-    if (last.share <= 0 || last.share > 1 || last.seconds <= 0) return ", " + timed(seconds);
+    if (last.share <= 0 || last.share > 1 || last.seconds <= 0) return ", " + in_seconds(seconds);
     // What comes next may tell nothing for long: meanwhile the time left goes on getting less.
     const double all = std::max(last.seconds / last.share, seconds);
-    return fmt::format(" {:.0f} %, about {} left", std::floor(100 * last.share), timed(all - seconds));
+    return fmt::format(" {:.0f} %, about {} left", std::floor(100 * last.share), in_seconds(all - seconds));
 }
 
 bool Console::colour() const {

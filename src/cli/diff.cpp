@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
+#include "cli/command_steps.hpp"
 #include "cli/diff_files.hpp"
 #include "io/outputs.hpp"
 #include "stage/options/convention.hpp"
@@ -58,8 +59,10 @@ void check_reports(const DiffOptions& options, const CommandLine& line) {
     }
 }
 
-void write_reports(const DiffOptions& options, const ComparedFiles& files) {
+void write_reports(const DiffOptions& options, const ComparedFiles& files, const Console& console) {
+    CommandSteps steps(console, options.reports.size());
     for (const auto& path : options.reports) {
+        steps.next(path);
         const std::string text =
             path.ends_with(".md")
                 ? report::to_markdown(files.comparison, options.a, options.b)
@@ -71,12 +74,15 @@ void write_reports(const DiffOptions& options, const ComparedFiles& files) {
 
 /// Of two files.
 int diff_of_files(const DiffOptions& options, const CommandLine& line, const Console& console) {
+    CommandSteps steps(console, 1);
+    steps.next("compare");
     const ComparedFiles files = compared_files(options, options.a, options.b, line, console);
+    steps.done();
     print(options.json ? report::to_json(files.comparison, options.a, options.b)
                                  .dump(2, ' ', false, Json::error_handler_t::replace) +
                              "\n"
                        : report::to_text(files.comparison, options.a, options.b, options.all));
-    write_reports(options, files);
+    write_reports(options, files, console);
     return files.comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
 }
 

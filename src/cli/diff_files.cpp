@@ -1,5 +1,6 @@
 #include "cli/diff_files.hpp"
 
+#include "base/progress.hpp"
 #include "io/codec.hpp"
 #include "io/convert.hpp"
 #include "options/types.hpp"
@@ -81,8 +82,11 @@ ComparedFiles compared_files(const DiffOptions& options, const std::string& name
     report::Comparison notes;
     ComparedFiles out;
     Scene &a = out.a, &b = out.b;
+    ShareOfSteps steps({2, 2, options.settings.deviation.certify ? 60.0 : 20.0});
     a = read(name_a, true, notes, console);
+    steps.next();
     b = read(name_b, false, notes, console);
+    steps.next();
     state(a, options);
     state(b, options);
     io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,

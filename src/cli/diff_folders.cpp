@@ -1,6 +1,7 @@
 // facetmill diff of two folders.
 
 #include "batch/batch.hpp"
+#include "cli/command_steps.hpp"
 #include "cli/diff_files.hpp"
 #include "diff/folders.hpp"
 #include "io/codec.hpp"
@@ -110,10 +111,14 @@ int diff_of_folders(const DiffOptions& options, const CommandLine& line, const C
     const FolderDiff diff(options, line, console);
     report::FolderComparison all;
     int code = 0;
-    for (const auto& path : report::paths_in(options.a, options.b)) {
+    const auto paths = report::paths_in(options.a, options.b);
+    CommandSteps steps(console, paths.size());
+    for (const auto& path : paths) {
+        steps.next(path);
         all.pairs.push_back(diff.pair_of(path));
         code = batch::graver(code, all.pairs.back().exit_code);
     }
+    steps.done();
     print(
         options.json
             ? report::to_json(all, options.a, options.b).dump(2, ' ', false, Json::error_handler_t::replace) +

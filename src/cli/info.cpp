@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "cli/command.hpp"
+#include "cli/command_steps.hpp"
 #include "cli/confine.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
@@ -183,13 +184,17 @@ Picture info_picture(const Scene& scene, const Console& console) {
 
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
                  std::vector<Picture>& pictures) {
+    ShareOfSteps steps({3, options.picture.empty() ? 0.0 : 6.0, options.self_intersections ? 24.0 : 6.0, 2});
     const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
     io::ReadLog log;
     FileInfo info;
     info.scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
+    steps.next();
     if (!options.picture.empty()) pictures.push_back(info_picture(info.scene, console));
+    steps.next();
     info.properties = inspect(info.scene, {options.self_intersections});
+    steps.next();
     info.components = report::largest_components(info.scene, info.properties, max_components);
     info.kinds = face_kinds(info.scene);
     return info;
@@ -208,7 +213,9 @@ int info(const InfoOptions& options, const Console& console, const CommandLine& 
     Json all = Json::array();
     std::string text;
     std::vector<Picture> pictures;
+    CommandSteps steps(console, options.meshes.size());
     for (const auto& mesh : options.meshes) {
+        steps.next(mesh);
         const FileInfo info = info_of(mesh, options, console, pictures);
         if (options.json)
             all.push_back(json_of(info));
@@ -218,6 +225,7 @@ int info(const InfoOptions& options, const Console& console, const CommandLine& 
     if (options.json)
         text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     if (!options.picture.empty()) write_picture(pictures, options.picture);
+    steps.done();
     print(text);
     return 0;
 }

@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "diff/conversion.hpp"
 #include "diff/lines.hpp"
 #include "report/render.hpp"
@@ -10,7 +11,11 @@ namespace facetmill::report {
 namespace {
 
 void compare_properties(const Comparing& with) {
-    const Properties a = inspect(with.a), b = inspect(with.b);
+    ShareOfSteps steps({1, 1});
+    const Properties a = inspect(with.a);
+    steps.next();
+    const Properties b = inspect(with.b);
+    steps.next();
     with.result.properties_a = a;
     with.result.properties_b = b;
     for (const auto& p : property_table()) {
@@ -37,8 +42,11 @@ bool Comparison::complete() const {
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings) {
     Comparison result;
     const Comparing with{a, b, settings, result};
+    ShareOfSteps steps({2, settings.ignored.contains("geometry") ? 0.0 : 12.0, 2});
     compare_properties(with);
+    steps.next();
     if (!settings.ignored.contains("geometry")) compare_geometry(with);
+    steps.next();
     compare_attributes(with);
     compare_materials(with);
     compare_names(with, "parts", a.parts, b.parts);

@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "diff/lines.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/gltf.hpp"
@@ -108,11 +109,13 @@ void compare_places(const Comparing& with) {
     DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
     settings.samples = settings.samples / all.size() + 1;
     settings.certify = false;
+    ShareOfSteps steps(std::vector<double>(all.size(), 1));
     for (const Index material : all) {
         const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
         with.add("materials", material == none ? "faces of none" : fmt::format("{} faces", material),
                  finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
                  "how far its faces are from those of the other file");
+        steps.next();
     }
 }
 

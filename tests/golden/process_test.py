@@ -207,17 +207,22 @@ class Process(Case):
         self.assertEqual(code, 0)
         self.assertIn("a.yaml has changed", [line.get("message") for line in lines])
 
-    def test_a_terminal_sees_how_far_a_stage_is(self):
-        self.write("p.yaml", f"facetmill: 1\nallow: W-UNITS\nstages:\n  - load: {SCAN}\n  - relax: 100000\n  - write: o.ply\n")
+    def on_a_terminal(self, *arguments):
+        """A run whose messages go to a terminal, and the end to read them at."""
         terminal, other = pty.openpty()
         self.addCleanup(os.close, terminal)
-        run = subprocess.Popen([str(FACETMILL), "run", "p.yaml"], cwd=self.dir, stderr=other,
+        run = subprocess.Popen([str(FACETMILL), *arguments], cwd=self.dir, stderr=other, stdout=subprocess.DEVNULL,
                                env={**os.environ, "TERM": "xterm"})
         os.close(other)
+        return run, terminal
+
+    def test_a_terminal_sees_how_far_a_stage_is(self):
+        self.write("p.yaml", f"facetmill: 1\nallow: W-UNITS\nstages:\n  - load: {SCAN}\n  - relax: 100000\n  - write: o.ply\n")
+        run, terminal = self.on_a_terminal("run", "p.yaml")
         self.addCleanup(run.wait)
         self.addCleanup(run.kill)
         said, deadline = "", time.monotonic() + 120
-        while not re.search(r"\] 2/3 relax \d+ %, about [^\r]* left", said):
+        while not re.search(r"\[#{8}[#.]{16}\] 2/3 relax \d+ %, about \d[\d mins]* left", said):
             self.assertLess(time.monotonic(), deadline, said)
             self.assertTrue(select.select([terminal], [], [], 60)[0], said)
             said += os.read(terminal, 4096).decode()
@@ -225,14 +230,26 @@ class Process(Case):
     def test_a_terminal_sees_which_report_is_rendered(self):
         self.write("in.off", TRIANGLE)
         self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: in.off, split: midpoint, write: o.off]\nreport: r.html\n")
-        terminal, other = pty.openpty()
-        self.addCleanup(os.close, terminal)
-        run = subprocess.Popen([str(FACETMILL), "run", "p.yaml"], cwd=self.dir, stderr=other,
-                               env={**os.environ, "TERM": "xterm"})
-        os.close(other)
+        run, terminal = self.on_a_terminal("run", "p.yaml")
         self.assertEqual(run.wait(60), 0)
         said = os.read(terminal, 65536).decode()
         self.assertLess(said.index("3/3 write"), said.index("[########################] r.html"))
+
+    def test_a_terminal_sees_how_far_info_and_diff_are(self):
+        for folder in ("a", "b"):
+            self.write(f"{folder}/t.off", TRIANGLE)
+            self.write(f"{folder}/u.off", TRIANGLE)
+        for arguments, code, expected in (
+                (("info", "a/t.off", "b/u.off"), 0, ("] 1/2 a/t.off", "[############............] 2/2 b/u.off")),
+                (("diff", "a/t.off", "b/t.off", "--report", "r.md"), 0, ("] 1/1 compare", "] 1/1 r.md")),
+                (("diff", "a", "b"), 0, ("] 1/2 t.off", "] 2/2 u.off")),
+                (("info", "none.off"), 3, ("] 1/1 none.off", "there is no file"))):
+            run, terminal = self.on_a_terminal(*arguments)
+            self.assertEqual(run.wait(60), code)
+            said = os.read(terminal, 65536).decode()
+            for text in expected:
+                self.assertIn(text, said)
+            self.assertTrue(said.rstrip("\r\n").endswith("\033[K") or code, said)  # nothing of it stays
 
     def test_events(self):
         self.write("in.off", TRIANGLE)
