@@ -10,8 +10,8 @@ namespace facetmill::simplification {
 
 namespace {
 
-constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
-constexpr std::uint8_t outside = 64; // the territory: no reason that is kept
+constexpr double least_cosine = 0.5;              // no face turns by more than 60 degrees
+constexpr std::uint8_t outside = 64, later = 128; // of the territory, or not yet: no reasons that are kept
 
 /// The live faces at a vertex; false when there are too many.
 bool gather(const State& s, Index v, Ring& ring) {
@@ -177,6 +177,7 @@ class Collapse {
         if (s_.rules.apart && a_stays && joins_held()) return blocked_border;
         if (s_.has_seams() && !pair_wedges(a_stays)) return blocked_border;
         if (r_.changes_topology && !find_cancelled(s_, r_)) return blocked_topology;
+        if (r_.changes_topology && r_.waits) return later;
         if (r_.changes_topology && vanishes(s_, r_)) return 0;
         if (!a_stays && !keeps_facing(r_.a, r_.at_a, r_.b, to)) return blocked_flip;
         if (!keeps_facing(r_.b, r_.at_b, r_.a, to)) return blocked_flip;
@@ -449,6 +450,7 @@ Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally
     auto why = held ? blocked_border : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge);
     if (!why && p.error > s.bounds.max_squared_error) why = blocked_error;
     if (why == outside) return Attempt::outside;
+    if (why == later) return Attempt::later;
     if (why) {
         s.edges.flags[c] |= why;
         s.edges.cost[c] = never;

@@ -53,6 +53,7 @@ struct Around {
     int sides = 0; ///< may be above max_sides: then the edge stays
 
     // Only where topology may change.
+    bool waits = false; ///< what changes it is left for later
     bool changes_topology = false;
     std::array<Cancelled, max_sides> cancelled{};
     int cancellations = 0;
@@ -78,6 +79,7 @@ enum class Attempt {
     done,
     refused, ///< it would break a guarantee: the edge is blocked and its flags say why
     outside, ///< something around the edge is beyond the territory: nothing was done
+    later,   ///< it changes the topology and waits: nothing was done
 };
 /// Collapses the edge of corner c if all guarantees hold, and prices the edges that changed. around: scratch,
 /// with the territory.

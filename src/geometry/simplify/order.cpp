@@ -222,10 +222,12 @@ class Passes {
         for (std::size_t b = 0; b < blocks_.size(); ++b)
             count += members_[blocks_[b].member].uses * found[b].size();
         std::vector<PassTotals> totals(members_.size());
+        std::vector<LastEdge> edges;
         if (count > remaining() || last_steps())
-            collapse_in_order(found, totals);
+            for (std::size_t b = 0; b < blocks_.size(); ++b) append(edges, found[b], blocks_[b].member);
         else
-            collapse_disjoint(found, totals);
+            collapse_disjoint(found, totals, edges);
+        if (!edges.empty()) collapse_in_order(std::move(edges), totals);
         for (std::size_t m = 0; m < members_.size(); ++m) {
             changed_[m] = totals[m].collapses > 0;
             members_[m].done.collapses += totals[m].collapses;
@@ -236,9 +238,13 @@ class Passes {
         }
     }
 
-    /// Each state by itself.
-    void collapse_disjoint(const std::vector<std::vector<Candidate>>& found,
-                           std::vector<PassTotals>& totals) {
+    static void append(std::vector<LastEdge>& edges, const std::vector<Candidate>& more, std::size_t member) {
+        for (const Candidate& k : more) edges.push_back({k.key, k.corner, static_cast<Index>(member)});
+    }
+
+    /// Each state by itself. later: what changes the topology, which may take more faces than were reckoned.
+    void collapse_disjoint(const std::vector<std::vector<Candidate>>& found, std::vector<PassTotals>& totals,
+                           std::vector<LastEdge>& later) {
         for_members([&](std::size_t m) {
             const auto lists =
                 std::span(found).subspan(first_block_[m], first_block_[m + 1] - first_block_[m]);
@@ -254,30 +260,33 @@ class Passes {
             };
             totals[m] = collapse_by_stretches(s, lists, most);
         });
+        for (std::size_t m = 0; m < members_.size(); ++m) append(later, totals[m].later, m);
+        count();
     }
 
     /// All in one order, until the goal is met.
-    void collapse_in_order(const std::vector<std::vector<Candidate>>& found,
-                           std::vector<PassTotals>& totals) {
-        std::vector<LastEdge> edges;
-        for (std::size_t b = 0; b < blocks_.size(); ++b)
-            for (const Candidate& k : found[b])
-                edges.push_back({k.key, k.corner, static_cast<Index>(blocks_[b].member)});
+    void collapse_in_order(std::vector<LastEdge> edges, std::vector<PassTotals>& totals) {
         std::sort(edges.begin(), edges.end());
         const auto around = std::make_unique<Around>();
         std::vector<Tally> tallies(members_.size());
         const std::size_t most = remaining();
         std::size_t done = 0;
         const auto state_of = [&](const LastEdge& e) -> State& { return *members_[e.member].state; };
-        for (std::size_t i = 0; i < edges.size() && done < most; ++i) {
+        std::size_t faces = faces_, vertices = vertices_;
+        for (std::size_t i = 0; i < edges.size() && done < most && !goal_.met(faces, vertices); ++i) {
             fetch_ahead(edges, i, state_of);
             State& s = state_of(edges[i]);
             if (!is_open(s, edges[i].corner)) continue;
             Pricer pricer(s);
+            Tally& tally = tallies[edges[i].member];
+            const std::size_t uses = members_[edges[i].member].uses, faces_gone = tally.faces,
+                              vertices_gone = tally.vertices;
             // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
-            // again.
-            if (collapse(s, edges[i].corner, *around, pricer, tallies[edges[i].member]) == Attempt::done)
-                done += members_[edges[i].member].uses;
+            // again; four faces and all vertices of a part that vanishes, so that is counted.
+            if (collapse(s, edges[i].corner, *around, pricer, tally) != Attempt::done) continue;
+            done += uses;
+            faces -= uses * (tally.faces - faces_gone);
+            vertices -= uses * (tally.vertices - vertices_gone);
         }
         for (std::size_t m = 0; m < members_.size(); ++m) join(*members_[m].state, tallies[m], totals[m]);
     }

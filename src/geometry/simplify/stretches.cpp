@@ -41,6 +41,7 @@ struct Share {
     std::vector<Candidate> edges{};
     std::vector<Crossing> crossing{}; ///< reach from the only stretch of the territory into one other
     std::vector<Candidate> rest{};    ///< reach farther
+    std::vector<Candidate> later{};   ///< change the topology
     Tally tally{};
 };
 
@@ -70,13 +71,15 @@ void collapse_share(State& s, Share& share, std::size_t most) {
     std::sort(share.edges.begin(), share.edges.end());
     const auto around = std::make_unique<Around>();
     around->territory = share.territory;
+    around->waits = true;
     Pricer pricer(s);
     for (std::size_t i = 0; i < share.edges.size(); ++i) {
         fetch_ahead(share.edges, i, [&](const Candidate&) -> const State& { return s; });
         const Candidate& k = share.edges[i];
         if (!is_open(s, k.corner)) continue;
-        if (collapse(s, k.corner, *around, pricer, share.tally) == Attempt::outside)
-            hand_on(share, k, *around);
+        const Attempt attempt = collapse(s, k.corner, *around, pricer, share.tally);
+        if (attempt == Attempt::outside) hand_on(share, k, *around);
+        if (attempt == Attempt::later) share.later.push_back(k);
         // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
         // again.
         if (share.tally.collapses >= most) break;
@@ -102,8 +105,8 @@ class Stretches {
         std::sort(crossing_.begin(), crossing_.end());
         for (auto& pairs : in_turns()) work_all(pairs);
         collapse_share(s_, rest_, most());
-        join(s_, rest_.tally, totals_);
-        return totals_;
+        take(rest_);
+        return std::move(totals_);
     }
 
   private:
@@ -123,10 +126,15 @@ class Stretches {
         parallel_for(
             shares.size(), [&](std::size_t i) { collapse_share(s_, shares[i], s_.rings.live_faces); }, 1);
         for (Share& share : shares) {
-            join(s_, share.tally, totals_);
+            take(share);
             crossing_.insert(crossing_.end(), share.crossing.begin(), share.crossing.end());
             rest_.edges.insert(rest_.edges.end(), share.rest.begin(), share.rest.end());
         }
+    }
+
+    void take(Share& share) {
+        join(s_, share.tally, totals_);
+        totals_.later.insert(totals_.later.end(), share.later.begin(), share.later.end());
     }
 
     /// Groups the crossing edges by pairs of stretches, and those into turns in which no stretch occurs

@@ -27,7 +27,8 @@ int stretch_bits(const State& s);
 /// What a pass came to; the collapses are joined into the state's log and counts.
 struct PassTotals {
     std::size_t collapses = 0;
-    double largest = 0; ///< as Tally
+    double largest = 0;             ///< as Tally
+    std::vector<Candidate> later{}; ///< that change the topology and may take more than two faces
 };
 /// Counts a worker's collapses in the state.
 void join(State& s, Tally& tally, PassTotals& totals);

@@ -70,6 +70,25 @@ TEST_CASE("topology: allow goes down to nothing, and counts what it does", "[geo
     CHECK(broken_invariants(r.mesh).empty());
 }
 
+TEST_CASE("topology: allow goes down to a number of faces and not far below it", "[geometry]") {
+    // Cubes that are all alike: each ends as a tetrahedron, whose last collapse takes four faces. At most the
+    // last one goes beyond the target.
+    Mesh m;
+    for (int i = 0; i < 3000; ++i) {
+        Mesh cube = shapes::cube();
+        for (auto& p : cube.positions) p = p + Vec3{3.0 * (i % 60), 3.0 * (i / 60), 0};
+        append(m, cube);
+    }
+    for (const Method method : {Method::quadric, Method::quadric_endpoints, Method::shortest_edge})
+        for (const std::size_t faces : {20000, 6000, 1000}) {
+            const auto r = simplify(m, {.method = method, .topology = Topology::allow, .faces = faces});
+            CHECK(r.stop == Stop::faces);
+            CHECK(r.faces_after <= faces);
+            CHECK(r.faces_after + 4 > faces);
+            CHECK(count(r.mesh).unbalanced == 0);
+        }
+}
+
 TEST_CASE("topology: allow closes holes", "[geometry]") {
     const Mesh m = with_hole();
     REQUIRE(count(m).open > 0);
