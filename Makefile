@@ -7,7 +7,8 @@
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
 #   make faults   make calls of the system fail, one in each of some thousand runs (tests/faults/faults.py)
-#   make fuzz     random meshes through random chains of stages for a while (MINUTES=10, FIRST=1, the first seed)
+#   make fuzz     random meshes through random chains of stages for a while (MINUTES=10, FIRST=1, the first seed);
+#                 TARGET=ply and such: libFuzzer over what reads bytes, with clang (TARGET=all: each for its share)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make site     the manual as a site, in build/site/html
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
@@ -21,10 +22,11 @@ PREFIX ?= /usr/local
 FILTER ?= .
 MINUTES ?= 10
 FIRST ?= 1
+TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults fuzz bench site install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults fuzz fuzz-stages fuzz-bytes bench site install deb format check-layers check-style clean
 all: build
 
 deps:
@@ -62,9 +64,17 @@ faults: build
 	python3 tests/faults/faults.py --kill
 	python3 tests/faults/faults.py --stages
 
-fuzz: build
+fuzz: $(if $(filter stages,$(TARGET)),fuzz-stages,fuzz-bytes)
+
+fuzz-stages: build
 	@cmake --build --preset $(PRESET) -j $(JOBS) --target fuzz_stages
 	nice -n 19 $(BUILD)/tests/fuzz_stages $$((60 * $(MINUTES))) $(FIRST)
+
+fuzz-bytes:
+	@tools/deps.sh --fuzz
+	@cmake --preset fuzz --log-level=NOTICE
+	@cmake --build --preset fuzz -j $(JOBS) --target fuzz_bytes
+	nice -n 19 tests/fuzz/fuzz.sh build/fuzz/tests/fuzz_bytes $(TARGET) $$((60 * $(MINUTES)))
 
 bench:
 	@tools/deps.sh --bench

@@ -1,9 +1,9 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench] [--site]
+# deps.sh [--list] [--all] [--bench] [--site] [--fuzz]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
 # shells and Meson, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use, --site what
-# the manual is made with.
+# the manual is made with, --fuzz what libFuzzer needs.
 set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
@@ -11,6 +11,7 @@ build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohman
     libpng-dev libjpeg-dev libwebp-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
+fuzz="clang libclang-rt-dev"
 site="mkdocs mkdocs-material python3-yaml"
 optional="ccache python3-yaml zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
 
@@ -21,7 +22,8 @@ for argument in "$@"; do
     --all) wanted="$wanted $optional" ;;
     --bench) wanted="$wanted $bench" ;;
     --site) wanted="$wanted $site" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site]" >&2; exit 2 ;;
+    --fuzz) wanted="$wanted $fuzz" ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--fuzz]" >&2; exit 2 ;;
     esac
 done
 

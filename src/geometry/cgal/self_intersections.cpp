@@ -184,8 +184,8 @@ class SelfIntersectionSearch::Search {
         known.box_pairs = pairs_.for_each(max_box_pairs, [&](std::size_t i, std::size_t j) {
             const auto [f, g] = std::minmax(facets_[i].face, facets_[j].face);
             if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
-            const auto is_exempt = [&] {
-                return std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g});
+            const auto is_exempt = [&, pair = std::pair{f, g}] {
+                return std::binary_search(exempt.begin(), exempt.end(), pair);
             };
             if (facets_meet(facets_[i], facets_[j], is_exempt) < 0) return;
             flag(f).store(1, relaxed);

@@ -1,0 +1,21 @@
+// The files with which fuzzing began and those that it found, through the same functions.
+#include "support/catch.hpp"
+#include "support/fuzz_targets.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("what fuzzing has found stays mended", "[property][io]") {
+    const std::filesystem::path corpus = std::filesystem::path(FACETMILL_SOURCE_DIR) / "tests/data/fuzz";
+    for (const auto& target : test::fuzz_targets) {
+        std::size_t files = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(corpus / target.name)) {
+            const std::string text = test::get(entry.path());
+            const auto bytes = test::bytes_of(text);
+            INFO(entry.path());
+            CHECK(target.trouble({bytes.begin(), bytes.end()}) == "");
+            ++files;
+        }
+        INFO(target.name);
+        CHECK(files > 0);
+    }
+}
