@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <utility>
 
 namespace facetmill::cells {
 
@@ -54,7 +55,50 @@ int nameless_file(const fs::path& folder) {
     }
 }
 
+void write_at(int file, io::Span bytes, off_t at, const fs::path& folder) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::pwrite(file, bytes.data(), bytes.size(), at);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) cannot_write_there(folder, errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+        at += n;
+    }
+}
+
 } // namespace
+
+void unreadable_scratch(const fs::path& folder) {
+    throw Error(ErrorKind::output, "E-SCRATCH",
+                fmt::format("temporary data in '{}' cannot be read as it was written", folder.string()),
+                "run it again with --scratch DIR on another disk");
+}
+
+ScratchFile::ScratchFile(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {
+    file_ = nameless_file(folder_);
+    if (file_ < 0) cannot_write_there(folder_, errno);
+}
+
+ScratchFile::~ScratchFile() {
+    if (file_ >= 0) ::close(file_);
+}
+
+void ScratchFile::append(io::Span bytes) {
+    constexpr std::size_t usual = std::size_t{1} << 20;
+    waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+    if (waiting_.size() >= usual) write();
+}
+
+void ScratchFile::write() {
+    write_at(file_, waiting_, static_cast<off_t>(size_), folder_);
+    size_ += waiting_.size();
+    waiting_.clear();
+}
+
+std::shared_ptr<const ReadFile> ScratchFile::finish() {
+    write();
+    waiting_ = {};
+    return std::make_shared<const ReadFile>(std::exchange(file_, -1), folder_);
+}
 
 BlockFile::BlockFile(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {
     file_ = nameless_file(folder_);
@@ -65,14 +109,7 @@ BlockFile::~BlockFile() { ::close(file_); }
 
 Block BlockFile::put(io::Span bytes) {
     const Block block{end_.fetch_add(bytes.size()), bytes.size(), digest_of(bytes)};
-    auto at = static_cast<off_t>(block.offset);
-    while (!bytes.empty()) {
-        const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), at);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) cannot_write_there(folder_, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
-        at += n;
-    }
+    write_at(file_, bytes, static_cast<off_t>(block.offset), folder_);
     return block;
 }
 
@@ -85,10 +122,7 @@ void BlockFile::get(const Block& block, std::byte* to) const {
         if (n <= 0) break;
         done += static_cast<std::size_t>(n);
     }
-    if (done < block.size || digest_of({to, block.size}) != block.digest)
-        throw Error(ErrorKind::output, "E-SCRATCH",
-                    fmt::format("temporary data in '{}' cannot be read as it was written", folder_.string()),
-                    "run it again with --scratch DIR on another disk");
+    if (done < block.size || digest_of({to, block.size}) != block.digest) unreadable_scratch(folder_);
 }
 
 io::Bytes BlockFile::get(const Block& block) const {

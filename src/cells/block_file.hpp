@@ -2,7 +2,7 @@
 // Temporary data beside memory: blocks of bytes in a file that has no name, so that nothing is left of it
 // however the process ends.
 
-#include "io/bytes.hpp"
+#include "cells/stream.hpp"
 
 #include <atomic>
 
@@ -11,6 +11,31 @@ namespace facetmill::cells {
 /// Where bytes stand in a BlockFile, and what they must be when they are read again.
 struct Block {
     std::uint64_t offset = 0, size = 0, digest = 0;
+};
+
+/// Throws output (E-SCRATCH): what was written there is not what is read.
+[[noreturn]] void unreadable_scratch(const std::filesystem::path& folder);
+
+/// A file without a name, written from its beginning to its end and then read anywhere.
+class ScratchFile {
+  public:
+    /// Throws output (E-WRITE, E-SPACE).
+    explicit ScratchFile(const std::filesystem::path& folder);
+    ~ScratchFile();
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+
+    /// Throws output (E-WRITE, E-SPACE).
+    void append(io::Span bytes);
+    /// What was written. Nothing can be appended afterwards.
+    std::shared_ptr<const ReadFile> finish();
+
+  private:
+    void write();
+    std::filesystem::path folder_;
+    int file_ = -1;
+    io::Bytes waiting_;
+    std::uint64_t size_ = 0;
 };
 
 class BlockFile {

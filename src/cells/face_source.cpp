@@ -1,9 +1,14 @@
 #include "cells/face_source.hpp"
 
-#include "cells/ply_source.hpp"
+#include "base/words.hpp"
+#include "cells/gltf_rows.hpp"
+#include "cells/off_rows.hpp"
+#include "cells/ply_rows.hpp"
+#include "cells/rows.hpp"
 #include "cells/stl_source.hpp"
 #include "io/output_files.hpp"
 #include "io/packing.hpp"
+#include "io/text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,50 +17,181 @@ namespace facetmill::cells {
 
 namespace {
 
-bool is_ply(const io::Input& input) {
-    constexpr std::size_t magic = 4;
-    const auto text = io::as_text(input.bytes().first(std::min(magic, input.bytes().size())));
-    return text == "ply\n" || text == "ply\r" || text == "ply ";
+enum class Format { none, ply, stl, obj, off, gltf };
+
+/// As io::read_scene takes it: by content where it is sure, else by the suffix.
+Format format_of(const io::Input& input) {
+    const io::Codec* codec = nullptr;
+    for (const io::Codec& other : io::codecs())
+        if (other.sniff && other.sniff(input.bytes()) == 2) codec = &other;
+    if (!codec) codec = io::codec_for(input.path());
+    if (is_gltf(input)) return Format::gltf;
+    constexpr std::pair<const char*, Format> known[] = {
+        {"ply", Format::ply}, {"stl", Format::stl}, {"obj", Format::obj}, {"off", Format::off}};
+    for (const auto& [name, format] : known)
+        if (codec && codec->name == name) return format;
+    return Format::none;
 }
 
-std::optional<std::string> why_not(const io::Input& input) {
+/// Text that begins so is decoded first, which needs it in memory.
+bool has_other_encoding(const io::Input& input) {
+    const std::string_view text =
+        io::as_text(input.bytes().first(std::min<std::size_t>(3, input.bytes().size())));
+    return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.starts_with("\xef\xbb\xbf") ||
+           (text.size() > 1 && (text[0] == 0) != (text[1] == 0));
+}
+
+std::optional<std::string> why_not(const io::Input& input, Format format) {
     if (input.stored().data() != input.bytes().data()) return "it is compressed"; // under whatever name
-    if (is_ply(input)) return why_ply_not_streamed(input);
-    const io::Codec* codec = io::codec_for(input.path());
-    if (codec && codec->name == "stl") return why_stl_not_streamed(input);
+    switch (format) {
+    case Format::ply:
+        return why_ply_not_streamed(input);
+    case Format::gltf:
+        return why_gltf_not_streamed(input);
+    case Format::stl:
+        if (!is_text_stl(input)) return {};
+        [[fallthrough]];
+    case Format::obj:
+    case Format::off:
+        if (has_other_encoding(input)) return "its text is not plain UTF-8";
+        return format == Format::off ? why_off_not_streamed(input) : std::nullopt;
+    case Format::none:
+        break;
+    }
     return "its format is not read in pieces";
+}
+
+std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSettings& settings) {
+    switch (format_of(input)) {
+    case Format::ply:
+        return ply_rows(input, settings);
+    case Format::stl:
+        return stl_rows(input, settings);
+    case Format::obj:
+        return obj_rows(input, settings);
+    case Format::off:
+        return off_rows(input, settings);
+    case Format::gltf:
+    case Format::none:
+        break;
+    }
+    return gltf_rows(input, settings);
+}
+
+/// The way a file's numbers are meant, which must be the same for all.
+void take_convention(const io::Input& input, const io::ReadSettings& settings,
+                     FaceSource::Contents& contents) {
+    const bool gltf = format_of(input) == Format::gltf;
+    const Unit unit = settings.unit.value_or(gltf ? Unit::m : Unit::unknown);
+    const UpAxis up = settings.up.value_or(gltf ? UpAxis::y : UpAxis::unknown);
+    if (contents.files.empty()) {
+        contents.unit = unit;
+        contents.up = up;
+    } else if (unit != contents.unit || up != contents.up) {
+        throw Error(ErrorKind::usage, "E-CELLS",
+                    fmt::format("'{}' and '{}' have different units or axes, and cells are of one",
+                                contents.files.front().input.name(), input.name()),
+                    "give both: load: {path: ..., unit: m, up: z}");
+    }
+}
+
+void add_once(std::vector<std::string>& all, const std::string& one) {
+    if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+}
+
+bool same_properties(const std::vector<io::ply::Property>& a, const std::vector<io::ply::Property>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& p, const auto& q) { return p.name == q.name && p.type == q.type; });
+}
+
+/// Attributes that all files have alike; where places make vertices, none: a vertex has one value of each.
+std::vector<io::ply::Property> common_properties(const std::vector<std::unique_ptr<RowReader>>& readers,
+                                                 const io::ReadSettings& settings,
+                                                 std::vector<std::string>& dropped) {
+    std::vector<io::ply::Property> common = readers.front()->extra;
+    bool alike = settings.weld != io::Weld::exact;
+    for (const auto& reader : readers) alike &= same_properties(reader->extra, common);
+    if (alike) return common;
+    for (const auto& reader : readers)
+        for (const auto& p : reader->extra) add_once(dropped, fmt::format("'{}' of vertices", p.name));
+    return {};
+}
+
+/// Files that are written as rows first.
+std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, const io::ReadSettings& settings,
+                                      const std::filesystem::path& scratch, FaceSource::Contents contents) {
+    std::vector<std::unique_ptr<RowReader>> readers;
+    for (const io::Input& input : inputs) readers.push_back(reader_of(input, settings));
+    const auto extra = common_properties(readers, settings, contents.dropped);
+    RowWriter writer(scratch, extra);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        take_convention(inputs[i], settings, contents);
+        contents.files.push_back({inputs[i], readers[i]->read(writer, !extra.empty())});
+        for (auto& file : readers[i]->neighbours) contents.files.push_back(std::move(file));
+        for (const std::string& what : readers[i]->dropped) add_once(contents.dropped, what);
+    }
+    contents.bounds = writer.bounds();
+    contents.skipped_faces = writer.short_faces();
+    Rows rows = writer.finish();
+    const std::size_t groups = rows.groups.size();
+    if (groups > 1)
+        contents.dropped.push_back(
+            fmt::format("the division into {}, which become one part", counted(groups, "part")));
+    return source_of(std::move(rows), std::move(contents), settings);
 }
 
 } // namespace
 
 std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
-    std::error_code ignored;
     if (path == "-" || io::is_stream(path)) return "it is a stream, and is read more than once";
     if (io::packing_named(path) != io::Packing::none) return "it is compressed";
-    return why_not(io::Input::open(path));
+    const io::Input input = io::Input::open(path);
+    return why_not(input, format_of(input));
 }
 
 std::uint64_t estimated_faces(const std::filesystem::path& path) {
-    constexpr std::uint64_t text_bytes = 30, packed_bytes = 8; // of a face, in OBJ and OFF; in gzip and Draco
+    constexpr std::uint64_t text_bytes = 30, packed_bytes = 8; // of a face, in OBJ; in gzip and Draco
+    constexpr std::uint64_t stl_text_bytes = 200;
     std::error_code ignored;
     if (path == "-" || io::is_stream(path)) return 0;
     const auto size = std::filesystem::file_size(path, ignored);
     if (ignored) return 0;
     if (io::packing_named(path) != io::Packing::none) return size / packed_bytes;
     const io::Input input = io::Input::open(path);
-    if (is_ply(input)) return ply_faces(input);
-    const io::Codec* codec = io::codec_for(path);
-    if (codec && codec->name == "stl" && !why_stl_not_streamed(input)) return stl_faces(input);
+    const Format format = format_of(input);
+    if (format == Format::ply) return ply_faces(input);
+    if (format == Format::stl) return is_text_stl(input) ? size / stl_text_bytes : stl_faces(input);
+    if (format == Format::off && !why_not(input, format)) return off_faces(input);
+    if (format == Format::gltf && !why_not(input, format)) return gltf_faces(input);
     return size / text_bytes;
 }
 
-std::unique_ptr<FaceSource> open_faces(const std::filesystem::path& path, const io::ReadSettings& settings) {
-    io::Input input = io::Input::open(path);
-    if (const auto why = why_not(input))
-        throw Error(ErrorKind::usage, "E-CELLS",
-                    fmt::format("'{}' cannot be processed in cells: {}", path.string(), *why),
-                    "write it as binary PLY or STL first, or use more memory");
-    return is_ply(input) ? open_ply(std::move(input), settings) : open_stl(std::move(input), settings);
+std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
+                                       const io::ReadSettings& settings,
+                                       const std::filesystem::path& scratch) {
+    std::vector<io::Input> inputs;
+    for (const auto& path : paths) {
+        const io::Input& input = inputs.emplace_back(io::Input::open(path));
+        if (const auto why = why_not(input, format_of(input)))
+            throw Error(ErrorKind::usage, "E-CELLS",
+                        fmt::format("'{}' cannot be processed in cells: {}", path.string(), *why),
+                        "write it as binary PLY or STL first, or use more memory");
+    }
+    FaceSource::Contents contents;
+    contents.name = paths.front().stem().string();
+    const Format format = format_of(inputs.front());
+    const bool by_format = settings.weld == io::Weld::automatic;
+    const bool itself =
+        inputs.size() == 1 && (by_format || (format == Format::ply && settings.weld == io::Weld::off));
+    if (itself && format == Format::ply && !is_text_ply(inputs.front())) {
+        take_convention(inputs.front(), settings, contents);
+        return open_ply(inputs.front(), settings, std::move(contents));
+    }
+    if (itself && format == Format::stl && !is_text_stl(inputs.front())) {
+        take_convention(inputs.front(), settings, contents);
+        return open_stl(inputs.front(), settings, std::move(contents));
+    }
+    return open_rows(inputs, settings, scratch, std::move(contents));
 }
 
 } // namespace facetmill::cells

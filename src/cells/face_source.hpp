@@ -10,28 +10,33 @@ namespace facetmill::cells {
 /// Some faces of a file as a mesh.
 struct Piece {
     Mesh mesh; ///< triangles, every vertex used by one
-    /// [vertices] The vertex's number in the file; 0 for all where a place is what makes a vertex (STL). Two
-    /// pieces share a vertex when both its name and its position are the same.
+    /// [vertices] The vertex's number in the file; where a place is what makes a vertex (STL, glTF), a number
+    /// that its place gives it. Two pieces share a vertex when both its name and its position are the same.
     std::vector<std::uint64_t> names;
 };
 
-/// A mesh file of any size. Faces of more than three corners come as triangles.
+/// Meshes of any size, from one or several files. Faces of more than three corners come as triangles.
 class FaceSource {
   public:
     virtual ~FaceSource() = default;
 
-    /// What a scan of the whole file found.
-    struct Contents {
-        Box bounds;
-        std::uint64_t vertices = 0; ///< the file's; 0 where it has none of its own
+    struct File {
+        io::Input input;
         std::string sha256;
     };
+    /// What a scan of all files found.
+    struct Contents {
+        std::vector<File> files;
+        Box bounds;
+        std::vector<std::string> dropped; ///< what of the files is not carried, in words; empty: all is
+        std::uint64_t skipped_faces = 0;  ///< of fewer than three corners
+        std::string name;                 ///< of the mesh
+        Unit unit = Unit::unknown;
+        UpAxis up = UpAxis::unknown;
+    };
     const Contents& contents() const { return contents_; }
-    std::uint64_t bytes() const { return input_.bytes().size(); }
-    const io::Input& input() const { return input_; }
-    /// What of the file is not carried, in words; empty: all is.
-    const std::vector<std::string>& dropped() const { return dropped_; }
-    std::uint64_t skipped_faces() const { return skipped_faces_; } ///< of fewer than three corners
+    /// The first file's name, for messages.
+    const std::string& name() const { return contents_.files.front().input.name(); }
 
     /// Bytes of a triangle's record.
     virtual std::size_t record_size() const = 0;
@@ -41,24 +46,15 @@ class FaceSource {
     virtual void each(const Take& take, std::size_t memory) = 0;
     /// The triangles of records as a mesh, in their order. Any thread.
     virtual Piece piece(io::Span records) const = 0;
-    /// For each vertex of the records a number that equal vertices share (and others seldom), each once,
-    /// ascending. Any thread.
-    virtual std::vector<std::uint64_t> keys(io::Span records) const = 0;
-    /// The number of a vertex of a piece.
-    virtual std::uint64_t key(const Piece& piece, Index vertex) const = 0;
+    /// For each vertex of the records its name, each once, ascending. Any thread.
+    virtual std::vector<std::uint64_t> names(io::Span records) const = 0;
 
   protected:
-    explicit FaceSource(io::Input input) : input_(std::move(input)) {}
+    explicit FaceSource(Contents contents) : contents_(std::move(contents)) {}
     Contents& own_contents() { return contents_; }
-    void drop(std::string what) { dropped_.push_back(std::move(what)); }
-    void add_skipped_face() { ++skipped_faces_; }
-    void forget_skipped_faces() { skipped_faces_ = 0; }
 
   private:
-    io::Input input_;
     Contents contents_;
-    std::vector<std::string> dropped_;
-    std::uint64_t skipped_faces_ = 0;
 };
 
 /// Whether a file can be read so, by its first bytes and its name; else why not, in words.
@@ -67,8 +63,12 @@ std::optional<std::string> why_not_streamed(const std::filesystem::path& path);
 /// Triangles of a file: about as many as its header says, else as its size does. 0 where that is not known.
 std::uint64_t estimated_faces(const std::filesystem::path& path);
 
-/// Opens a file, scans it once: its digest, its bounds, that all positions are finite. Throws as
-/// io::read_scene, and usage (E-CELLS) where why_not_streamed would say why.
-std::unique_ptr<FaceSource> open_faces(const std::filesystem::path& path, const io::ReadSettings& settings);
+/// Opens files, scans them once: their digests, bounds, that all positions are finite. Several files, and
+/// parts of a file, become one mesh. Vertices of one place are one where the format needs it, within a file
+/// and part; with Weld::exact everywhere, with Weld::off nowhere. scratch: a folder for temporary data.
+/// Throws as io::read_scene, and usage (E-CELLS) where why_not_streamed would say why, or units differ.
+std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
+                                       const io::ReadSettings& settings,
+                                       const std::filesystem::path& scratch);
 
 } // namespace facetmill::cells

@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "base/random.hpp"
+#include "cells/unite.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -64,8 +65,7 @@ void Partition::distribute(const Means& means, std::uint64_t most) {
             memory);
     }
     if (faces_ == 0)
-        throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no faces", source_->input().name()));
+        throw Error(ErrorKind::malformed, "E-EMPTY", fmt::format("'{}' has no faces", source_->name()));
     tree_ = grid.split(most);
     // Half of the waiting bytes is of lists that are full.
     records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(means.memory / 16));
@@ -169,7 +169,7 @@ void Partition::find_shared(const Means& means) {
     const auto leaves = static_cast<std::uint32_t>(tree_.leaves.size());
     borders_ = std::make_unique<Spool>(means.scratch, leaves, static_cast<std::size_t>(means.memory / 16));
     if (leaves == 1) {
-        vertices_ = source_->keys(records_.read(list_[0])).size();
+        vertices_ = source_->names(records_.read(list_[0])).size();
         return;
     }
     const std::uint64_t estimate = faces_ * 2 * sizeof(Owned); // of vertices, with those that are shared
@@ -177,7 +177,7 @@ void Partition::find_shared(const Means& means) {
     Spool owned(means.scratch, static_cast<std::size_t>(buckets),
                 static_cast<std::size_t>(means.memory / 16));
     for (std::uint32_t leaf = 0; leaf < leaves; ++leaf)
-        for (const std::uint64_t key : source_->keys(records_.read(list_[leaf])))
+        for (const std::uint64_t key : source_->names(records_.read(list_[leaf])))
             owned.add(static_cast<std::size_t>(hashed(0, key) % buckets), as_record(Owned{key, leaf}));
     owned.flush();
     for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
@@ -204,7 +204,7 @@ Cell Partition::cell(std::uint32_t leaf) const {
     Cell cell;
     cell.home.assign(piece.mesh.vertex_count(), Cell::inner);
     for (Index v = 0; v < piece.mesh.vertex_count() && !shared.empty(); ++v) {
-        const std::uint64_t key = source_->key(piece, v);
+        const std::uint64_t key = piece.names[v];
         const auto at = std::lower_bound(shared.begin(), shared.end(), key,
                                          [](const Shared& s, std::uint64_t k) { return s.key < k; });
         if (at != shared.end() && at->key == key) cell.home[v] = at->depth;
@@ -214,34 +214,6 @@ Cell Partition::cell(std::uint32_t leaf) const {
     return cell;
 }
 
-namespace {
-
-/// For each vertex of the cells in a row the first with the same name and position, among those that are
-/// shared.
-std::vector<Index> firsts(const Mesh& mesh, const std::vector<std::uint64_t>& names,
-                          const std::vector<std::uint8_t>& home) {
-    std::vector<Index> first(mesh.vertex_count()), shared;
-    std::iota(first.begin(), first.end(), Index{0});
-    for (Index v = 0; v < first.size(); ++v)
-        if (home[v] != Cell::inner) shared.push_back(v);
-    const auto compare = [&](Index a, Index b) {
-        const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
-        if (names[a] != names[b]) return names[a] < names[b] ? -1 : 1;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (p[axis] != q[axis]) return p[axis] < q[axis] ? -1 : 1;
-        return 0;
-    };
-    std::sort(shared.begin(), shared.end(), [&](Index a, Index b) {
-        const int order = compare(a, b);
-        return order != 0 ? order < 0 : a < b;
-    });
-    for (std::size_t i = 1; i < shared.size(); ++i)
-        if (compare(shared[i - 1], shared[i]) == 0) first[shared[i]] = first[shared[i - 1]];
-    return first;
-}
-
-} // namespace
-
 Cell joined(std::vector<Cell> cells, std::uint8_t depth) {
     Cell all = std::move(cells.front());
     for (std::size_t i = 1; i < cells.size(); ++i) {
@@ -250,22 +222,13 @@ Cell joined(std::vector<Cell> cells, std::uint8_t depth) {
         all.home.insert(all.home.end(), cells[i].home.begin(), cells[i].home.end());
         cells[i] = {};
     }
-    const std::vector<Index> first = firsts(all.mesh, all.names, all.home);
-    std::vector<Index> kept, number(first.size(), none);
-    for (Index v = 0; v < first.size(); ++v) {
-        if (first[v] != v) continue;
-        number[v] = static_cast<Index>(kept.size());
-        all.mesh.positions[kept.size()] = all.mesh.positions[v];
-        all.names[kept.size()] = all.names[v];
-        all.home[kept.size()] = all.home[v] >= depth ? Cell::inner : all.home[v];
-        kept.push_back(v);
-    }
-    for (Index& corner : all.mesh.corners) corner = number[first[corner]];
-    all.mesh.positions.resize(kept.size());
-    all.names.resize(kept.size());
+    std::vector<Index> shared;
+    for (Index v = 0; v < all.home.size(); ++v)
+        if (all.home[v] != Cell::inner) shared.push_back(v);
+    const std::vector<Index> kept = unite(all.mesh, all.names, std::move(shared));
+    for (std::size_t v = 0; v < kept.size(); ++v)
+        all.home[v] = all.home[kept[v]] >= depth ? Cell::inner : all.home[kept[v]];
     all.home.resize(kept.size());
-    for (Attribute& a : all.mesh.attributes)
-        if (a.domain != Domain::face) a.select(kept);
     return all;
 }
 

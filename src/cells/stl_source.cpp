@@ -1,7 +1,9 @@
 #include "cells/stl_source.hpp"
 
 #include "base/random.hpp"
-#include "cells/stream.hpp"
+#include "base/spelling.hpp"
+#include "cells/rows.hpp"
+#include "cells/text_window.hpp"
 #include "io/stl/stl.hpp"
 #include "io/text.hpp"
 
@@ -25,27 +27,59 @@ std::uint64_t key_of(const Point& p) {
     return key;
 }
 
+Vec3 as_vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+std::array<Point, 3> corners_of(const std::byte* record) {
+    std::array<Point, 3> corners;
+    std::memcpy(corners.data(), record + normal_size, sizeof corners);
+    return corners;
+}
+
+/// Calls take(corners) for each triangle of a binary file. Returns its digest.
+template <class Take>
+std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& take) {
+    const std::uint64_t bytes = input.bytes().size(), count = stl_faces(input);
+    const std::uint64_t held = (bytes - stl_head) / stl_record;
+    if (count > held)
+        io::malformed(input.name(), 0, "E-STL",
+                      fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}",
+                                  count, held, bytes));
+    Sha256 sum;
+    Stream all(file, 0, bytes, &sum);
+    all.take(stl_head);
+    for (std::uint64_t f = 0; f < count; ++f) {
+        const std::array<Point, 3> corners = corners_of(all.take(stl_record));
+        for (const Point& p : corners)
+            if (!is_finite(as_vector(p)))
+                io::malformed(input.name(), 0, "E-NAN",
+                              fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected "
+                                          "finite numbers",
+                                          f, stl_head + f * stl_record, p[0], p[1], p[2]));
+        take(corners);
+    }
+    all.skip(all.left());
+    return sum.digest();
+}
+
 class StlSource final : public FaceSource {
   public:
-    StlSource(io::Input opened, const io::ReadSettings& settings)
-        : FaceSource(std::move(opened)), settings_(settings), file_(input().path()) {
-        count_ = static_cast<std::uint32_t>(stl_faces(input()));
-        const std::uint64_t held = (bytes() - stl_head) / stl_record;
-        if (count_ > held)
-            io::malformed(input().name(), 0, "E-STL",
-                          fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}",
-                                      count_, held, bytes()));
-        scan();
+    StlSource(const io::Input& input, const io::ReadSettings& settings, Contents contents)
+        : FaceSource(std::move(contents)), settings_(settings), file_(input.path()),
+          count_(stl_faces(input)) {
+        const std::string sum = each_triangle(input, file_, [&](const std::array<Point, 3>& corners) {
+            for (const Point& p : corners) own_contents().bounds.add(as_vector(p));
+        });
+        own_contents().files.push_back({input, sum});
     }
 
     std::size_t record_size() const override { return stl_record; }
 
     void each(const Take& take, std::size_t) override {
-        Stream faces(file_, stl_head, stl_head + std::uint64_t{count_} * stl_record);
-        for (std::uint32_t f = 0; f < count_; ++f) {
+        Stream faces(file_, stl_head, stl_head + count_ * stl_record);
+        for (std::uint64_t f = 0; f < count_; ++f) {
             const std::byte* const record = faces.take(stl_record);
             Vec3 centre;
-            for (const Point& p : corners_of(record)) centre = centre + Vec3{p[0], p[1], p[2]} / 3;
+            for (const Point& p : corners_of(record)) centre = centre + as_vector(p) / 3;
             take(centre, {record, stl_record});
         }
     }
@@ -56,14 +90,16 @@ class StlSource final : public FaceSource {
         std::memcpy(bytes.data() + stl_head - sizeof n, &n, sizeof n);
         bytes.insert(bytes.end(), records.begin(), records.end());
         io::ReadLog log;
-        Scene scene = io::read_scene(io::Input::of(input().name(), std::move(bytes)), settings_, log,
-                                     io::codec_named("stl"));
+        Scene scene =
+            io::read_scene(io::Input::of(name(), std::move(bytes)), settings_, log, io::codec_named("stl"));
         Piece piece{std::move(scene.parts.front().mesh), {}};
-        piece.names.resize(piece.mesh.vertex_count());
+        for (const Vec3& p : piece.mesh.positions)
+            piece.names.push_back(
+                key_of({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}));
         return piece;
     }
 
-    std::vector<std::uint64_t> keys(io::Span records) const override {
+    std::vector<std::uint64_t> names(io::Span records) const override {
         std::vector<std::uint64_t> keys;
         keys.reserve(records.size() / stl_record * 3);
         for (std::size_t at = 0; at + stl_record <= records.size(); at += stl_record)
@@ -72,48 +108,95 @@ class StlSource final : public FaceSource {
         keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
         return keys;
     }
-    std::uint64_t key(const Piece& piece, Index vertex) const override {
-        const Vec3& p = piece.mesh.positions[vertex];
-        return key_of({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+
+  private:
+    io::ReadSettings settings_;
+    ReadFile file_;
+    std::uint64_t count_ = 0;
+};
+
+/// Text as io/stl/read.cpp reads it.
+class StlReader final : public RowReader {
+  public:
+    StlReader(const io::Input& input, const io::ReadSettings& settings)
+        : input_(input), identity_(settings.weld == io::Weld::off     ? Identity::number
+                                   : settings.weld == io::Weld::exact ? Identity::place
+                                                                      : Identity::place_in_group) {}
+
+    std::string read(RowWriter& out, bool) override {
+        const ReadFile file(input_.path());
+        if (io::stl::is_text(input_.bytes())) return read_text(file, out);
+        out.begin_group(identity_);
+        return each_triangle(input_, file, [&](const std::array<Point, 3>& corners) {
+            add(out, {as_vector(corners[0]), as_vector(corners[1]), as_vector(corners[2])});
+        });
     }
 
   private:
-    static std::array<Point, 3> corners_of(const std::byte* record) {
-        std::array<Point, 3> corners;
-        std::memcpy(corners.data(), record + normal_size, sizeof corners);
-        return corners;
+    static void add(RowWriter& out, const std::array<Vec3, 3>& corners) {
+        const auto first = static_cast<std::uint32_t>(out.vertices());
+        for (const Vec3& p : corners) out.vertex(p, {});
+        out.face(std::array{first, first + 1, first + 2});
     }
 
-    void scan() {
+    static void expect(io::Text& text, std::string_view wanted) {
+        io::Text ahead = text;
+        if (!same_word(text.word(), wanted)) ahead.expected(fmt::format("'{}'", wanted).c_str());
+    }
+
+    std::string read_text(const ReadFile& file, RowWriter& out) const {
         Sha256 sum;
-        Stream all(file_, 0, bytes(), &sum);
-        all.take(stl_head);
-        for (std::uint32_t f = 0; f < count_; ++f)
-            for (const Point& p : corners_of(all.take(stl_record))) {
-                const Vec3 at{p[0], p[1], p[2]};
-                if (!is_finite(at))
-                    io::malformed(input().name(), 0, "E-NAN",
-                                  fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected "
-                                              "finite numbers",
-                                              f, stl_head + std::uint64_t{f} * stl_record, at.x, at.y, at.z));
-                own_contents().bounds.add(at);
+        TextWindow window(file, 0, input_.bytes().size(), input_.name(), "E-STL", 0, &sum);
+        while (!window.at_end()) {
+            window.item([&](io::Text& text) {
+                expect(text, "solid");
+                text.next_line();
+            });
+            out.begin_group(identity_);
+            while (read_facet(window, out)) {
             }
-        while (all.left() > 0)
-            all.take(static_cast<std::size_t>(std::min<std::uint64_t>(all.left(), 1 << 16)));
-        own_contents().sha256 = sum.digest();
+        }
+        return sum.digest();
     }
 
-    io::ReadSettings settings_;
-    ReadFile file_;
-    std::uint32_t count_ = 0;
+    /// False behind the last one of a solid.
+    static bool read_facet(TextWindow& window, RowWriter& out) {
+        std::array<Vec3, 3> corners;
+        bool facet = false;
+        window.item([&](io::Text& text) {
+            io::Text ahead = text;
+            const std::string_view word = text.word();
+            facet = same_word(word, "facet");
+            if (!facet && !same_word(word, "endsolid")) ahead.expected("'facet' or 'endsolid'");
+            if (!facet) {
+                text.next_line(); // the name again, or another, or none
+                return;
+            }
+            text.rest_of_line(); // the normal
+            expect(text, "outer");
+            expect(text, "loop");
+            for (Vec3& p : corners) {
+                expect(text, "vertex");
+                const double x = text.coordinate("x"), y = text.coordinate("y"), z = text.coordinate("z");
+                p = {x, y, z};
+            }
+            expect(text, "endloop");
+            text.rest_of_line();
+            expect(text, "endfacet");
+            text.rest_of_line();
+        });
+        if (facet) add(out, corners);
+        return facet;
+    }
+
+    io::Input input_;
+    Identity identity_;
 };
 
 } // namespace
 
-std::optional<std::string> why_stl_not_streamed(const io::Input& input) {
-    if (input.bytes().size() < stl_head || io::stl::is_text(input.bytes()))
-        return "it is text, and only binary STL is";
-    return {};
+bool is_text_stl(const io::Input& input) {
+    return input.bytes().size() < stl_head || io::stl::is_text(input.bytes());
 }
 
 std::uint64_t stl_faces(const io::Input& input) {
@@ -122,8 +205,13 @@ std::uint64_t stl_faces(const io::Input& input) {
     return count;
 }
 
-std::unique_ptr<FaceSource> open_stl(io::Input input, const io::ReadSettings& settings) {
-    return std::make_unique<StlSource>(std::move(input), settings);
+std::unique_ptr<FaceSource> open_stl(const io::Input& input, const io::ReadSettings& settings,
+                                     FaceSource::Contents contents) {
+    return std::make_unique<StlSource>(input, settings, std::move(contents));
+}
+
+std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings) {
+    return std::make_unique<StlReader>(input, settings);
 }
 
 } // namespace facetmill::cells

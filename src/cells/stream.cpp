@@ -1,5 +1,6 @@
 #include "cells/stream.hpp"
 
+#include "cells/block_file.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ void ReadFile::read(std::uint64_t offset, std::span<std::byte> to) const {
     while (!to.empty()) {
         const ssize_t n = ::pread(file_, to.data(), to.size(), static_cast<off_t>(offset));
         if (n < 0 && errno == EINTR) continue;
+        if (n <= 0 && temporary_) unreadable_scratch(path_);
         if (n <= 0)
             io::malformed(path_.string(), 0, "E-CHANGED",
                           fmt::format("byte {} cannot be read any more", offset),
@@ -54,6 +56,11 @@ const std::byte* Stream::take(std::size_t n) {
     const std::byte* const taken = buffer_.data() + at_;
     at_ += n;
     return taken;
+}
+
+void Stream::skip(std::uint64_t n) {
+    constexpr std::uint64_t at_once = 1 << 16;
+    for (; n > 0; n -= std::min(n, at_once)) take(static_cast<std::size_t>(std::min(n, at_once)));
 }
 
 RecordCache::RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t size, std::uint64_t count,

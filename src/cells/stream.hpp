@@ -11,15 +11,20 @@ class ReadFile {
   public:
     /// Throws missing.
     explicit ReadFile(const std::filesystem::path& path);
+    /// Temporary data without a name, in that folder: it is closed here.
+    ReadFile(int file, std::filesystem::path folder)
+        : path_(std::move(folder)), file_(file), temporary_(true) {}
     ~ReadFile();
     ReadFile(const ReadFile&) = delete;
     ReadFile& operator=(const ReadFile&) = delete;
-    /// Any thread. Throws malformed (E-CHANGED) when the file ends before.
+    /// Any thread. Throws malformed (E-CHANGED) when the file ends before; output (E-SCRATCH) when it is
+    /// temporary.
     void read(std::uint64_t offset, std::span<std::byte> to) const;
 
   private:
     std::filesystem::path path_;
     int file_ = -1;
+    bool temporary_ = false;
 };
 
 /// A range of a file from its beginning to its end.
@@ -30,6 +35,8 @@ class Stream {
     std::uint64_t left() const { return (end_ - read_) + (filled_ - at_); }
     /// The next n bytes, valid until the next call; n <= left().
     const std::byte* take(std::size_t n);
+    /// Passes over n bytes; n <= left().
+    void skip(std::uint64_t n);
 
   private:
     const ReadFile& file_;

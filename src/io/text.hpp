@@ -25,10 +25,11 @@ bool scan_integer(const char*& at, const char* end, std::int64_t& value);
 /// A text file, read word by word. Lines end in LF, CR LF or CR.
 class Text {
   public:
-    /// id: of the errors it throws, "E-PLY". comment: the character that starts a comment, or 0.
-    Text(std::string_view text, const std::string& name, const char* id, char comment = 0)
+    /// id: of the errors it throws, "E-PLY". comment: the character that starts a comment, or 0. line: the
+    /// number of the first line.
+    Text(std::string_view text, const std::string& name, const char* id, char comment = 0, int line = 1)
         : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(&name), id_(id),
-          comment_(comment) {}
+          comment_(comment), line_(line) {}
 
     bool at_end() {
         skip_space();
@@ -96,7 +97,7 @@ class Text {
     const std::string* name_;
     const char* id_;
     char comment_;
-    int line_ = 1;
+    int line_;
 };
 
 /// A word for a message: in quotes, cut when long, control characters as dots.

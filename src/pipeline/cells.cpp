@@ -42,7 +42,8 @@ std::size_t steps_on_cells(const Steps& steps, const std::string& what, const st
                 refuse_cells(what, fmt::format("{}: {}", step.name, *why),
                              "leave that option out, or " + way_out, step.where);
         if (step.stage->loads != (i == 0))
-            refuse_cells(what, "one load comes first", "load one file, or " + way_out, step.where);
+            refuse_cells(what, "one load comes first", "load all files in one step, or " + way_out,
+                         step.where);
         if (step.stage->ends_cells) return i + 1;
     }
     refuse_cells(what, "no stage makes the mesh small", "add simplify, or " + way_out, {});
@@ -72,13 +73,11 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     const std::string way_out = settings.when == When::always
                                     ? "use --partition auto"
                                     : "give more memory, or --partition never to try it all the same";
-    if (inputs.size() != 1)
-        refuse_cells(what, fmt::format("cells are made of one file, this pipeline reads {}", inputs.size()),
-                     way_out, inputs.empty() ? Mark{} : inputs.back().where);
-    if (const auto why = cells::why_not_streamed(inputs.front().path))
-        refuse_cells(what,
-                     fmt::format("'{}' cannot be read in pieces: {}", inputs.front().path.string(), *why),
-                     "write it as binary PLY or STL, or " + way_out, inputs.front().where);
+    if (inputs.empty()) refuse_cells(what, "cells are made of files", way_out, {});
+    for (const PlannedFile& file : inputs)
+        if (const auto why = cells::why_not_streamed(file.path))
+            refuse_cells(what, fmt::format("'{}' cannot be read in pieces: {}", file.path.string(), *why),
+                         "write it as binary PLY or STL, or " + way_out, file.where);
     cells.steps = steps_on_cells(plan.steps, what, way_out);
     cells.why = fmt::format("in cells on disk up to '{}': {}", plan.steps[cells.steps - 1].name, what);
     return cells;

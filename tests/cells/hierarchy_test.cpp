@@ -28,7 +28,7 @@ std::filesystem::path ply_of(const test::TemporaryDirectory& folder, const Mesh&
 HierarchyResult in_cells(const std::filesystem::path& path, std::size_t faces, std::uint64_t most,
                          std::uint64_t memory = ample) {
     const Means means{path.parent_path(), memory};
-    const Partition partition(open_faces(path, {}), means, most);
+    const Partition partition(open_faces({path}, {}, path.parent_path()), means, most);
     SimplifySettings settings;
     settings.faces = faces;
     return simplify_cells(partition, settings, means);

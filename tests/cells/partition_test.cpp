@@ -3,15 +3,14 @@
 #include "io/outputs.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/cells.hpp"
 #include "support/failure.hpp"
 #include "support/meshes.hpp"
 #include "support/surface.hpp"
 #include "support/temporary.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <tuple>
 
 using namespace facetmill;
 using namespace facetmill::cells;
@@ -31,35 +30,8 @@ std::filesystem::path as_file(const test::TemporaryDirectory& folder, const char
 }
 
 std::unique_ptr<Partition> partition_of(const std::filesystem::path& path, std::uint64_t most) {
-    return std::make_unique<Partition>(open_faces(path, {}), Means{path.parent_path(), test_memory}, most);
-}
-
-/// All cells as one.
-Mesh rejoined(const Partition& partition) {
-    std::vector<Cell> cells;
-    for (std::uint32_t leaf = 0; leaf < partition.tree().leaves.size(); ++leaf)
-        cells.push_back(partition.cell(leaf));
-    return joined(std::move(cells), 0).mesh;
-}
-
-/// The faces as sorted triples of positions, which say nothing of numbers and order.
-std::vector<std::array<double, 9>> triangles_of(const Mesh& mesh) {
-    std::vector<std::array<double, 9>> all;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        Index low = 3 * f;
-        const auto before = [&](Index a, Index b) {
-            const Vec3 &p = mesh.point(a), &q = mesh.point(b);
-            return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-        };
-        for (Index c = 3 * f; c < 3 * f + 3; ++c)
-            if (before(c, low)) low = c;
-        std::array<double, 9> triangle{};
-        for (std::size_t i = 0; i < 9; ++i)
-            triangle[i] = mesh.point(3 * f + (low % 3 + static_cast<Index>(i / 3)) % 3)[i % 3];
-        all.push_back(triangle);
-    }
-    std::sort(all.begin(), all.end());
-    return all;
+    return std::make_unique<Partition>(open_faces({path}, {}, path.parent_path()),
+                                       Means{path.parent_path(), test_memory}, most);
 }
 
 } // namespace
@@ -75,9 +47,9 @@ TEST_CASE("cells are the mesh: whole faces, shared vertices known", "[cells]") {
         CHECK((partition->tree().leaves.size() == 1) == (most >= mesh.face_count()));
         for (std::uint32_t leaf = 0; leaf < partition->tree().leaves.size(); ++leaf)
             CHECK(partition->faces_of(leaf) <= most);
-        const Mesh whole = rejoined(*partition);
+        const Mesh whole = test::rejoined(*partition);
         CHECK(whole.vertex_count() == mesh.vertex_count());
-        CHECK(triangles_of(whole) == triangles_of(mesh));
+        CHECK(test::triangles_of(whole) == test::triangles_of(mesh));
         CHECK(test::count(whole) == test::count(mesh));
     }
     CHECK(folder.names() == std::vector<std::string>{"m.ply"}); // temporary data has no name
@@ -89,9 +61,9 @@ TEST_CASE("the vertices of STL are known by their places", "[cells]") {
     for (Vec3& p : mesh.positions) p = {double(float(p.x)), double(float(p.y)), double(float(p.z))};
     const auto partition = partition_of(as_file(folder, "m.stl", mesh), 200);
     CHECK(partition->vertices() == mesh.vertex_count());
-    const Mesh whole = rejoined(*partition);
+    const Mesh whole = test::rejoined(*partition);
     CHECK(whole.vertex_count() == mesh.vertex_count());
-    CHECK(triangles_of(whole) == triangles_of(mesh));
+    CHECK(test::triangles_of(whole) == test::triangles_of(mesh));
 }
 
 TEST_CASE("vertices of PLY at one place stay apart, as in memory", "[cells]") {
@@ -99,7 +71,7 @@ TEST_CASE("vertices of PLY at one place stay apart, as in memory", "[cells]") {
     Mesh mesh = shapes::icosphere(3);
     append(mesh, Mesh(mesh)); // the same twice
     const auto partition = partition_of(as_file(folder, "m.ply", mesh), 50);
-    const Mesh whole = rejoined(*partition);
+    const Mesh whole = test::rejoined(*partition);
     CHECK(whole.vertex_count() == mesh.vertex_count());
     CHECK(test::count(whole) == test::count(mesh));
 }
@@ -113,7 +85,7 @@ TEST_CASE("cells carry the attributes of vertices", "[cells]") {
     mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 3, true, colours});
     const auto path = as_file(folder, "m.ply", mesh);
     const auto partition = partition_of(path, 200);
-    const Mesh whole = rejoined(*partition);
+    const Mesh whole = test::rejoined(*partition);
     const Attribute* got = whole.find("COLOR_0", Domain::wedge);
     REQUIRE(got);
     for (Index v = 0; v < whole.vertex_count(); ++v)
@@ -136,8 +108,8 @@ TEST_CASE("polygons become the triangles that they are in memory", "[cells]") {
         }
     mesh = test::with_noise(std::move(mesh), 0.3, 1);
     add_face(mesh, std::vector<Index>{0, n, (n + 1) * (n + 1) - 1, n * (n + 1), n * (n / 2)}); // five corners
-    const Mesh whole = rejoined(*partition_of(as_file(folder, "m.ply", mesh), 100));
-    CHECK(triangles_of(whole) == triangles_of(triangulated(mesh)));
+    const Mesh whole = test::rejoined(*partition_of(as_file(folder, "m.ply", mesh), 100));
+    CHECK(test::triangles_of(whole) == test::triangles_of(triangulated(mesh)));
 }
 
 TEST_CASE("many faces at one place, or at one vertex, are divided all the same", "[cells]") {
@@ -156,17 +128,17 @@ TEST_CASE("many faces at one place, or at one vertex, are divided all the same",
         const auto partition = partition_of(as_file(folder, "m.ply", mesh), 100);
         for (std::uint32_t leaf = 0; leaf < partition->tree().leaves.size(); ++leaf)
             CHECK(partition->faces_of(leaf) <= 100);
-        const Mesh whole = rejoined(*partition);
+        const Mesh whole = test::rejoined(*partition);
         CHECK(whole.vertex_count() == mesh.vertex_count());
-        CHECK(triangles_of(whole) == triangles_of(mesh));
+        CHECK(test::triangles_of(whole) == test::triangles_of(mesh));
     }
 }
 
 TEST_CASE("cells do not depend on memory", "[cells]") {
     const test::TemporaryDirectory folder;
     const auto path = as_file(folder, "m.ply", test::noisy_torus(120, 60, 0.001, 3));
-    const Partition small(open_faces(path, {}), {folder.path(), 1 << 12}, 500);
-    const Partition large(open_faces(path, {}), {folder.path(), 1 << 28}, 500);
+    const Partition small(open_faces({path}, {}, path.parent_path()), {folder.path(), 1 << 12}, 500);
+    const Partition large(open_faces({path}, {}, path.parent_path()), {folder.path(), 1 << 28}, 500);
     REQUIRE(small.tree().leaves.size() == large.tree().leaves.size());
     for (std::uint32_t leaf = 0; leaf < small.tree().leaves.size(); ++leaf) {
         const Cell a = small.cell(leaf), b = large.cell(leaf);
@@ -197,5 +169,4 @@ TEST_CASE("a malformed file is refused as elsewhere", "[cells]") {
     CHECK(failure(bad) == "E-PLY");
     const std::string stl = test::get(as_file(folder, "m.stl", mesh, {}));
     CHECK(failure(stl.substr(0, stl.size() - 10), "bad.stl") == "E-STL");
-    CHECK(failure(test::get(as_file(folder, "t.ply", mesh, {.ascii = true}))) == "E-CELLS");
 }

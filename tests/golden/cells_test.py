@@ -53,13 +53,26 @@ class Cells(Case):
             self.assertIn("E-CELLS", run.stderr)
             self.assertIn(message, run.stderr)
             self.assertIn(way_out, run.stderr)
-        self.mill("pipe", "load", "large.ply", "!", "write", "text.ply", "--ascii")
-        self.assertIn("only binary PLY", self.mill("pipe", "--memory", "64M", "load", "text.ply", "!", "simplify", "10%",
-                                                   "!", "write", "o.ply", expect=2).stderr)
+        self.mill("pipe", "load", "large.ply", "!", "write", "small.drc")
+        self.assertIn("not read in pieces", self.mill("pipe", "--memory", "1M", "load", "small.drc", "!", "simplify", "10%",
+                                                      "!", "write", "o.ply", expect=2).stderr)
         self.assertIn("E-MEMORY", self.mill("pipe", "--memory", "30M", "load", "large.ply", "!", "simplify", "90%", "!",
                                             "write", "o.ply", expect=7).stderr)
         self.assertIn("E-ARGUMENT", self.mill("pipe", "--memory", "much", "load", "large.ply", "!", "write", "o.ply",
                                               expect=2).stderr)
+
+    def test_several_files_of_any_format_are_one_mesh(self):
+        self.mill("pipe", "load", SCAN, "!", "split", "midpoint", "!", "write", "low.obj")
+        self.mill("pipe", "load", SCAN, "!", "split", "midpoint", "!", "transform", "--translate", "100%,0,0", "!", "write",
+                  "high.ply", "--ascii")
+        self.write("p.yaml", "facetmill: 1\nstages:\n  - load: [high.ply, low.obj]\n  - simplify: {faces: 9000}\n"
+                             "  - validate: {closed: true, components: 2}\n  - write: o.ply\n")
+        results = set()
+        for threads, memory in ((1, "50M"), (2, "64M")):
+            run = self.mill("run", "p.yaml", "-j", threads, "--memory", memory, "--partition", "always")
+            results.add((self.dir / "o.ply").read_bytes())
+            self.assertIn("2 parts, which become one", run.stderr)
+        self.assertEqual(len(results), 1)
 
     def test_broken_input_and_scratch(self):
         scan = self.large()

@@ -289,9 +289,7 @@ class BinaryReader {
 
 } // namespace
 
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
-    Text text(as_text(input.bytes()), input.name(), "E-OFF", '#');
-    Builder out{input, settings, {}, {}, {}, {}, {}};
+Kind read_kind(Text& text) {
     const Text start = text;
     std::string_view word = text.word();
     auto kind = kind_named(word);
@@ -312,12 +310,22 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         kind.emplace();
     }
     Text ahead = text;
-    if (ahead.word_on_line() == "BINARY") {
+    kind->binary = ahead.word_on_line() == "BINARY";
+    if (kind->binary) {
         ahead.next_line();
-        BinaryReader(out, *kind, ahead.offset()).read();
-    } else {
-        TextReader(out, text, *kind).read();
+        text = ahead;
     }
+    return *kind;
+}
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    Text text(as_text(input.bytes()), input.name(), "E-OFF", '#');
+    Builder out{input, settings, {}, {}, {}, {}, {}};
+    const Kind kind = read_kind(text);
+    if (kind.binary)
+        BinaryReader(out, kind, text.offset()).read();
+    else
+        TextReader(out, text, kind).read();
     return out.finish(log);
 }
 

@@ -140,34 +140,37 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
 std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
     if (o.lines) return "lines need the whole file";
     if (!o.format.empty()) return "a file in cells is recognised by its contents";
-    if (o.weld != io::Weld::automatic) return "vertices of cells are welded as the format needs it";
+    if (o.expand_instances) return "instances need the whole file";
     return {};
 }
 
-/// As run, of one file that does not fit into memory.
+/// As run, of files that do not fit into memory.
 void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
-    const auto files = expand_glob(context.places().input(o.path.front().text));
-    if (files.size() != 1 || o.path.size() != 1)
-        throw Error(ErrorKind::usage, "E-CELLS",
-                    fmt::format("cells are made of one file, found {}", files.size()),
-                    "load one file, or use more memory");
-    std::shared_ptr<cells::FaceSource> source = cells::open_faces(files.front(), read_settings(o));
-    record_input(context, source->input().name(), source->bytes(), source->contents().sha256);
-    flow.part = files.front().stem().string();
-    flow.unit = o.unit;
-    flow.up = o.up;
+    std::vector<std::filesystem::path> paths;
+    for (const PathText& text : o.path)
+        for (auto& path : expand_glob(context.places().input(text.text))) paths.push_back(std::move(path));
+    if (paths.empty())
+        throw Error(ErrorKind::missing, "E-FILE", fmt::format("no file matches '{}'", o.path.front().text));
+    std::shared_ptr<cells::FaceSource> source =
+        cells::open_faces(paths, read_settings(o), flow.means.scratch);
+    const cells::FaceSource::Contents& contents = source->contents();
+    for (const auto& file : contents.files)
+        record_input(context, file.input.name(), file.input.bytes().size(), file.sha256);
+    flow.part = contents.name;
+    flow.unit = contents.unit;
+    flow.up = contents.up;
     flow.partition = std::make_unique<cells::Partition>(source, flow.means);
-    if (source->skipped_faces() > 0)
-        context.warn("W-FACES",
-                     fmt::format("{}: {} of fewer than three corners skipped", source->input().name(),
-                                 counted(source->skipped_faces(), "face")));
-    for (const std::string& what : source->dropped())
-        context.warn("W-CELLS", fmt::format("{}: {} is not carried by cells", source->input().name(), what),
+    if (contents.skipped_faces > 0)
+        context.warn("W-FACES", fmt::format("{}: {} of fewer than three corners skipped", source->name(),
+                                            counted(contents.skipped_faces, "face")));
+    for (const std::string& what : contents.dropped)
+        context.warn("W-CELLS", fmt::format("{}: cells do not carry {}", source->name(), what),
                      "use more memory, if it is needed");
-    if (!source->input().is_as_opened())
-        throw Error(ErrorKind::malformed, "E-CHANGED",
-                    fmt::format("'{}' changed while it was read", source->input().name()),
-                    "run it again while no other program writes to it");
+    for (const auto& file : contents.files)
+        if (!file.input.is_as_opened())
+            throw Error(ErrorKind::malformed, "E-CHANGED",
+                        fmt::format("'{}' changed while it was read", file.input.name()),
+                        "run it again while no other program writes to it");
     context.run().load_diagonal = diagonal(flow.bounds());
 }
 

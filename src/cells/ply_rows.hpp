@@ -1,5 +1,5 @@
 #pragma once
-// Binary PLY, face by face: vertices are looked up by their number in the file itself.
+// PLY: a binary file is rows itself, text becomes rows.
 
 #include "cells/face_source.hpp"
 
@@ -9,7 +9,9 @@ namespace facetmill::cells {
 std::optional<std::string> why_ply_not_streamed(const io::Input& input);
 /// As the header says.
 std::uint64_t ply_faces(const io::Input& input);
-/// Throws as open_faces.
-std::unique_ptr<FaceSource> open_ply(io::Input input, const io::ReadSettings& settings);
+bool is_text_ply(const io::Input& input);
+/// A binary file. Throws as open_faces.
+std::unique_ptr<FaceSource> open_ply(const io::Input& input, const io::ReadSettings& settings,
+                                     FaceSource::Contents contents);
 
 } // namespace facetmill::cells

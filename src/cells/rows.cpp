@@ -1,0 +1,306 @@
+#include "cells/rows.hpp"
+
+#include "base/random.hpp"
+#include "cells/unite.hpp"
+#include "io/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace facetmill::cells {
+
+namespace ply = io::ply;
+
+namespace {
+
+template <class T>
+T number_at(const std::byte* at, bool swap) {
+    std::array<std::byte, sizeof(T)> raw;
+    std::memcpy(raw.data(), at, sizeof(T));
+    if (swap) std::reverse(raw.begin(), raw.end());
+    return std::bit_cast<T>(raw);
+}
+
+double value_at(const std::byte* at, ply::Type type, bool swap) {
+    switch (type) {
+    case ply::Type::float32:
+        return static_cast<double>(number_at<float>(at, swap));
+    case ply::Type::float64:
+        return number_at<double>(at, swap);
+    case ply::Type::uint8:
+        return number_at<std::uint8_t>(at, swap);
+    case ply::Type::int8:
+        return number_at<std::int8_t>(at, swap);
+    case ply::Type::uint16:
+        return number_at<std::uint16_t>(at, swap);
+    case ply::Type::int16:
+        return number_at<std::int16_t>(at, swap);
+    case ply::Type::uint32:
+        return number_at<std::uint32_t>(at, swap);
+    case ply::Type::int32:
+        break;
+    }
+    return number_at<std::int32_t>(at, swap);
+}
+
+} // namespace
+
+std::size_t row_size(const std::vector<ply::Property>& properties) {
+    std::size_t size = 0;
+    for (const auto& p : properties) size += ply::size_of(p.type);
+    return size;
+}
+
+void ends_in(const std::string& file, std::uint64_t bytes, const std::string& element, std::uint64_t item,
+             std::uint64_t count) {
+    io::malformed(
+        file, 0, "E-PLY",
+        fmt::format("the file ends in element '{}', {} of {}, at byte {}", element, item, count, bytes));
+}
+
+Coordinates::Coordinates(const Rows& rows, const std::string& file) : swap_(rows.swap) {
+    std::size_t offset = 0, found = 0;
+    for (const auto& p : rows.vertex) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (p.name == std::string(1, "xyz"[axis])) {
+                offset_[axis] = offset;
+                type_[axis] = p.type;
+                ++found;
+            }
+        offset += ply::size_of(p.type);
+    }
+    if (found != 3)
+        io::malformed(file, rows.vertex_line, "E-PLY",
+                      "element 'vertex' lacks one of the properties x, y and z");
+}
+
+Vec3 Coordinates::of(const std::byte* row) const {
+    Vec3 p;
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = value_at(row + offset_[axis], type_[axis], swap_);
+    return p;
+}
+
+void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
+               std::vector<std::uint32_t>& corners) {
+    const auto take = [&](std::uint64_t n) {
+        if (n > faces.left()) ends_in(file, rows.faces_end, "face", number, rows.face_count);
+        return faces.take(static_cast<std::size_t>(n));
+    };
+    for (const auto& p : rows.face) {
+        if (!p.list) {
+            take(ply::size_of(p.type));
+            continue;
+        }
+        const double count = value_at(take(ply::size_of(p.count_type)), p.count_type, rows.swap);
+        if (count < 0) ends_in(file, rows.faces_end, "face", number, rows.face_count);
+        const std::size_t size = ply::size_of(p.type);
+        const std::byte* at = take(static_cast<std::uint64_t>(count) * size);
+        corners.resize(static_cast<std::size_t>(count));
+        for (std::uint32_t& corner : corners) {
+            const double vertex = value_at(at, p.type, rows.swap);
+            if (!(vertex >= 0 && vertex < static_cast<double>(rows.vertex_count)))
+                io::malformed(file, rows.face_line, "E-PLY",
+                              fmt::format("face {} of {} names vertex {}, there are {}", number,
+                                          rows.face_count, vertex, rows.vertex_count));
+            corner = static_cast<std::uint32_t>(vertex);
+            at += size;
+        }
+    }
+}
+
+RowWriter::RowWriter(const std::filesystem::path& scratch, std::vector<ply::Property> extra)
+    : extra_(std::move(extra)), extra_size_(row_size(extra_)), vertices_(scratch), faces_(scratch) {
+    for (const char* name : {"x", "y", "z"}) rows_.vertex.push_back({name, ply::Type::float64});
+    rows_.vertex.insert(rows_.vertex.end(), extra_.begin(), extra_.end());
+    rows_.face = {{"vertex_indices", ply::Type::uint32, true, ply::Type::uint32}};
+    rows_.swap = std::endian::native == std::endian::big;
+}
+
+void RowWriter::begin_group(Identity identity) {
+    if (!rows_.groups.empty() && rows_.groups.back().first == rows_.vertex_count) rows_.groups.pop_back();
+    rows_.groups.push_back({rows_.vertex_count, identity});
+}
+
+void RowWriter::vertex(const Vec3& p, io::Span extra) {
+    if (rows_.vertex_count + 1 >= none)
+        throw Error(ErrorKind::limit, "E-SIZE",
+                    fmt::format("more than {} vertices are more than can be held", none - 1),
+                    "write it as binary PLY or STL in several files, and process each");
+    const std::array<double, 3> place{p.x, p.y, p.z};
+    vertices_.append(std::as_bytes(std::span(place)));
+    vertices_.append(extra.first(std::min(extra.size(), extra_size_)));
+    bounds_.add(p);
+    ++rows_.vertex_count;
+}
+
+void RowWriter::face(std::span<const std::uint32_t> corners) {
+    if (corners.size() < 3) {
+        ++short_faces_;
+        return;
+    }
+    const auto n = static_cast<std::uint32_t>(corners.size());
+    faces_.append(std::as_bytes(std::span(&n, 1)));
+    faces_.append(std::as_bytes(corners));
+    rows_.faces_end += sizeof n * (std::uint64_t{n} + 1);
+    ++rows_.face_count;
+}
+
+Rows RowWriter::finish() {
+    rows_.vertices = vertices_.finish();
+    rows_.faces = faces_.finish();
+    return std::move(rows_);
+}
+
+namespace {
+
+/// A triangle's record: its rows' numbers.
+using Corners = std::array<std::uint32_t, 3>;
+
+class RowSource final : public FaceSource {
+  public:
+    RowSource(Rows rows, Contents contents, const io::ReadSettings& settings)
+        : FaceSource(std::move(contents)), rows_(std::move(rows)), settings_(settings),
+          coordinates_(rows_, name()), stride_(row_size(rows_.vertex)) {
+        settings_.weld = io::Weld::off;
+        for (const auto& group : rows_.groups) by_place_ |= group.identity != Identity::number;
+    }
+
+    std::size_t record_size() const override { return sizeof(Corners); }
+
+    void each(const Take& take, std::size_t memory) override {
+        RecordCache vertices(*rows_.vertices, rows_.vertices_at, stride_, rows_.vertex_count, memory);
+        Stream faces(*rows_.faces, rows_.faces_at, rows_.faces_end);
+        std::vector<std::uint32_t> corners;
+        std::uint64_t skipped = 0;
+        for (std::uint64_t f = 0; f < rows_.face_count; ++f) {
+            read_face(rows_, name(), f, faces, corners);
+            if (corners.size() < 3)
+                ++skipped;
+            else if (corners.size() == 3)
+                give({corners[0], corners[1], corners[2]}, vertices, take);
+            else
+                give_polygon(corners, vertices, take);
+        }
+        if (skipped > 0) own_contents().skipped_faces = skipped;
+    }
+
+    Piece piece(io::Span records) const override {
+        const std::size_t n = records.size() / sizeof(Corners);
+        std::vector<std::uint32_t> numbers = numbers_of(records);
+        io::Bytes bytes = header_of(numbers.size(), n);
+        const io::Bytes rows = read_records(*rows_.vertices, rows_.vertices_at, stride_, numbers);
+        bytes.insert(bytes.end(), rows.begin(), rows.end());
+        for (std::size_t i = 0; i < 3 * n; ++i) {
+            std::uint32_t number = 0;
+            std::memcpy(&number, records.data() + i * sizeof number, sizeof number);
+            const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
+            auto raw =
+                std::bit_cast<std::array<std::byte, 4>>(static_cast<std::uint32_t>(at - numbers.begin()));
+            if (rows_.swap) std::reverse(raw.begin(), raw.end());
+            if (i % 3 == 0) bytes.push_back(std::byte{3});
+            bytes.insert(bytes.end(), raw.begin(), raw.end());
+        }
+        io::ReadLog log;
+        Scene scene =
+            io::read_scene(io::Input::of(name(), std::move(bytes)), settings_, log, io::codec_named("ply"));
+        Piece piece{std::move(scene.parts.front().mesh), {numbers.begin(), numbers.end()}};
+        if (!by_place_) return piece;
+        for (std::size_t v = 0; v < numbers.size(); ++v)
+            piece.names[v] = name_of(numbers[v], piece.mesh.positions[v]);
+        std::vector<Index> all(piece.mesh.vertex_count());
+        std::iota(all.begin(), all.end(), Index{0});
+        unite(piece.mesh, piece.names, std::move(all));
+        return piece;
+    }
+
+    std::vector<std::uint64_t> names(io::Span records) const override {
+        const auto numbers = numbers_of(records);
+        std::vector<std::uint64_t> names(numbers.begin(), numbers.end());
+        if (!by_place_) return names;
+        const io::Bytes rows = read_records(*rows_.vertices, rows_.vertices_at, stride_, numbers);
+        for (std::size_t i = 0; i < names.size(); ++i)
+            names[i] = name_of(numbers[i], coordinates_.of(rows.data() + i * stride_));
+        std::sort(names.begin(), names.end());
+        names.erase(std::unique(names.begin(), names.end()), names.end());
+        return names;
+    }
+
+  private:
+    std::uint64_t name_of(std::uint32_t number, const Vec3& p) const {
+        const auto after =
+            std::upper_bound(rows_.groups.begin(), rows_.groups.end(), number,
+                             [](std::uint64_t n, const Rows::Group& g) { return n < g.first; });
+        const Rows::Group group = after == rows_.groups.begin() ? Rows::Group{} : *std::prev(after);
+        if (group.identity == Identity::number) return number;
+        std::uint64_t name = group.identity == Identity::place ? 0 : group.first;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            name = hashed(name, std::bit_cast<std::uint64_t>(p[axis] + 0.0)); // -0 is 0
+        return name;
+    }
+
+    void give(const Corners& corners, RecordCache& vertices, const Take& take) const {
+        Vec3 sum;
+        for (const std::uint32_t corner : corners) sum = sum + coordinates_.of(vertices.at(corner)) / 3;
+        take(sum, std::as_bytes(std::span(corners)));
+    }
+
+    /// As the same file read whole is triangulated.
+    void give_polygon(const std::vector<std::uint32_t>& corners, RecordCache& vertices,
+                      const Take& take) const {
+        Mesh polygon;
+        std::vector<Index> wedges;
+        for (const std::uint32_t corner : corners) {
+            wedges.push_back(static_cast<Index>(polygon.positions.size()));
+            polygon.positions.push_back(coordinates_.of(vertices.at(corner)));
+        }
+        add_face(polygon, wedges);
+        polygon = triangulated(polygon);
+        for (std::size_t c = 0; c + 2 < polygon.corners.size(); c += 3)
+            give({corners[polygon.corners[c]], corners[polygon.corners[c + 1]],
+                  corners[polygon.corners[c + 2]]},
+                 vertices, take);
+    }
+
+    /// Each row once, ascending.
+    static std::vector<std::uint32_t> numbers_of(io::Span records) {
+        std::vector<std::uint32_t> numbers(records.size() / sizeof(std::uint32_t));
+        if (numbers.empty()) return numbers;
+        std::memcpy(numbers.data(), records.data(), numbers.size() * sizeof(std::uint32_t));
+        std::sort(numbers.begin(), numbers.end());
+        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+        return numbers;
+    }
+
+    /// Of a file of some of the vertices and faces.
+    io::Bytes header_of(std::size_t vertices, std::size_t faces) const {
+        static constexpr const char* types[] = {"float",  "double", "uchar", "char",
+                                                "ushort", "short",  "uint",  "int"};
+        const bool big = rows_.swap == (std::endian::native == std::endian::little);
+        std::string text = fmt::format("ply\nformat binary_{}_endian 1.0\nelement vertex {}\n",
+                                       big ? "big" : "little", vertices);
+        for (const auto& p : rows_.vertex)
+            text += fmt::format("property {} {}\n", types[static_cast<std::size_t>(p.type)], p.name);
+        text += fmt::format("element face {}\nproperty list uchar uint vertex_indices\nend_header\n", faces);
+        const auto bytes = std::as_bytes(std::span(text));
+        return {bytes.begin(), bytes.end()};
+    }
+
+    Rows rows_;
+    io::ReadSettings settings_;
+    Coordinates coordinates_;
+    std::size_t stride_;
+    bool by_place_ = false; ///< some vertices are known by their place
+};
+
+} // namespace
+
+std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,
+                                      const io::ReadSettings& settings) {
+    return std::make_unique<RowSource>(std::move(rows), std::move(contents), settings);
+}
+
+} // namespace facetmill::cells

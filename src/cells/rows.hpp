@@ -1,0 +1,112 @@
+#pragma once
+// A mesh as rows in files: one of a vertex, one of the corners of a face. That of a binary PLY is the file
+// itself; files of other formats, and several files, are written as rows first.
+
+#include "cells/block_file.hpp"
+#include "cells/face_source.hpp"
+#include "io/ply/ply.hpp"
+
+#include <array>
+
+namespace facetmill::cells {
+
+/// What makes two rows one vertex.
+enum class Identity : std::uint8_t {
+    number,         ///< nothing: each row is one
+    place_in_group, ///< the same position, in the same group
+    place           ///< the same position
+};
+
+struct Rows {
+    /// Vertices from `first` up to the next group's. A file, or a part of it.
+    struct Group {
+        std::uint64_t first = 0;
+        Identity identity = Identity::number;
+    };
+    std::shared_ptr<const ReadFile> vertices, faces;
+    std::uint64_t vertices_at = 0, vertex_count = 0;
+    std::uint64_t faces_at = 0, faces_end = 0, face_count = 0;
+    std::vector<io::ply::Property> vertex; ///< what a row holds, x, y and z among it; no lists
+    std::vector<io::ply::Property> face;   ///< one list, the corners
+    int vertex_line = 0, face_line = 0;    ///< of the PLY file, for messages
+    bool swap = false;                     ///< whether numbers have the other order of bytes
+    std::vector<Group> groups;             ///< ascending; empty: one, Identity::number
+};
+
+/// The bytes of a row of a vertex.
+std::size_t row_size(const std::vector<io::ply::Property>& properties);
+
+/// Where the coordinates of a vertex stand in its row.
+class Coordinates {
+  public:
+    /// Throws malformed (E-PLY) when one is missing.
+    Coordinates(const Rows& rows, const std::string& file);
+    Vec3 of(const std::byte* row) const;
+
+  private:
+    std::array<std::size_t, 3> offset_{};
+    std::array<io::ply::Type, 3> type_{};
+    bool swap_;
+};
+
+/// The corners of the next face; its number is for messages. Throws malformed (E-PLY).
+void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
+               std::vector<std::uint32_t>& corners);
+/// Throws malformed (E-PLY): the file ends in that item of that element.
+[[noreturn]] void ends_in(const std::string& file, std::uint64_t bytes, const std::string& element,
+                          std::uint64_t item, std::uint64_t count);
+
+/// Rows that are written to temporary files.
+class RowWriter {
+  public:
+    /// extra: attributes of vertices that rows hold beside the position.
+    RowWriter(const std::filesystem::path& scratch, std::vector<io::ply::Property> extra);
+    /// Vertices that follow are of another group.
+    void begin_group(Identity identity);
+    /// extra: the attributes as the properties say, this machine's bytes.
+    void vertex(const Vec3& p, io::Span extra);
+    /// Rows that were or will be written, counted from the first. Faces of fewer than three corners are
+    /// counted only.
+    void face(std::span<const std::uint32_t> corners);
+
+    std::uint64_t vertices() const { return rows_.vertex_count; }
+    std::uint64_t faces() const { return rows_.face_count; }
+    std::uint64_t short_faces() const { return short_faces_; }
+    const Box& bounds() const { return bounds_; }
+    const std::vector<io::ply::Property>& extra() const { return extra_; }
+    Rows finish();
+
+  private:
+    Rows rows_;
+    std::vector<io::ply::Property> extra_;
+    std::size_t extra_size_;
+    ScratchFile vertices_, faces_;
+    Box bounds_;
+    std::uint64_t short_faces_ = 0;
+};
+
+/// Reads a file into rows, from its beginning to its end.
+class RowReader {
+  public:
+    virtual ~RowReader() = default;
+    /// Attributes that vertices have in the file, as far as rows carry them.
+    std::vector<io::ply::Property> extra{};
+    std::vector<std::string> dropped{};         ///< after read: what is not carried, in words
+    std::vector<FaceSource::File> neighbours{}; ///< after read: other files that were read
+    /// with_extra: whether the writer's rows hold `extra`; else they hold none. Throws as io::read_scene.
+    /// Returns the file's digest.
+    virtual std::string read(RowWriter& out, bool with_extra) = 0;
+};
+
+/// Readers, by format. The file must be one that why_not_streamed has no word against.
+std::unique_ptr<RowReader> gltf_rows(const io::Input& input, const io::ReadSettings& settings);
+std::unique_ptr<RowReader> obj_rows(const io::Input& input, const io::ReadSettings& settings);
+std::unique_ptr<RowReader> off_rows(const io::Input& input, const io::ReadSettings& settings);
+std::unique_ptr<RowReader> ply_rows(const io::Input& input, const io::ReadSettings& settings);
+std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings);
+
+/// A source of rows.
+std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,
+                                      const io::ReadSettings& settings);
+
+} // namespace facetmill::cells

@@ -1,0 +1,204 @@
+#include "cells/face_source.hpp"
+
+#include "cells/partition.hpp"
+#include "io/outputs.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/cells.hpp"
+#include "support/failure.hpp"
+#include "support/meshes.hpp"
+#include "support/surface.hpp"
+#include "support/temporary.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+using namespace facetmill;
+using namespace facetmill::cells;
+
+namespace {
+
+/// The files' parts as one mesh of triangles, in the world.
+Mesh read_whole(const std::vector<std::filesystem::path>& paths, io::Weld weld = io::Weld::automatic) {
+    Mesh all;
+    for (const auto& path : paths) {
+        io::ReadLog log;
+        io::ReadSettings settings;
+        settings.weld = weld;
+        for (const Part& part : io::read_scene(io::Input::open(path), settings, log).parts) {
+            Mesh mesh = triangulated(part.mesh);
+            apply(mesh, part.transform);
+            for (Index& corner : mesh.corners) corner = mesh.vertex_of_wedge(corner);
+            mesh.wedge_vertex.clear();
+            mesh.attributes.clear();
+            mesh.primitives.clear();
+            append(all, mesh);
+        }
+    }
+    return all;
+}
+
+Mesh in_cells(const std::vector<std::filesystem::path>& paths, std::uint64_t most,
+              io::Weld weld = io::Weld::automatic) {
+    io::ReadSettings settings;
+    settings.weld = weld;
+    const auto folder = paths.front().parent_path();
+    const Partition partition(open_faces(paths, settings, folder), {folder, std::uint64_t{64} << 20}, most);
+    return test::rejoined(partition);
+}
+
+/// What reading it in memory, and in cells, ends with: the id and the line.
+std::string failure_of(const std::filesystem::path& path, bool cells) {
+    try {
+        if (cells)
+            in_cells({path}, 100);
+        else
+            read_whole({path});
+    } catch (const Error& error) {
+        const Diagnostic& d = error.diagnostics().front();
+        return fmt::format("{}:{}", d.id, d.where.line);
+    }
+    return "none";
+}
+
+/// A closed mesh with polygons of three to five corners, whose numbers are those of floats.
+Mesh polygons() {
+    Mesh mesh = test::noisy_icosphere(4, 0.01, 7);
+    for (Vec3& p : mesh.positions) p = {double(float(p.x)), double(float(p.y)), double(float(p.z))};
+    mesh.attributes.clear();
+    const auto n = static_cast<Index>(mesh.positions.size());
+    for (const Vec3& p : {Vec3{2, 0, 0}, Vec3{3, 0, 0}, Vec3{3, 1, 0}, Vec3{2.5, 0.25, 0}, Vec3{2, 1, 0}})
+        mesh.positions.push_back(p);
+    add_face(mesh, std::vector<Index>{n, n + 1, n + 2, n + 3, n + 4});
+    add_face(mesh, std::vector<Index>{n, n + 1, n + 2, n + 4});
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("files of all formats come in cells as they come in memory", "[cells]") {
+    const test::TemporaryDirectory folder;
+    for (const auto& [name, ascii] :
+         {std::pair{"m.obj", false}, std::pair{"m.off", false}, std::pair{"m.ply", false},
+          std::pair{"t.ply", true}, std::pair{"m.stl", false}, std::pair{"t.stl", true},
+          std::pair{"m.glb", false}, std::pair{"m.gltf", false}}) {
+        INFO(name);
+        Scene scene;
+        scene.parts.emplace_back().mesh = polygons();
+        const auto path = folder / name;
+        for (const auto& file : io::codec_for(path)->write(scene, {.ascii = ascii, .title = "m"}).files)
+            io::write_now(file.name.extension() == ".bin" ? folder / file.name.string() : path, file.bytes);
+        const Mesh whole = read_whole({path}), cells = in_cells({path}, 200);
+        CHECK(cells.vertex_count() == whole.vertex_count());
+        CHECK(test::triangles_of(cells) == test::triangles_of(whole));
+    }
+}
+
+TEST_CASE("text is read through a window that is smaller than the file", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const Mesh mesh = shapes::grid(200, 200); // each file has more than a megabyte
+    for (const char* name : {"m.obj", "m.off", "m.ply"}) {
+        INFO(name);
+        Scene scene;
+        scene.parts.emplace_back().mesh = test::with_noise(mesh, 0.1, 3);
+        const auto path = folder / name;
+        io::write_now(
+            path,
+            io::codec_for(path)->write(scene, {.ascii = true, .double_positions = true}).files.front().bytes);
+        CHECK(std::filesystem::file_size(path) > (1 << 20));
+        CHECK(test::triangles_of(in_cells({path}, 10000)) == test::triangles_of(read_whole({path})));
+    }
+}
+
+TEST_CASE("a face of 10,000 corners and lines that go on are read as in memory", "[cells]") {
+    const test::TemporaryDirectory folder;
+    std::string obj, face = "f";
+    for (int i = 0; i < 10000; ++i) {
+        const double angle = 2 * 3.141592653589793 * i / 10000;
+        obj += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
+        face += i % 100 == 99 ? fmt::format(" \\\n{}", i + 1) : fmt::format(" {}", i + 1);
+    }
+    test::put(folder / "m.obj", "f 3 2 1\n" + obj + face + "\nf -1 -2 -3/4/5\nf 1 2\n");
+    const Mesh whole = read_whole({folder / "m.obj"});
+    CHECK(whole.face_count() == 9998 + 2);
+    CHECK(test::triangles_of(in_cells({folder / "m.obj"}, 100)) == test::triangles_of(whole));
+}
+
+TEST_CASE("several files are one mesh, joined where that is asked for", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const Mesh sphere = test::noisy_icosphere(4, 0.01, 7);
+    Mesh halves[2];
+    for (Index f = 0; f < sphere.face_count(); ++f) {
+        Mesh& half = halves[sphere.point(3 * f).x > 0];
+        half.positions = sphere.positions;
+        add_face(half, sphere.face_wedges(f));
+    }
+    std::vector<std::filesystem::path> paths;
+    for (const char* name : {"a.ply", "b.ply"}) {
+        Scene scene;
+        scene.parts.emplace_back().mesh = halves[paths.size()];
+        drop_unused(scene.parts.front().mesh);
+        paths.push_back(folder / name);
+        io::write_now(
+            paths.back(),
+            io::codec_for(paths.back())->write(scene, {.double_positions = true}).files.front().bytes);
+    }
+    const Mesh joined = in_cells(paths, 200, io::Weld::exact), apart = in_cells(paths, 200);
+    CHECK(test::triangles_of(joined) == test::triangles_of(sphere));
+    CHECK(joined.vertex_count() == sphere.vertex_count());
+    CHECK(apart.vertex_count() == read_whole(paths).vertex_count());
+    CHECK(test::count(joined).open == 0);
+    CHECK(test::count(apart).open > 0);
+}
+
+TEST_CASE("broken files end in cells as in memory", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const std::string cube = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (const auto& [name, text] : std::vector<std::pair<const char*, std::string>>{
+             {"missing.obj", cube + "f 1 2 3\nf 1 2 4\nf 1 2 9\n"},
+             {"back.obj", cube + "f -4 1 2\n"},
+             {"zero.obj", cube + "f 0 1 2\n"},
+             {"nan.obj", "v 0 0 nan\n" + cube + "f 1 2 3\n"},
+             {"short.obj", "v 0 0\nf 1 1 1\n"},
+             {"word.obj", cube + "f 1 2 x\n"},
+             {"counts.off", "OFF\n100 100 0\n0 0 0\n"},
+             {"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"},
+             {"list.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n999999999 0 1 2\n"},
+             {"negative.off", "OFF\n3 -1 0\n0 0 0\n1 0 0\n0 1 0\n"},
+             {"inf.off", "OFF\n3 1 0\n0 0 inf\n1 0 0\n0 1 0\n3 0 1 2\n"},
+             {"end.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                         "y\nproperty float z\nelement face 1\nproperty list uchar int "
+                         "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"},
+             {"type.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                          "y\nproperty float z\nproperty uchar red\nelement face 1\nproperty list uchar int "
+                          "vertex_indices\nend_header\n0 0 0 1\n1 0 0 300\n0 1 0 1\n3 0 1 2\n"},
+             {"index.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                           "y\nproperty float z\nelement face 1\nproperty list uchar int "
+                           "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"},
+             {"end.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1"},
+             {"word.stl", "solid x\nfacet normal 0 0 1\nouter lop\nvertex 0 0 0\n"}}) {
+        INFO(name);
+        test::put(folder / name, text);
+        CHECK(failure_of(folder / name, true) == failure_of(folder / name, false));
+        CHECK(failure_of(folder / name, true) != "none");
+    }
+}
+
+TEST_CASE("what is not read in pieces is refused by name", "[cells]") {
+    const test::TemporaryDirectory folder;
+    test::put(folder / "m.off", std::string("OFF BINARY\n\0\0\0\0\0\0\0\0\0\0\0\0", 23));
+    CHECK(why_not_streamed(folder / "m.off").value_or("").find("binary OFF") != std::string::npos);
+    test::put(folder / "m.obj", "\xef\xbb\xbfv 0 0 0\n");
+    CHECK(why_not_streamed(folder / "m.obj").value_or("").find("UTF-8") != std::string::npos);
+    Scene scene;
+    scene.parts.emplace_back().mesh = shapes::icosphere(2);
+    for (const bool draco : {true, false}) {
+        io::WriteSettings settings;
+        settings.draco.on = draco;
+        settings.quantize.on = !draco;
+        io::write_now(folder / "m.glb", io::codec_named("glb")->write(scene, settings).files.front().bytes);
+        CHECK(why_not_streamed(folder / "m.glb").value_or("").find(draco ? "draco" : "quantized") !=
+              std::string::npos);
+    }
+    CHECK(why_not_streamed("-"));
+}
