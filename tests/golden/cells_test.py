@@ -2,12 +2,34 @@
 
 import json
 import os
+import pathlib
+import signal
 import subprocess
+import sys
 import unittest
 
 from support import FACETMILL, SCAN, SLOW, Case, main
 
 MEGABYTE = 1 << 20
+
+
+def memory_group(test, limit):
+    """A control group of the kernel whose processes may use so many bytes, cached files among them."""
+    for root, most, swap in (("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.memsw.limit_in_bytes"),
+                             ("/sys/fs/cgroup", "memory.max", "memory.swap.max")):
+        group = pathlib.Path(root, f"facetmill-test-{os.getpid()}")
+        try:
+            group.mkdir()
+        except OSError:
+            continue
+        test.addCleanup(group.rmdir)
+        if (group / most).exists():
+            (group / most).write_text(str(limit))
+            if (group / swap).exists():
+                (group / swap).write_text("0" if swap == "memory.swap.max" else str(limit))
+            return group
+    print(f"notice: no control group for memory can be made here, skipped {test.id()}", file=sys.stderr)
+    return test.skipTest("no control group for memory")
 
 
 class Cells(Case):
@@ -60,6 +82,22 @@ class Cells(Case):
                                             "write", "o.ply", expect=7).stderr)
         self.assertIn("E-ARGUMENT", self.mill("pipe", "--memory", "much", "load", "large.ply", "!", "write", "o.ply",
                                               expect=2).stderr)
+
+    def test_the_limit_holds_where_the_kernel_enforces_it(self):
+        scan = self.large()
+        group = memory_group(self, 40 * MEGABYTE)
+
+        def run(*arguments):
+            join = f"echo $$ > {group}/cgroup.procs && exec \"$@\""
+            return subprocess.run(["sh", "-c", join, "sh", FACETMILL, "pipe", *arguments, "load", scan, "!", "simplify",
+                                   "--faces", "9000", "!", "write", "inside.ply"], cwd=self.dir, capture_output=True, text=True)
+
+        outside = ("pipe", "--memory", "40M", "load", scan, "!", "simplify", "--faces", 9000, "!", "write", "outside.ply")
+        self.mill(*outside)
+        inside = run("--memory", "40M")
+        self.assertEqual(inside.returncode, 0, inside.stderr)
+        self.assertEqual((self.dir / "inside.ply").read_bytes(), (self.dir / "outside.ply").read_bytes())
+        self.assertEqual(run("--partition", "never").returncode, -signal.SIGKILL)  # so the limit is one
 
     def test_several_files_of_any_format_are_one_mesh(self):
         self.mill("pipe", "load", SCAN, "!", "split", "midpoint", "!", "write", "low.obj")
