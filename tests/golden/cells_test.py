@@ -85,16 +85,16 @@ class Cells(Case):
 
     def test_the_limit_holds_where_the_kernel_enforces_it(self):
         scan = self.large()
-        group = memory_group(self, 40 * MEGABYTE)
+        group = memory_group(self, 50 * MEGABYTE)
 
         def run(*arguments):
             join = f"echo $$ > {group}/cgroup.procs && exec \"$@\""
             return subprocess.run(["sh", "-c", join, "sh", FACETMILL, "pipe", *arguments, "load", scan, "!", "simplify",
                                    "--faces", "9000", "!", "write", "inside.ply"], cwd=self.dir, capture_output=True, text=True)
 
-        outside = ("pipe", "--memory", "40M", "load", scan, "!", "simplify", "--faces", 9000, "!", "write", "outside.ply")
+        outside = ("pipe", "--memory", "50M", "load", scan, "!", "simplify", "--faces", 9000, "!", "write", "outside.ply")
         self.mill(*outside)
-        inside = run("--memory", "40M")
+        inside = run("--memory", "50M")
         self.assertEqual(inside.returncode, 0, inside.stderr)
         self.assertEqual((self.dir / "inside.ply").read_bytes(), (self.dir / "outside.ply").read_bytes())
         self.assertEqual(run("--partition", "never").returncode, -signal.SIGKILL)  # so the limit is one
