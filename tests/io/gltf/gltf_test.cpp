@@ -287,3 +287,38 @@ TEST_CASE("the accessor of a Draco primitive has the bounds of the grid's own nu
             CHECK(x == along + input.origin[c]);
         }
 }
+
+TEST_CASE("grids that Draco's six decimals hold", "[io]") {
+    for (const float x : {0.1F, 1e-7F, -1e-7F, 3.1415927F, -12.3456789F, 9.87654321F, 5e8F, 0.0F, 1e-30F}) {
+        INFO(x);
+        const float below = io::storable_below(x), above = io::storable_above(x);
+        CHECK(below <= x);
+        CHECK(above >= std::max(x, 1e-6F));
+        CHECK(std::stof(std::to_string(below)) == below);
+        CHECK(std::stof(std::to_string(above)) == above);
+        CHECK(x - below <= 2e-6F);
+    }
+    CHECK(io::bits_as_fine(14, 1.0F, 1.0F) == 14);
+    CHECK(io::bits_as_fine(14, 1e-7F, 1e-6F) == 17);
+    CHECK(io::bits_as_fine(14, 1e-30F, 1e-6F) == 30);
+}
+
+TEST_CASE("Draco takes meshes and attributes smaller than a millionth", "[io]") {
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    for (const double size : {1e-2, 1e-4, 1e-6, 1e-8}) {
+        INFO(size);
+        Mesh mesh = shapes::icosphere(2);
+        for (Vec3& p : mesh.positions) p = p * size;
+        std::vector<float> nearly_one;
+        for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+            nearly_one.insert(nearly_one.end(), {1, static_cast<float>(v) * 1e-9F, 4e-8F, 1});
+        mesh.attributes.push_back({"TANGENT", Domain::vertex, Role::tangent, 4, false, nearly_one});
+        const Scene scene = test::scene_in_metres(mesh);
+        const Mesh read = only_mesh(test::again(scene, settings));
+        REQUIRE(read.vertex_count() == mesh.vertex_count());
+        const double step = 1.25 * 2 * size / 16383;
+        for (const Vec3& p : read.positions) CHECK(std::abs(length(p) - size) <= step);
+        CHECK(read.find("TANGENT", Domain::wedge)->value(0, 0) == Approx(1));
+    }
+}

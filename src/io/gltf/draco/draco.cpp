@@ -315,7 +315,9 @@ DracoGrid whole_numbers(int components) {
 
 Settled settle_all(const DracoInput& given, const DracoSettings& settings) {
     Settled out{given,
-                {{given.origin[0], given.origin[1], given.origin[2]}, given.range, settings.position_bits},
+                {{given.origin[0], given.origin[1], given.origin[2]},
+                 given.range,
+                 bits_as_fine(settings.position_bits, given.extent, given.range)},
                 {}};
     settle(out.input.vertices, out.positions);
     for (auto& column : out.input.columns) {
@@ -348,7 +350,7 @@ Encoded encode(const ::draco::Mesh& mesh, const Settled& settled, const DracoSet
     encoder.SetSpeedOptions(settings.speed, settings.speed);
     encoder.SetEncodingMethod(sequential ? ::draco::MESH_SEQUENTIAL_ENCODING
                                          : ::draco::MESH_EDGEBREAKER_ENCODING);
-    encoder.SetAttributeExplicitQuantization(position, settings.position_bits, 3, input.origin, input.range);
+    encoder.SetAttributeExplicitQuantization(position, settled.positions.bits, 3, input.origin, input.range);
     for (std::size_t c = 0; c < columns.size(); ++c)
         if (const auto& grid = settled.grids[c])
             encoder.SetAttributeExplicitQuantization(columns[c], grid->bits, input.columns[c].components,
@@ -367,17 +369,18 @@ Encoded encode(const ::draco::Mesh& mesh, const Settled& settled, const DracoSet
 
 void set_draco_grid(const Mesh& mesh, DracoInput& input) {
     const Box box = mesh.bounds();
+    const auto not_below = [](double x) {
+        const auto rounded = static_cast<float>(x);
+        return static_cast<double>(rounded) < x ? std::nextafter(rounded, HUGE_VALF) : rounded;
+    };
     float range = 0;
+    input.extent = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        input.origin[i] = static_cast<float>(box.min[i]);
-        if (static_cast<double>(input.origin[i]) > box.min[i])
-            input.origin[i] = std::nextafter(input.origin[i], -HUGE_VALF);
-        const double extent = box.max[i] - static_cast<double>(input.origin[i]);
-        float rounded = static_cast<float>(extent);
-        if (static_cast<double>(rounded) < extent) rounded = std::nextafter(rounded, HUGE_VALF);
-        range = std::max(range, rounded);
+        input.origin[i] = storable_below(-not_below(-box.min[i]));
+        range = std::max(range, not_below(box.max[i] - static_cast<double>(input.origin[i])));
+        input.extent = std::max(input.extent, not_below(box.max[i] - box.min[i]));
     }
-    input.range = range > 0 ? range : 1;
+    input.range = storable_above(input.extent > 0 ? range : 1);
 }
 
 std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,

@@ -41,10 +41,11 @@ struct DracoInput {
     std::vector<DracoColumn> columns; ///< all but the positions; ids are ignored
     float origin[3] = {0, 0, 0}; ///< of the grid that positions are quantised to: the same for all primitives
     float range = 1;             ///< of a mesh, so that their common borders stay together
+    float extent = 1;            ///< what the bits are meant to divide: at most the range
     bool keep_order = false; ///< points keep their order (morph targets are not compressed and rely on it)
 };
 
-/// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to float32.
+/// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to what the library stores.
 void set_draco_grid(const Mesh& mesh, DracoInput& input);
 
 /// The faces that name a vertex twice, which Edgebreaker cannot hold; three corners each.

@@ -4,10 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace facetmill::io {
 
 namespace {
+
+constexpr double decimals = 1e6; ///< what std::to_string leaves of a number, in its parts
+
+/// What remains of a number when it is a text of the library's.
+float by_text(float x) { return std::strtof(std::to_string(x).c_str(), nullptr); }
+
+/// The next storable number in a direction, x if it is one.
+float storable(float x, double direction) {
+    if (by_text(x) == x) return x;
+    const double begin = static_cast<double>(x) * decimals;
+    for (double n = direction < 0 ? std::floor(begin) : std::ceil(begin);; n += direction) {
+        const float next = by_text(static_cast<float>(n / decimals));
+        if ((next - x) * direction >= 0 && by_text(next) == next) return next;
+    }
+}
 
 /// Both ways to round, of one expression. std::fma is exact wherever it runs.
 bool is_settled(float difference, float density) {
@@ -37,17 +53,37 @@ void put_on_octahedron(float* normal, const double* scaled, double centre) {
 
 float DracoGrid::density() const { return static_cast<float>((std::int64_t{1} << bits) - 1) / range; }
 
+float storable_below(float x) { return storable(x, -1); }
+
+float storable_above(float x) { return storable(std::max(x, static_cast<float>(1 / decimals)), 1); }
+
+int bits_as_fine(int bits, float range, float storable) {
+    constexpr double finer = 1.25;
+    const auto steps = [](int b) { return std::ldexp(1.0, b) - 1; };
+    const double most = finer * range / steps(bits);
+    while (bits < 30 && range > 0 && storable / steps(bits) > most) ++bits;
+    return bits;
+}
+
 DracoGrid grid_of(const std::vector<float>& numbers, int components, int bits) {
     const auto width = static_cast<std::size_t>(components);
-    DracoGrid grid{std::vector<float>(width, 0.0F), 0, bits};
-    if (!numbers.empty()) std::copy_n(numbers.begin(), width, grid.origin.begin());
+    DracoGrid grid{std::vector<float>(width, 0.0F), 1, bits};
+    if (numbers.empty()) return grid;
+    std::copy_n(numbers.begin(), width, grid.origin.begin());
     std::vector<float> most = grid.origin;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         grid.origin[i % width] = std::min(grid.origin[i % width], numbers[i]);
         most[i % width] = std::max(most[i % width], numbers[i]);
     }
-    for (std::size_t c = 0; c < width; ++c) grid.range = std::max(grid.range, most[c] - grid.origin[c]);
-    if (!(grid.range > 0)) grid.range = 1;
+    float given = 0, range = 0;
+    for (std::size_t c = 0; c < width; ++c) {
+        given = std::max(given, most[c] - grid.origin[c]);
+        grid.origin[c] = storable_below(grid.origin[c]);
+        range = std::max(range, most[c] - grid.origin[c]);
+    }
+    if (!(given > 0)) range = std::max(range, 1.0F);
+    grid.range = storable_above(range);
+    grid.bits = bits_as_fine(bits, given, grid.range);
     return grid;
 }
 

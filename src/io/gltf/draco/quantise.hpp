@@ -19,7 +19,15 @@ struct DracoGrid {
     float density() const;
 };
 
-/// The grid from the least number of each component to the greatest extent, as the library would choose it.
+/// The library is told origin and range of a grid as text with six decimals. The nearest numbers that this
+/// text holds: at most x, and at least x and a millionth.
+float storable_below(float x);
+float storable_above(float x);
+/// As many bits as make steps of a grid that is storable as fine as `bits` made those of `range`, within a
+/// quarter: more where the range is not large beside the six decimals. At most 30.
+int bits_as_fine(int bits, float range, float storable);
+
+/// The storable grid from the least number of each component to the greatest extent.
 DracoGrid grid_of(const std::vector<float>& numbers, int components, int bits);
 
 /// x, or the nearest float32 that is rounded to the same step with and without fused multiply-add.
