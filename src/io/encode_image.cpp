@@ -1,10 +1,12 @@
 #include "io/encode_image.hpp"
 
 #include "base/error.hpp"
+#include "io/image_files.hpp"
 
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <jpeglib.h>
 #include <png.h>
 #include <webp/encode.h>
@@ -134,6 +136,89 @@ Bytes bytes_from(const std::uint8_t* data, std::size_t size) {
     return {bytes, bytes + size};
 }
 
+// --- JPEG again
+
+/// A JPEG read as coefficients and written as such.
+struct JpegCopy {
+    jpeg_decompress_struct from{};
+    jpeg_compress_struct to{};
+    jpeg_error_mgr from_errors{}, to_errors{};
+    jpeg_progress_mgr progress{};
+    std::jmp_buf back{};
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+
+    JpegCopy() = default;
+    JpegCopy(const JpegCopy&) = delete;
+    JpegCopy& operator=(const JpegCopy&) = delete;
+    ~JpegCopy() {
+        ::jpeg_destroy_compress(&to);
+        ::jpeg_destroy_decompress(&from);
+        std::free(bytes);
+    }
+    [[noreturn]] static void leave(j_common_ptr state) {
+        std::longjmp(static_cast<JpegCopy*>(state->client_data)->back, 1);
+    }
+    static jpeg_error_mgr* quiet(jpeg_error_mgr& errors) {
+        ::jpeg_std_error(&errors);
+        errors.error_exit = leave;
+        errors.output_message = [](j_common_ptr) {};
+        return &errors;
+    }
+    /// More scans than any encoder makes.
+    static void limit_scans(j_common_ptr state) {
+        constexpr int most = 500;
+        if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
+            leave(state);
+    }
+};
+
+/// The library writes the markers JFIF and Adobe by itself.
+bool writes_itself(const jpeg_compress_struct& to, const jpeg_marker_struct& marker) {
+    const auto begins = [&](const char* text, std::size_t length) {
+        return marker.data_length >= length && std::memcmp(marker.data, text, length) == 0;
+    };
+    return (to.write_JFIF_header && marker.marker == JPEG_APP0 && begins("JFIF", 5)) ||
+           (to.write_Adobe_marker && marker.marker == JPEG_APP0 + 14 && begins("Adobe", 5));
+}
+
+/// False where the file is broken. Nothing here may need a destructor when the library jumps.
+bool copy_jpeg(JpegCopy& copy, Span bytes, bool progressive) {
+    copy.from.err = JpegCopy::quiet(copy.from_errors);
+    copy.to.err = JpegCopy::quiet(copy.to_errors);
+    copy.from.client_data = copy.to.client_data = &copy;
+    copy.progress.progress_monitor = JpegCopy::limit_scans;
+    if (setjmp(copy.back) != 0) return false;
+    ::jpeg_create_decompress(&copy.from);
+    ::jpeg_create_compress(&copy.to);
+    ::jpeg_mem_src(&copy.from, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    ::jpeg_save_markers(&copy.from, JPEG_COM, 0xFFFF);
+    for (int n = 0; n < 16; ++n) ::jpeg_save_markers(&copy.from, JPEG_APP0 + n, 0xFFFF);
+    if (::jpeg_read_header(&copy.from, TRUE) != JPEG_HEADER_OK) return false;
+    copy.from.progress = &copy.progress;
+    jvirt_barray_ptr* coefficients = ::jpeg_read_coefficients(&copy.from);
+    if (copy.from_errors.num_warnings > 0) return false;
+    ::jpeg_copy_critical_parameters(&copy.from, &copy.to);
+    copy.to.optimize_coding = TRUE;
+    if (progressive) ::jpeg_simple_progression(&copy.to);
+    ::jpeg_mem_dest(&copy.to, &copy.bytes, &copy.size);
+    ::jpeg_write_coefficients(&copy.to, coefficients);
+    for (const jpeg_marker_struct* m = copy.from.marker_list; m; m = m->next)
+        if (!writes_itself(copy.to, *m)) ::jpeg_write_marker(&copy.to, m->marker, m->data, m->data_length);
+    ::jpeg_finish_compress(&copy.to);
+    return true;
+}
+
+Bytes repacked_jpeg(Span bytes) {
+    Bytes best;
+    for (const bool progressive : {true, false}) {
+        JpegCopy copy;
+        if (copy_jpeg(copy, bytes, progressive) && (best.empty() || copy.size < best.size()))
+            best = bytes_from(copy.bytes, copy.size);
+    }
+    return best;
+}
+
 // --- WebP
 
 struct WebpWriter {
@@ -164,6 +249,21 @@ Bytes encoded_png(const Pixels& image) {
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
     if (!writer.info || !write_png(writer, image, colour_type, channels)) no_memory_for("PNG");
     return std::move(writer.out);
+}
+
+Bytes repacked_image(Span bytes) {
+    constexpr std::size_t depth_at = 24; // in a PNG's header
+    const std::string type = media_type(bytes);
+    const bool png = type == "image/png", jpeg = type == "image/jpeg";
+    if ((!png && !jpeg) || bytes.size() <= depth_at) return {};
+    if (png && bytes[depth_at] == std::byte{16}) return {};
+    const std::optional<Pixels> image = decoded_image(bytes);
+    if (!image || image->damaged) return {};
+    Bytes out = jpeg ? repacked_jpeg(bytes) : encoded_png(*image);
+    if (out.empty() || out.size() >= bytes.size()) return {};
+    const std::optional<Pixels> again = decoded_image(out);
+    if (!again || again->rgba != image->rgba) return {}; // whatever the library did: pixels do not change
+    return out;
 }
 
 Bytes encoded_jpeg(const Pixels& image, const LossSettings& settings) {

@@ -20,6 +20,12 @@ Bytes encoded_jpeg(const Pixels& image, const LossSettings& settings);
 /// long.
 Bytes encoded_webp(const Pixels& image, const LossSettings& settings);
 
+/// A PNG or JPEG with the same pixels in fewer bytes: JPEG with the same coefficients and all its markers, in
+/// the best Huffman tables, progressive where that is smaller; PNG as encoded_png makes it, without what it
+/// says beside the pixels. Empty where nothing is gained, for PNG of 16 bits a channel, other kinds of files,
+/// and what is broken. Images have at most 2^26 pixels.
+Bytes repacked_image(Span bytes);
+
 /// Whether all pixels are opaque.
 bool is_opaque(const Pixels& image);
 

@@ -27,6 +27,48 @@ int farthest(const io::Pixels& a, const io::Pixels& b) {
     return most;
 }
 
+/// Files of others: a JPEG with the tables of the standard and a comment, a PNG that is not compressed.
+const char* const wasteful_jpeg =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD//gAObWFkZSBieSBoYW5k/9sAQwAKBwcIBwYKCAgICwoKCw4YEA4NDQ4dFRYRGCMfJSQiHyIh"
+    "Jis3LyYpNCkhIjBBMTQ5Oz4+PiUuRElDPEg3PT47/9sAQwEKCwsODQ4cEBAcOygiKDs7Ozs7Ozs7Ozs7Ozs7Ozs7Ozs7Ozs7Ozs7"
+    "Ozs7Ozs7Ozs7Ozs7Ozs7Ozs7Ozs7Ozs7/8AAEQgAIAAgAwEiAAIRAQMRAf/EAB8AAAEFAQEBAQEBAAAAAAAAAAABAgMEBQYHCAkK"
+    "C//EALUQAAIBAwMCBAMFBQQEAAABfQECAwAEEQUSITFBBhNRYQcicRQygZGhCCNCscEVUtHwJDNicoIJChYXGBkaJSYnKCkqNDU2"
+    "Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6g4SFhoeIiYqSk5SVlpeYmZqio6Slpqeoqaqys7S1tre4ubrCw8TF"
+    "xsfIycrS09TV1tfY2drh4uPk5ebn6Onq8fLz9PX29/j5+v/EAB8BAAMBAQEBAQEBAQEAAAAAAAABAgMEBQYHCAkKC//EALURAAIB"
+    "AgQEAwQHBQQEAAECdwABAgMRBAUhMQYSQVEHYXETIjKBCBRCkaGxwQkjM1LwFWJy0QoWJDThJfEXGBkaJicoKSo1Njc4OTpDREVG"
+    "R0hJSlNUVVZXWFlaY2RlZmdoaWpzdHV2d3h5eoKDhIWGh4iJipKTlJWWl5iZmqKjpKWmp6ipqrKztLW2t7i5usLDxMXGx8jJytLT"
+    "1NXW19jZ2uLj5OXm5+jp6vLz9PX29/j5+v/aAAwDAQACEQMRAD8A8wjtParUdp7Vox2ntVmO09q9GeIOfD4oz47T2qzHae1aMdp7"
+    "VajtPauSeIPoMPihkdp7VajtPatCO09qtR2ntXmTxB+c4fFGdHae1Wo7T2rRjtParMdp7VyzxB9Bh8Uf/9k=";
+const char* const wasteful_png =
+    "iVBORw0KGgoAAAANSUhEUgAAABAAAAAQCAIAAACQkWg2AAADG0lEQVR4AQEQA+/8AQMEWgkAAAsAAAoAAAoAAAoAAAoAAAoAAAoA"
+    "AAoAAAoAAAoAAAoAAAoAAAoAAAkAAAQADQAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAEAA8A"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABAAOAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAQADgAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAEAA4AAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABAAOAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAQADgAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAEAA4AAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABAAOAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAQADgAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAEAA4AAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABAAOAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAQADgAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAEAA4AAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAABAANAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAAAAAAIOUAgUaSOqOAAAAAElFTkSuQmCC";
+
+io::Bytes from_base64(std::string_view text) {
+    static constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    io::Bytes out;
+    std::uint32_t bits = 0, count = 0;
+    for (const char c : text) {
+        if (c == '=') break;
+        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        out.push_back(static_cast<std::byte>(bits >> count & 255));
+    }
+    return out;
+}
+
 } // namespace
 
 TEST_CASE("a PNG and a lossless WebP have the pixels that they are made of", "[io]") {
@@ -63,4 +105,25 @@ TEST_CASE("a JPEG that ends early is told apart from a whole one", "[io]") {
     const auto cut = io::decoded_image(bytes);
     REQUIRE(cut);
     CHECK(cut->damaged);
+}
+
+TEST_CASE("images are packed anew with the same pixels, or not at all", "[io]") {
+    for (const char* text : {wasteful_jpeg, wasteful_png}) {
+        const io::Bytes given = from_base64(text), packed = io::repacked_image(given);
+        REQUIRE_FALSE(packed.empty());
+        CHECK(packed.size() < given.size());
+        CHECK(io::media_type(packed) == io::media_type(given));
+        CHECK(io::decoded_image(packed)->rgba == io::decoded_image(given)->rgba);
+        CHECK(io::repacked_image(packed).empty()); // nothing more is gained
+        // What is broken stays as it is.
+        CHECK(io::repacked_image(io::Span(given).first(given.size() * 2 / 3)).empty());
+        CHECK(io::repacked_image(io::Span(given).first(20)).empty());
+    }
+    const io::Bytes jpeg = io::repacked_image(from_base64(wasteful_jpeg));
+    const std::string_view said(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+    CHECK(said.find("made by hand") != std::string_view::npos);
+    CHECK(io::repacked_image(io::encoded_webp(soft(false, false), {})).empty());
+    io::Bytes deep = from_base64(wasteful_png);
+    deep[24] = std::byte{16}; // bits a channel
+    CHECK(io::repacked_image(deep).empty());
 }

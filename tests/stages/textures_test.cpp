@@ -177,6 +177,22 @@ TEST_CASE("what would not be smaller stays", "[stages]") {
     CHECK(run.warnings().empty());
 }
 
+TEST_CASE("repack makes images smaller that would stay, and nothing else", "[stages]") {
+    const io::Bytes tight = io::encoded_png(picture(64, 64));
+    io::Bytes loose = tight;
+    loose.resize(loose.size() + 100); // behind the end of the image
+    const auto run =
+        run_stage("textures", "{repack: true}",
+                  textured({loose, tight}, every_role, R"({"source":0},{"source":1},{"source":1})"));
+    CHECK(run.record.result["repacked"] == 1);
+    CHECK(run.record.result["unchanged"] == 1);
+    CHECK(run.record.result["resized"] == 0);
+    const auto images = images_again(run.scene);
+    CHECK(images.at(0).bytes == tight);
+    CHECK(images.at(1).bytes == tight);
+    CHECK(run_stage("textures", "{}", textured({loose}, coloured)).record.result["unchanged"] == 1);
+}
+
 TEST_CASE("images that hold feature ids stay as they are", "[stages]") {
     const Scene scene = textured(
         {io::encoded_png(picture(64, 64))},

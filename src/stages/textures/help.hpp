@@ -12,11 +12,13 @@ are of length 1 again; all else (metalness, roughness, occlusion ...) as plain n
 several of these roles is treated as numbers, and written with the options of the strictest:
 normals, then data. Images of equal bytes are worked on once.
 
-An image that has the size and the format that are asked for stays as it is, byte for byte; so does
-one that would not be smaller in the other format (but png is always done), that is broken, larger
-than 2^26 pixels or of another kind (KTX2, DDS), that is read pixel by pixel (both filters NEAREST, as
-for a palette), or that holds feature ids, metadata or light. A colour image whose alpha is used does
-not become JPEG (W-TEXTURE-KEPT). Images of 16 bits a channel that are worked on have 8 afterwards.
+An image that has the size and the format that are asked for stays as it is, byte for byte (unless
+repack makes it smaller, with the same pixels: JPEG keeps all else that it says, PNG nothing); so
+does one that would not be smaller in the other format (but png is always done), that is broken,
+larger than 2^26 pixels or of another kind (KTX2, DDS), that is read pixel by pixel (both filters
+NEAREST, as for a palette), or that holds feature ids, metadata or light. A colour image whose alpha
+is used does not become JPEG (W-TEXTURE-KEPT). Images of 16 bits a channel that are worked on have 8
+afterwards.
 
 WebP is named by EXT_texture_webp, which is then required: there is no second image for readers that
 do not know it. An image that stands beside another one for such readers is scaled, but does not

@@ -64,6 +64,10 @@ void declare_textures(Declare<TexturesOptions>& d) {
              "others (a count).")
         .between(1, 100);
     d.option("lossless", &TexturesOptions::lossless, "Writes WebP without loss.");
+    d.option(
+        "repack", &TexturesOptions::repack,
+        "Packs PNG and JPEG images that would stay as they are anew where that makes them smaller, without "
+        "a change of a pixel.");
     d.group("normals", &TexturesOptions::normals, "What is different for normal maps.", declare_role);
     d.group("data", &TexturesOptions::data,
             "What is different for images that are neither colours nor normals.", declare_role);

@@ -18,7 +18,7 @@ struct RoleOptions {
 
 struct TexturesOptions {
     std::optional<std::int64_t> max_size, quality;
-    bool power_of_two = false, lossless = false;
+    bool power_of_two = false, lossless = false, repack = false;
     Format format = Format::keep;
     RoleOptions normals, data;
 };

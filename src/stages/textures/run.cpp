@@ -21,7 +21,7 @@ struct ReportedImage {
 
 struct TexturesReport {
     std::vector<ReportedImage> images;
-    std::size_t resized = 0, converted = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
+    std::size_t resized = 0, converted = 0, repacked = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
 };
 
 /// Images of equal bytes, wherever they are.
@@ -114,6 +114,7 @@ void tell(const std::vector<Job>& jobs, Context& context, TexturesReport& report
         const bool converted = w.before.format != w.after.format;
         report.resized += resized;
         report.converted += converted;
+        report.repacked += !resized && !converted && !w.bytes.empty();
         report.unchanged += w.bytes.empty();
         report.bytes_before += w.before.bytes;
         report.bytes_after += w.after.bytes;
@@ -163,8 +164,10 @@ std::vector<std::string> lines_of(const TexturesReport& r) {
     if (r.images.size() > most)
         lines.push_back(fmt::format("... and {} more, which the report has", r.images.size() - most));
     if (r.images.empty()) return {"there are no images"};
-    lines.push_back(fmt::format("{} resized, {} in another format, {} as before: {} -> {}", r.resized,
-                                r.converted, r.unchanged, sized(r.bytes_before), sized(r.bytes_after)));
+    const std::string repacked = r.repacked > 0 ? fmt::format("{} packed anew, ", r.repacked) : "";
+    lines.push_back(fmt::format("{} resized, {} in another format, {}{} as before: {} -> {}", r.resized,
+                                r.converted, repacked, r.unchanged, sized(r.bytes_before),
+                                sized(r.bytes_after)));
     return lines;
 }
 
@@ -172,6 +175,7 @@ void declare_report(DeclareFields<TexturesReport>& d) {
     d.list("images", &TexturesReport::images, "Each image; those of equal bytes are one.", declare_image);
     d.field("resized", &TexturesReport::resized, "Images that are smaller now.");
     d.field("converted", &TexturesReport::converted, "Images that have another format now.");
+    d.field("repacked", &TexturesReport::repacked, "Images that have the same pixels in fewer bytes.");
     d.field("unchanged", &TexturesReport::unchanged, "Images that are the same, byte for byte.");
     d.field("bytes_before", &TexturesReport::bytes_before, "Of all images that entered.").unit("bytes");
     d.field("bytes_after", &TexturesReport::bytes_after, "Of all images that left.").unit("bytes");
@@ -192,7 +196,7 @@ const RegisterStage registered = make_stage<TexturesOptions>(
      .about = help::textures::about,
      .details = help::textures::details,
      .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",
-                  "textures: {format: webp, normals: {lossless: true}}",
+                  "textures: {format: webp, normals: {lossless: true}}", "textures: {repack: true}",
                   "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"}},
     declare_textures, declare_report, run, {.verify = verify_textures});
 

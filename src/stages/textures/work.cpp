@@ -95,7 +95,12 @@ Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageU
     if (use.fallback && format == "webp") format = before.format; // who needs it does not know WebP
     const auto [width, height] = size_for(before, s);
     const bool smaller = width != before.width || height != before.height;
-    if (!smaller && format == before.format) return kept(before, "", false);
+    if (!smaller && format == before.format) {
+        Worked out = kept(before, "", false);
+        if (o.repack) out.bytes = io::repacked_image(bytes);
+        if (!out.bytes.empty()) out.after.bytes = out.bytes.size();
+        return out;
+    }
 
     auto image = io::decoded_image(bytes);
     if (!image || image->damaged) return kept(before, "it is broken", true);
