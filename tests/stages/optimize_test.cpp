@@ -7,6 +7,7 @@
 #include "io/gltf/textures.hpp"
 #include "io/pixels.hpp"
 #include "io/png.hpp"
+#include "mesh/separate_wedges.hpp"
 #include "mesh/shapes.hpp"
 
 #include <fmt/format.h>
@@ -47,6 +48,13 @@ std::string mesh(int material, int accessor = 0, const std::string& more = "") {
 std::string colour(const std::string& name, double red) {
     return fmt::format(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},0,0,1]}}}})", name,
                        red);
+}
+
+/// A wedge for each corner.
+void separate_corners(Mesh& mesh) {
+    std::vector<Index> own(mesh.corners.size());
+    for (Index c = 0; c < own.size(); ++c) own[c] = c;
+    separate_wedges(mesh, own);
 }
 
 /// What is drawn, in the world.
@@ -388,4 +396,75 @@ TEST_CASE("accessors of equal bytes become one, and needless bounds go", "[stage
     CHECK_FALSE(after["accessors"][1].contains("min"));
     CHECK(after["accessors"][after["animations"][0]["samplers"][0]["input"].get<std::size_t>()].contains(
         "min"));
+}
+
+TEST_CASE("equal wedges of a vertex become one, and white colours go on request", "[stages]") {
+    Scene scene = test::scene_of(shapes::cube());
+    Mesh& mesh = scene.parts[0].mesh;
+    separate_corners(mesh);
+    mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 4, true,
+                               std::vector<std::uint8_t>(4 * mesh.wedge_count(), 255)});
+    const auto run = run_stage("optimize", "{}", scene);
+    CHECK(run.mesh().wedge_count() == 8);
+    CHECK(run.record.result["equal_vertices"] == 28);
+    CHECK(has_attribute(run.scene, "COLOR_0"));
+    CHECK_FALSE(has_attribute(run_stage("optimize", "{drop_attributes: true}", scene).scene, "COLOR_0"));
+    CHECK(run_stage("optimize", "{dedup: false}", scene).mesh().wedge_count() == 36);
+    std::get<std::vector<std::uint8_t>>(mesh.attributes.back().data)[5] = 254;
+    CHECK(has_attribute(run_stage("optimize", "{drop_attributes: true}", scene).scene, "COLOR_0"));
+}
+
+TEST_CASE("primitives of one material become one in a mesh that is shared, too", "[stages]") {
+    const std::string two =
+        R"({"primitives":[{"attributes":{"POSITION":0},"material":0},{"attributes":{"POSITION":2},"material":0}]})";
+    const Scene scene = document(R"({"mesh":0},{"mesh":0,"translation":[5,0,0]})", two,
+                                 R"("materials":[)" + colour("red", 1) + "]");
+    const auto run = run_stage("optimize", "{}", scene);
+    CHECK(run.record.result["draw_calls_before"] == 4);
+    CHECK(run.record.result["draw_calls_after"] == 2);
+    const Json json = json_again(run.scene);
+    CHECK(json["meshes"].size() == 1);
+    CHECK(json["meshes"][0]["primitives"].size() == 1);
+}
+
+TEST_CASE("tracks that keep a node where it is go, and the animation stays as long", "[stages]") {
+    // Three keys each: the scale rests, the translation does not; the first times end later.
+    const auto moved = [](const std::string& channels) {
+        Json json = Json::parse(
+            document(
+                R"({"mesh":0,"scale":[1,1,1.000001]},{"translation":[2,0,0]})", mesh(0),
+                R"("materials":[)" + colour("red", 1) + R"(],"animations":[{"channels":)" + channels +
+                    R"(,"samplers":[{"input":3,"output":0},{"input":3,"output":4},{"input":5,"output":4}]}])")
+                .documents[0]
+                ->json);
+        std::vector<float> numbers{0, 1, 2, 0, 1, 3};
+        numbers.insert(numbers.end(), 9, 1.0F);
+        const auto bytes = std::as_bytes(std::span(numbers));
+        json["buffers"].push_back({{"byteLength", bytes.size()},
+                                   {"uri", "data:application/octet-stream;base64," + io::base64(bytes)}});
+        for (const auto& [offset, length] : {std::pair(0, 12), {24, 36}, {12, 12}})
+            json["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", offset}, {"byteLength", length}});
+        for (const auto& [view, type, end] : {std::tuple(2, "SCALAR", 2), {3, "VEC3", 0}, {4, "SCALAR", 3}}) {
+            json["accessors"].push_back(
+                {{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", type}});
+            if (end > 0) {
+                json["accessors"].back()["min"] = {0};
+                json["accessors"].back()["max"] = {end};
+            }
+        }
+        const auto run = run_stage("optimize", "{}", read_text(json.dump()));
+        return std::pair(run.record.result["erased"]["tracks"].get<int>(),
+                         Json::parse(run.scene.documents.at(0)->json)["animations"][0]);
+    };
+    const std::string moves = R"({"sampler":0,"target":{"node":0,"path":"translation"}})";
+    const auto [dropped, left] = moved("[" + moves + R"(,{"sampler":1,"target":{"node":0,"path":"scale"}}])");
+    CHECK(dropped == 1);
+    CHECK(left["channels"].size() == 1);
+    CHECK(left["channels"][0]["target"]["path"] == "translation");
+    CHECK(left["samplers"].size() == 1);
+    const auto [none_dropped, longest] =
+        moved("[" + moves + R"(,{"sampler":2,"target":{"node":0,"path":"scale"}}])");
+    CHECK(none_dropped == 0);
+    CHECK(longest["channels"].size() == 2);
+    CHECK(moved("[" + moves + R"(,{"sampler":1,"target":{"node":0,"path":"translation"}}])").first == 0);
 }

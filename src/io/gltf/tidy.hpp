@@ -17,7 +17,8 @@ namespace facetmill::io {
 
 /// How many things of each kind a document lost.
 struct TidyCounts {
-    std::size_t nodes = 0, meshes = 0, materials = 0, textures = 0, samplers = 0, images = 0, accessors = 0;
+    std::size_t nodes = 0, meshes = 0, materials = 0, textures = 0, samplers = 0, images = 0, accessors = 0,
+                tracks = 0;
 };
 
 /// What the parts of a scene still name in a document.
@@ -67,6 +68,11 @@ class DocumentTidy {
 
     /// Makes one of equal accessors, by their bytes. Returns how many others stand for now.
     std::size_t merge_equal_accessors();
+
+    /// Erases the tracks of animations that keep a node where it is without them: translations within a
+    /// length, rotations and scales within 1e-5, where no other animation moves the same. An animation keeps
+    /// its duration. Returns how many. Before erase_unused.
+    std::size_t drop_resting_tracks(double length);
 
     /// Puts nodes at the top of their scene, where they stand in the world. `emptied` gets the nodes above
     /// that have no mesh. None of them may be bound (bound_parts). Returns how many were not there.

@@ -31,11 +31,20 @@ needs_of(const Mesh& mesh,
     return all;
 }
 
+/// Colours multiply those of the material: white changes nothing.
+bool is_white(const Attribute& a) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (int c = 0; c < a.components; ++c)
+            if (a.value(i, c) != 1) return false;
+    return true;
+}
+
 bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
     constexpr std::string_view uv = "TEXCOORD_";
     if (a.domain == Domain::face) return false;
     if (a.name == "NORMAL") return !needs.normals;
     if (a.name == "TANGENT") return !needs.tangents;
+    if (a.name == "COLOR_0") return is_white(a);
     if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1)
         return false; // beyond nine: whoever knows
     return !needs.uvs.contains(a.name.back() - '0');
@@ -68,8 +77,9 @@ class WedgeOrder {
 
 } // namespace
 
-void merge_equal_wedges(Mesh& mesh) {
-    if (!mesh.has_seams()) return;
+std::size_t merge_equal_wedges(Mesh& mesh) {
+    if (!mesh.has_seams()) return 0;
+    const std::size_t before = mesh.wedge_count();
     const WedgeOrder order(mesh);
     std::vector<Index> sorted(mesh.wedge_vertex.size());
     std::iota(sorted.begin(), sorted.end(), Index{0});
@@ -81,8 +91,12 @@ void merge_equal_wedges(Mesh& mesh) {
     for (std::size_t i = 0; i < sorted.size(); ++i)
         instead[sorted[i]] =
             i > 0 && order.compare(sorted[i - 1], sorted[i]) == 0 ? instead[sorted[i - 1]] : sorted[i];
+    bool equal = false;
+    for (Index w = 0; w < instead.size(); ++w) equal = equal || instead[w] != w;
+    if (!equal) return 0;
     for (Index& w : mesh.corners) w = instead[w];
     drop_unused(mesh);
+    return before - mesh.wedge_count();
 }
 
 std::vector<std::string> drop_unused_attributes(

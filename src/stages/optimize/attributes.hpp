@@ -10,14 +10,16 @@ namespace facetmill::optimize_stage {
 
 /// Drops texture coordinates that no texture reads, tangents without a map of normals, and normals of unlit
 /// materials (neither beside morph targets, which displace them), where all primitives of the mesh can do
-/// without; then wedges that have become equal are one. Colours, skins, morph targets and attributes of one's
-/// own stay. Nothing is dropped from a mesh with primitives that have extensions. needs: of a scene's
-/// material; none when it is not known. Returns the names.
+/// without; colours that are white throughout, which change nothing; then wedges that have become equal are
+/// one. Colours, skins, morph targets and attributes of one's own stay. Nothing is dropped from a mesh with
+/// primitives that have extensions. needs: of a scene's material; none when it is not known. Returns the
+/// names.
 std::vector<std::string>
 drop_unused_attributes(Mesh& mesh,
                        const std::function<std::optional<io::MaterialNeeds>(Index material)>& needs);
 
-/// Makes one of the wedges of a vertex that have equal attributes. Faces keep their corners' order.
-void merge_equal_wedges(Mesh& mesh);
+/// Makes one of the wedges of a vertex that have equal attributes; how many there are less. Faces keep their
+/// corners' order.
+std::size_t merge_equal_wedges(Mesh& mesh);
 
 } // namespace facetmill::optimize_stage

@@ -8,20 +8,22 @@ inline constexpr const char* about =
 
 inline constexpr const char* details =
     R"(dedup makes one of images of equal bytes, equal samplers, textures and materials, meshes that are
-equal to the bit, and accessors of equal bytes. join makes one part of those that share their
-materials and have the same attributes, in the place of the first of them, and one primitive of
-those of one material. prune erases materials, textures, samplers, images, meshes and accessors that
-nothing uses, the least and greatest numbers of accessors that glTF does not ask for, and the nodes
-that join, flatten and instance have emptied, with the groups above them that have nothing else.
+equal to the bit, vertices of one place with equal attributes, and accessors of equal bytes. join
+makes one part of those that share their materials and have the same attributes, in the place of the
+first of them, and one primitive of those of one material. prune erases materials, textures,
+samplers, images, meshes and accessors that nothing uses, the least and greatest numbers of
+accessors that glTF does not ask for, tracks of animations that keep a node where it is without them
+(within 1e-6 of the scene's diagonal, 1e-5 of a scale or a quaternion), and the nodes that join,
+flatten and instance have emptied, with the groups above them that have nothing else.
 
 On request: drop_attributes drops texture coordinates that no texture reads, tangents without a map
-of normals and normals of unlit materials (not beside extensions of a primitive), and merges
-vertices that only these kept apart. palette makes one material of those that are nothing but plain
-colours, metalness, roughness and emission, with a pixel of 8 bits a channel for each, for parts
-without texture coordinates; parts of different colours can be joined then. flatten moves nodes to
-the top of the scene. instance makes one node, with a list of places, of parts that share a mesh
-and are not mirrored; later stages see its mesh once, so it comes last. `load: {instances: expand}` is
-its reverse.
+of normals, normals of unlit materials and colours that are white throughout (not beside extensions
+of a primitive), and merges vertices that only these kept apart. palette makes one material of those
+that are nothing but plain colours, metalness, roughness and emission, with a pixel of 8 bits a
+channel for each, for parts without texture coordinates; parts of different colours can be joined
+then. flatten moves nodes to the top of the scene. instance makes one node, with a list of places,
+of parts that share a mesh and are not mirrored; later stages see its mesh once, so it comes last.
+`load: {instances: expand}` is its reverse.
 
 Parts stay by themselves, where they are, that are skinned, animated or joints, have morph targets,
 a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share

@@ -26,7 +26,7 @@ void declare(Declare<OptimizeOptions>& d) {
     d.option("dedup", &OptimizeOptions::dedup,
              "Makes one of equal images, samplers, textures, materials, meshes and accessors.");
     d.option("drop_attributes", &OptimizeOptions::drop_attributes,
-             "Drops texture coordinates, tangents and normals that no material needs.");
+             "Drops texture coordinates, tangents, normals and white colours that no material needs.");
     d.option("palette", &OptimizeOptions::palette,
              "Makes one material, with a pixel of a texture for each, of materials of plain colours.");
     d.option("palette_min", &OptimizeOptions::palette_min,
@@ -52,6 +52,7 @@ void declare(Declare<OptimizeOptions>& d) {
 struct OptimizeReport {
     std::size_t draw_calls_before = 0, draw_calls_after = 0, parts_before = 0, parts_after = 0;
     std::size_t equal_materials = 0, equal_meshes = 0, equal_accessors = 0, joined_parts = 0;
+    std::size_t equal_vertices = 0;
     std::vector<std::string> joined;
     std::size_t palettes = 0, palette_materials = 0, flattened_parts = 0, instanced_meshes = 0, instances = 0;
     std::vector<std::string> dropped_attributes;
@@ -79,12 +80,14 @@ class Optimizing {
         if (o_.dedup) merge_materials();
         if (o_.dedup) merge_meshes();
         if (o_.drop_attributes) drop_attributes();
+        if (o_.dedup) merge_vertices();
         if (o_.palette) paint();
         if (o_.flatten) flatten();
         if (o_.instance) instance();
         if (o_.join) join_parts();
         if (o_.dedup)
             for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors();
+        if (o_.prune) drop_tracks();
         erase();
         report_.draw_calls_after = draw_calls_of(scene_);
         report_.parts_after = scene_.parts.size();
@@ -153,6 +156,19 @@ class Optimizing {
         }
     }
 
+    /// Of the meshes that may change: all parts that share one are selected, and nothing numbers its
+    /// vertices.
+    void merge_vertices() {
+        for (const std::size_t i : changeable()) {
+            Part& part = scene_.parts[i];
+            const auto numbers = [](const Primitive& p) { return !p.json.empty(); };
+            if (std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(), numbers)) continue;
+            const std::size_t merged = merge_equal_wedges(part.mesh);
+            part.changed |= merged > 0;
+            report_.equal_vertices += merged;
+        }
+    }
+
     void drop_attributes() {
         const auto needs = [&](Index m) -> std::optional<io::MaterialNeeds> {
             if (m >= scene_.materials.size()) return io::MaterialNeeds{};
@@ -180,6 +196,19 @@ class Optimizing {
         std::vector<std::size_t> all;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i)
             if (context_.selects(scene_.parts[i], scene_)) all.push_back(i);
+        return all;
+    }
+
+    /// Selected parts whose mesh no other part has that is not selected.
+    std::vector<std::size_t> changeable() const {
+        std::set<std::pair<int, int>> fixed;
+        for (const Part& part : scene_.parts)
+            if (!context_.selects(part, scene_) && part.source_mesh >= 0)
+                fixed.emplace(part.document, part.source_mesh);
+        std::vector<std::size_t> all = selected();
+        std::erase_if(all, [&](std::size_t i) {
+            return fixed.contains({scene_.parts[i].document, scene_.parts[i].source_mesh});
+        });
         return all;
     }
 
@@ -274,7 +303,7 @@ class Optimizing {
 
     void join_parts() {
         const auto able = candidates();
-        for (const std::size_t i : able)
+        for (const std::size_t i : changeable())
             if (join_primitives(scene_.parts[i].mesh)) scene_.parts[i].changed = true;
         if (o_.keep_names) return;
         std::set<std::size_t> gone;
@@ -290,6 +319,13 @@ class Optimizing {
             }
         }
         erase_parts(gone);
+    }
+
+    void drop_tracks() {
+        const Box box = scene_.bounds();
+        constexpr double ratio = 1e-6; // of the diagonal
+        const double within = box.empty() ? 0 : ratio * length(box.extent());
+        for (auto& tidy : tidies_) tidy.drop_resting_tracks(within);
     }
 
     void erase() {
@@ -349,9 +385,10 @@ class Optimizing {
 
     void add(const io::TidyCounts& c) {
         io::TidyCounts& all = report_.erased;
-        for (const auto member : {&io::TidyCounts::nodes, &io::TidyCounts::meshes, &io::TidyCounts::materials,
-                                  &io::TidyCounts::textures, &io::TidyCounts::samplers,
-                                  &io::TidyCounts::images, &io::TidyCounts::accessors})
+        for (const auto member :
+             {&io::TidyCounts::nodes, &io::TidyCounts::meshes, &io::TidyCounts::materials,
+              &io::TidyCounts::textures, &io::TidyCounts::samplers, &io::TidyCounts::images,
+              &io::TidyCounts::accessors, &io::TidyCounts::tracks})
             all.*member += c.*member;
     }
 
@@ -372,6 +409,7 @@ void declare_erased(DeclareFields<io::TidyCounts>& d) {
     d.field("samplers", &io::TidyCounts::samplers, "Equal to others, or unused.");
     d.field("images", &io::TidyCounts::images, "Equal to others, or unused.");
     d.field("accessors", &io::TidyCounts::accessors, "Of what was erased, or unused.");
+    d.field("tracks", &io::TidyCounts::tracks, "Of animations, that keep a node where it is without them.");
 }
 
 void declare_report(DeclareFields<OptimizeReport>& d) {
@@ -385,6 +423,8 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
     d.field("equal_meshes", &OptimizeReport::equal_meshes, "Meshes that another one stands for now.");
     d.field("equal_accessors", &OptimizeReport::equal_accessors,
             "Accessors of the documents that another one stands for now.");
+    d.field("equal_vertices", &OptimizeReport::equal_vertices,
+            "Vertices of one place and equal attributes that another one stands for now.");
     d.field("dropped_attributes", &OptimizeReport::dropped_attributes,
             "The names of the attributes that no material needs.");
     d.field("palettes", &OptimizeReport::palettes, "Materials made of many.");
