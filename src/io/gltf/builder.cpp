@@ -159,14 +159,20 @@ bool Builder::passes_through(std::size_t i) const {
 std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing>>& how) {
     constexpr std::size_t json_bytes = 160; // that the extension's object takes
     std::vector<Bytes> packed(old_view_.size());
+    std::vector<Span> plain(old_view_.size());
+    for (std::size_t i = 0; i < plain.size() && i < how.size(); ++i) {
+        const auto added = new_views_.find(old_view_[i]);
+        if (!how[i] || passes_through(i)) continue;
+        if (added == new_views_.end() && source_.without_bytes(old_view_[i])) continue;
+        plain[i] = added != new_views_.end() ? Span(added->second) : source_.view(old_view_[i]);
+    }
     Share::loop_tells();
     parallel_for(
         packed.size(),
         [&](std::size_t i) {
-            const auto added = new_views_.find(old_view_[i]);
-            if (i >= how.size() || !how[i] || added == new_views_.end()) return;
-            Bytes stream = encode_meshopt(added->second, *how[i]);
-            if (!how[i]->filter.empty() || stream.size() + json_bytes < added->second.size())
+            if (plain[i].empty()) return;
+            Bytes stream = encode_meshopt(plain[i], *how[i]);
+            if (!how[i]->filter.empty() || stream.size() + json_bytes < plain[i].size())
                 packed[i] = std::move(stream);
         },
         1);

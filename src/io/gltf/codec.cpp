@@ -369,6 +369,7 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
                                                                        : Textures::copy;
     auto images = place_images(patch, stem, textures);
     Bytes buffer = builder.finish(written.warnings);
+    if (settings.draco.on || settings.quantize.on || settings.meshopt.on) shorten_numbers(builder.json());
     add_main_files(patch, stem, std::move(buffer), binary);
     for (auto& image : images) written.files.push_back(std::move(image));
     return written;

@@ -35,17 +35,29 @@ std::map<std::size_t, IndexUse> index_uses(const Json& document) {
     return uses;
 }
 
-/// What names each view: accessors as their data, and how many others.
+/// What names each view: accessors as their data, whole numbers of sparse accessors by their size, and how
+/// many there are altogether.
 struct ViewUse {
     std::vector<std::size_t> accessors;
+    std::vector<std::size_t> sparse_integers;
     std::size_t references = 0;
 };
 
 std::vector<ViewUse> view_uses(const Json& document) {
     std::vector<ViewUse> uses(count_of(document, "bufferViews"));
-    for (std::size_t a = 0; a < count_of(document, "accessors"); ++a)
-        if (document["accessors"][a].contains("bufferView"))
-            uses.at(document["accessors"][a]["bufferView"].get<std::size_t>()).accessors.push_back(a);
+    for (std::size_t a = 0; a < count_of(document, "accessors"); ++a) {
+        const Json& accessor = document["accessors"][a];
+        if (accessor.contains("bufferView"))
+            uses.at(accessor["bufferView"].get<std::size_t>()).accessors.push_back(a);
+        if (!accessor.contains("sparse")) continue;
+        const auto integers = [&](const Json& part, int type) {
+            if (type == int(uint16) || type == int(uint32))
+                uses.at(part["bufferView"].get<std::size_t>()).sparse_integers.push_back(size_of(type));
+        };
+        const Json& sparse = accessor["sparse"];
+        integers(sparse["indices"], sparse["indices"]["componentType"].get<int>());
+        if (accessor["type"] == "SCALAR") integers(sparse["values"], accessor["componentType"].get<int>());
+    }
     Json copy = document; // the visitor is for changing
     visit_view_references(copy, [&](Json& r) { ++uses.at(r.get<std::size_t>()).references; });
     return uses;
@@ -70,6 +82,23 @@ std::optional<Packing> index_packing(const Json& document, const ViewUse& use, s
     if (bytes % packing.stride != 0) return {};
     if (packing.count % 3 != 0) packing.mode = "INDICES";
     if (packing.mode == "TRIANGLES") packing.kind = fmt::format("indices {}", packing.stride);
+    return packing;
+}
+
+/// Whole numbers without gaps, with which sparse accessors and EXT_mesh_manifold say where corners are: none
+/// that differ in size.
+std::optional<Packing> integer_packing(const Json& document, const ViewUse& use, std::size_t bytes) {
+    Packing packing{"INDICES", "", use.sparse_integers.front()};
+    bool same = true;
+    for (const std::size_t size : use.sparse_integers) same = same && size == packing.stride;
+    for (const std::size_t a : use.accessors) {
+        const Json& accessor = document["accessors"][a];
+        const int type = accessor["componentType"].get<int>();
+        same = same && accessor["type"] == "SCALAR" && (type == int(uint16) || type == int(uint32)) &&
+               size_of(type) == packing.stride;
+    }
+    if (!same || bytes % packing.stride != 0) return {};
+    packing.count = bytes / packing.stride;
     return packing;
 }
 
@@ -128,8 +157,13 @@ std::vector<std::optional<Packing>> packings(const Json& document,
     std::vector<std::optional<Packing>> all(uses.size());
     for (std::size_t v = 0; v < uses.size(); ++v) {
         const ViewUse& use = uses[v];
-        if (use.accessors.empty() || use.references != use.accessors.size()) continue;
         const Json& view = document["bufferViews"][v];
+        if (use.references != use.accessors.size() + use.sparse_integers.size()) continue;
+        if (!use.sparse_integers.empty()) {
+            all[v] = integer_packing(document, use, view["byteLength"].get<std::size_t>());
+            continue;
+        }
+        if (use.accessors.empty()) continue;
         const bool index = std::any_of(use.accessors.begin(), use.accessors.end(),
                                        [&](std::size_t a) { return indices.count(a) > 0; });
         const auto filter = filters.find(v);

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/alike.hpp"
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/features.hpp"
 #include "io/gltf/order.hpp"
@@ -345,8 +346,10 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
         return out;
     }
     auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);
-    if (!settings.draco.on && !keeps_order(mesh, settings))
-        order_triangles(mesh, tables, settings.order, settings.manifold, out.cache);
+    const bool free = !settings.draco.on && !keeps_order(mesh, settings);
+    if (free && settings.quantize.on && !settings.manifold)
+        for (Table& table : tables) merge_alike(mesh, table, columns, settings);
+    if (free) order_triangles(mesh, tables, settings.order, settings.manifold, out.cache);
     if (settings.manifold && !settings.draco.on) {
         encode_manifold(builder, mesh, tables, columns, settings, written, out);
         return out;

@@ -12,6 +12,8 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
+    QuantizeSettings quantize;                 ///< how attributes will be rounded
+    bool filters = false;                      ///< and whether as meshopt's filters want them
     bool manifold = false;                     ///< write EXT_mesh_manifold
     TriangleOrder order = TriangleOrder::keep; ///< not automatic
     bool keep_exact = false;                   ///< positions in doubles go to Builder::exact_positions, too

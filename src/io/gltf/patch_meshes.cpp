@@ -67,6 +67,8 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     EncodeSettings s;
     s.draco = patch.settings.draco;
     s.draco.position_bits = patch.settings.grid_bits(static_cast<std::size_t>(&part - &patch.scene.parts[0]));
+    s.quantize = patch.settings.quantize;
+    s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
     s.manifold = patch.settings.mesh_manifold;
     s.order = patch.settings.order;
     if (s.order == TriangleOrder::automatic)

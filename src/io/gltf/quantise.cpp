@@ -1,5 +1,6 @@
 #include "io/gltf/quantise.hpp"
 
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/encode.hpp"
@@ -8,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace facetmill::io::gltf {
 
@@ -125,24 +127,36 @@ void share_out(const std::vector<double>& weights, std::uint32_t whole, std::vec
     for (std::size_t k = 0; given < whole; ++k, ++given) ++shares[rest[k % rest.size()].second];
 }
 
+/// The joints of a vertex with their shares, the largest first.
+using Influence = std::pair<std::uint32_t, std::uint32_t>; // share, joint
+
+void sort_influences(std::vector<Influence>& all) {
+    std::sort(all.begin(), all.end(), [](const Influence& a, const Influence& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+}
+
 template <class Weight, class Joint>
 StoredInfluences influences_as(const Influences& all) {
     const std::size_t sets = all.weights.size(), count = all.weights.front().size();
     std::vector<std::vector<Weight>> weights(sets, std::vector<Weight>(4 * count));
-    std::vector<std::vector<Joint>> joints(all.joints.size(), std::vector<Joint>(4 * count));
+    std::vector<std::vector<Joint>> joints(sets, std::vector<Joint>(4 * count));
     parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
         std::vector<double> given(4 * sets);
         std::vector<std::uint32_t> shares;
+        std::vector<Influence> of_vertex(4 * sets);
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t k = 0; k < given.size(); ++k)
                 given[k] = std::max(0.0, all.weights[k / 4].value(i, static_cast<int>(k % 4)));
             share_out(given, std::numeric_limits<Weight>::max(), shares);
-            for (std::size_t k = 0; k < given.size(); ++k)
-                weights[k / 4][4 * i + k % 4] = static_cast<Weight>(shares[k]);
-            for (std::size_t k = 0; k < 4 * joints.size(); ++k) {
+            for (std::size_t k = 0; k < of_vertex.size(); ++k) {
                 const double joint = all.joints[k / 4].value(i, static_cast<int>(k % 4));
-                const bool used = k >= shares.size() || shares[k] > 0;
-                joints[k / 4][4 * i + k % 4] = used ? static_cast<Joint>(joint) : Joint{0};
+                of_vertex[k] = {shares[k], shares[k] > 0 ? static_cast<std::uint32_t>(joint) : 0};
+            }
+            sort_influences(of_vertex);
+            for (std::size_t k = 0; k < of_vertex.size(); ++k) {
+                weights[k / 4][4 * i + k % 4] = static_cast<Weight>(of_vertex[k].first);
+                joints[k / 4][4 * i + k % 4] = static_cast<Joint>(of_vertex[k].second);
             }
         }
     });
@@ -153,6 +167,21 @@ StoredInfluences influences_as(const Influences& all) {
 }
 
 } // namespace
+
+double short_above(double x) {
+    const auto digits = [](double y) { return parse_real(fmt::format("{:.7e}", y)).value_or(y); };
+    const double near = digits(x);
+    return near >= x ? near : digits(x * (1 + 1e-7)); // at least one of the last digit more
+}
+
+double short_near(double x, double step) {
+    if (!(step > 0) || !(step < HUGE_VAL)) return x;
+    for (int decimals = 0; decimals < 17; ++decimals) {
+        const double near = parse_real(fmt::format("{:.{}f}", x, decimals)).value_or(x);
+        if (std::abs(near - x) <= step / 100) return near + 0.0;
+    }
+    return x;
+}
 
 Stored plain(const AttributeData& data, int components, bool normalised, bool bounds) {
     Stored stored{accessor_json(data, components, normalised, bounds), {}};

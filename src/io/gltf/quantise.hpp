@@ -18,6 +18,11 @@ struct PositionGrid {
     int bits = 16;
 };
 
+/// The least number at or above x > 0 that has 8 digits, so that it is short as text.
+double short_above(double x);
+/// A number within a hundredth of the step of x that has as few decimals as that allows.
+double short_near(double x, double step);
+
 /// Vertex data ready for a view of its own.
 struct Stored {
     Json accessor; ///< without its view
@@ -54,8 +59,9 @@ int finest_exponent(const Attribute& a);
 /// The exponent of the largest power of two that is not above the greatest extent of a component / 2^bits.
 int exponent_of_range(const Attribute& a, int bits);
 
-/// Weights and joints of a mesh by set. The weights of a vertex, over all sets, sum to exactly one (the
-/// largest remainders are rounded up); a joint without weight becomes 0, as glTF wants it.
+/// Weights and joints of a mesh by set, the largest weights of a vertex first, since neighbours are more
+/// alike then. The weights of a vertex, over all sets, sum to exactly one (the largest remainders are rounded
+/// up); a joint without weight becomes 0, as glTF wants it.
 struct Influences {
     std::vector<Attribute> joints, weights;
 };

@@ -52,6 +52,7 @@ class Store {
 
     bool readable(std::size_t accessor) const;
     bool floats(std::size_t accessor) const;
+    bool compressed(std::size_t accessor) const;
     Attribute numbers(std::size_t accessor);
     std::vector<Vec3> positions(std::size_t accessor);
     std::size_t replace(std::size_t accessor, std::optional<Stored> stored);
@@ -92,6 +93,13 @@ bool Store::readable(std::size_t accessor) const {
 
 bool Store::floats(std::size_t accessor) const {
     return json_["accessors"][accessor]["componentType"] == int(float32);
+}
+
+/// Whether meshopt has compressed it in the source.
+bool Store::compressed(std::size_t accessor) const {
+    const Json& a = json_["accessors"][accessor];
+    return a.contains("bufferView") &&
+           compression_of(json_["bufferViews"][a["bufferView"].get<std::size_t>()]);
 }
 
 Attribute Store::numbers(std::size_t index) {
@@ -172,15 +180,18 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     const double range = std::max({e.x, e.y, e.z});
     const int bits = bits_of(mesh);
     const auto steps = static_cast<double>((1 << bits) - 1);
-    const PositionGrid grid{box.min, range > 0 ? range / steps : 1, bits};
+    const double step = range > 0 ? short_above(range / steps) : 1;
+    const PositionGrid grid{
+        {short_near(box.min.x, step), short_near(box.min.y, step), short_near(box.min.z, step)}, step, bits};
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
     if (const char* why = reason_for_floats(mesh)) {
         keep("POSITION", why);
         return {};
     }
     const double reach = (bits <= 8 ? 255.0 : 65535.0) * grid.step;
+    const double half = grid.step / 2;
     for (std::size_t c = 0; c < 3; ++c)
-        if (all.min[c] < box.min[c] || all.max[c] > box.min[c] + reach) {
+        if (all.min[c] < grid.origin[c] - half || all.max[c] > grid.origin[c] + reach + half) {
             keep("POSITION", "stays float32 where points or lines reach far beyond the faces of their mesh");
             return {};
         }
@@ -250,8 +261,13 @@ std::size_t Store::displacement(std::size_t accessor, const std::optional<Positi
 
 /// Normals and tangents, and displacements of them.
 std::size_t Store::vector(std::size_t accessor, bool unit) {
-    if (!readable(accessor) || !floats(accessor)) return accessor;
-    if (!json_["accessors"][accessor].contains("bufferView")) return accessor;
+    if (!readable(accessor)) return accessor;
+    const Json& given = json_["accessors"][accessor];
+    if (!given.contains("bufferView")) return accessor;
+    // Bytes are on a grid already; on the octahedron they take two numbers instead of three.
+    const bool bytes = given["componentType"] == int(int8) && given.value("normalized", false) && unit &&
+                       !compressed(accessor) && filters_ && quantize_.on && quantize_.normal_bits <= 8;
+    if (!floats(accessor) && !bytes) return accessor;
     const Attribute a = numbers(accessor);
     if (a.components < 3) return accessor;
     if (!quantize_.on) return replace(accessor, as_floats(a, finest_exponent(a), false));
@@ -269,6 +285,10 @@ std::size_t Store::fraction(std::size_t accessor, const std::string& semantic) {
     if (!quantize_.on) return replace(accessor, as_floats(a, finest_exponent(a), false));
     const bool uv = begins(semantic, "TEXCOORD_");
     const int bits = uv ? quantize_.uv_bits : quantize_.colour_bits;
+    // Multiples of 2^-bits have as many bits of their own; 65535ths of the same steps have 16.
+    if (uv && filters_ && compressed(accessor)) return accessor;
+    if (uv && filters_)
+        if (auto stored = exponential(a, -bits, false)) return replace(accessor, std::move(stored));
     if (auto stored = fractions(a, bits)) return replace(accessor, std::move(stored));
     if (auto stored = uv ? signed_fractions(a, std::min(bits + 1, 16)) : std::nullopt) {
         small_integers_ = true;

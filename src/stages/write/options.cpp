@@ -61,7 +61,8 @@ void declare_quantize(Declare<QuantizeOptions>& d) {
     d.option("normal", &QuantizeOptions::normal, "Bits of each number of normals and tangents (a count).")
         .between(2, 16);
     d.option("uv", &QuantizeOptions::uv,
-             "Bits of texture coordinates (a count); those beyond [-1, 1] stay float32.")
+             "Bits of texture coordinates (a count). Under meshopt's filters they are multiples of 2^-uv in "
+             "float32; otherwise those beyond [-1, 1] stay float32.")
         .between(1, 16);
     d.option("colour", &QuantizeOptions::colour, "Bits of each channel of colours (a count).").between(1, 16);
     d.option("weights", &QuantizeOptions::weights,

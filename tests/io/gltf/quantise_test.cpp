@@ -5,8 +5,10 @@
 #include "io/codec.hpp"
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/compress.hpp"
+#include "io/gltf/quantise.hpp"
 #include "io/png.hpp"
 #include "io/read_back.hpp"
+#include "mesh/separate_wedges.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/transform.hpp"
 #include "support/catch.hpp"
@@ -52,7 +54,7 @@ Mesh dressed(std::uint64_t seed) {
         }
         tangents.push_back(v % 2 == 0 ? 1.0F : -1.0F);
         for (int c = 0; c < 2; ++c) uv.push_back(number(0, 1));
-        const float w = number(0, 1);
+        const float w = number(0.34, 1); // the largest weight comes first
         weights.insert(weights.end(), {w, (1 - w) / 2, (1 - w) / 2, 0});
         ids.push_back(static_cast<float>(v));
     }
@@ -100,6 +102,13 @@ double step_of(const Mesh& mesh, int bits) {
 }
 
 Json json_of(const io::Written& written) { return Json::parse(test::json_of(written.files.at(0).bytes)); }
+
+/// A wedge for each corner.
+void separate_corners(Mesh& mesh) {
+    std::vector<Index> own(mesh.corners.size());
+    for (Index c = 0; c < own.size(); ++c) own[c] = c;
+    separate_wedges(mesh, own);
+}
 
 /// The document of a torus at a node, changed before it is read.
 template <class Change>
@@ -400,4 +409,113 @@ TEST_CASE("write refuses quantize and meshopt beside draco", "[stages]") {
          {"{path: a.glb, draco: true, quantize: true}", "{path: a.glb, draco: true, meshopt: true}",
           "{path: a.ply, quantize: true}", "{path: a.obj, meshopt: true}"})
         CHECK_THROWS_AS(test::run_stage("write", options, test::scene_in_metres(shapes::cube())), Error);
+}
+
+TEST_CASE("the largest weights of a vertex come first, with their joints", "[io]") {
+    Scene scene = test::scene_in_metres(shapes::tetrahedron());
+    Mesh& mesh = scene.parts[0].mesh;
+    std::vector<float> weights;
+    std::vector<std::uint16_t> joints;
+    for (int v = 0; v < 4; ++v) {
+        weights.insert(weights.end(), {0, 0.25F, 0.75F, 0});
+        joints.insert(joints.end(), {9, 5, 7, 9});
+    }
+    add(mesh, "WEIGHTS_0", Role::weights, 4, weights);
+    mesh.attributes.push_back({"JOINTS_0", Domain::vertex, Role::joints, 4, false, joints});
+    const Mesh again = test::again(scene, with_bits(14, 8, 12, 8, 8)).parts.at(0).mesh;
+    const Attribute &share = *again.find("WEIGHTS_0", Domain::wedge),
+                    &joint = *again.find("JOINTS_0", Domain::wedge);
+    for (std::size_t w = 0; w < 4; ++w)
+        for (const auto& [c, expected, number] :
+             {std::tuple(0, 191.0, 7.0), {1, 64.0, 5.0}, {2, 0.0, 0.0}, {3, 0.0, 0.0}}) {
+            CHECK(share.value(w, c) * 255 == Approx(expected));
+            CHECK(joint.value(w, c) == number);
+        }
+}
+
+TEST_CASE("texture coordinates under meshopt have a grid of powers of two, wherever they are", "[io]") {
+    Scene scene = test::scene_in_metres(dressed(6));
+    auto& uv = std::get<std::vector<float>>(scene.parts[0].mesh.find("TEXCOORD_0", Domain::vertex)->data);
+    uv[0] = -7.3F;
+    uv[1] = 12.6F;
+    io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+    settings.meshopt.on = true;
+    const Mesh mesh = test::again(scene, settings).parts.at(0).mesh;
+    CHECK(difference(mesh, scene.parts[0].mesh, "TEXCOORD_0") <= 0.5 / 4096);
+    const Attribute& stored = *mesh.find("TEXCOORD_0", Domain::wedge);
+    for (std::size_t w = 0; w < stored.size(); ++w)
+        REQUIRE(stored.value(w, 0) * 4096 == std::floor(stored.value(w, 0) * 4096));
+}
+
+TEST_CASE("normals that are bytes go on the octahedron under meshopt", "[io]") {
+    io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+    const Scene scene = test::scene_in_metres(dressed(7));
+    const Scene bytes = test::again(scene, settings);
+    settings.meshopt.on = true;
+    const io::Written written = test::written(bytes, "glb", settings);
+    const std::string json = test::json_of(written.files[0].bytes);
+    CHECK(json.find("OCTAHEDRAL") != std::string::npos);
+    const Mesh mesh = test::read_bytes(written.files[0].bytes, "glb").parts.at(0).mesh;
+    const double of_octahedron = (std::sqrt(18.0) + 1) * 0.5 / 127;
+    CHECK(difference(mesh, scene.parts[0].mesh, "NORMAL") <= of_octahedron + 0.5 / 127);
+}
+
+TEST_CASE("wedges that round to the same bytes are one where attributes are rounded", "[io]") {
+    Scene scene = test::scene_in_metres(shapes::cube());
+    Mesh& mesh = scene.parts[0].mesh;
+    separate_corners(mesh); // a wedge for each corner
+    std::vector<float> normals;
+    for (std::size_t w = 0; w < mesh.wedge_count(); ++w)
+        normals.insert(normals.end(), {1e-5F * static_cast<float>(w), 0, 1});
+    mesh.attributes.push_back({"NORMAL", Domain::wedge, Role::normal, 3, false, normals});
+    for (const bool meshopt : {false, true}) {
+        io::WriteSettings settings;
+        CHECK(test::again(scene, settings).parts.at(0).mesh.wedge_count() == 36);
+        settings.quantize.on = true;
+        settings.meshopt.on = meshopt;
+        const Mesh read = test::again(scene, settings).parts.at(0).mesh;
+        CHECK(read.wedge_count() == 8);
+        CHECK(read.face_count() == 12);
+    }
+}
+
+TEST_CASE("numbers of a grid are short as text", "[io]") {
+    for (const double x : {1.0 / 3, 123456789.123, 5e-324, 1e-7, 9.99999999e20, 1.0, 0.1}) {
+        const double above = io::gltf::short_above(x);
+        CHECK(above >= x);
+        CHECK(above <= x * (1 + 2e-7) + 1e-322);
+        CHECK(fmt::format("{}", above).size() <= 14);
+    }
+    CHECK(io::gltf::short_near(0.123456789, 0.001) == 0.12346);
+    CHECK(io::gltf::short_near(-1234.5678, 1000) == -1235);
+    CHECK_FALSE(std::signbit(io::gltf::short_near(-1e-9, 1)));
+    CHECK(io::gltf::short_near(455000.123, 0) == 455000.123);
+    Json json = Json::parse(R"({"a":[1.0,-2.5,1e300],"extras":{"b":1.0},"c":{"d":-3.0}})");
+    io::gltf::shorten_numbers(json);
+    CHECK(json.dump() == R"({"a":[1,-2.5,1e+300],"extras":{"b":1.0},"c":{"d":-3}})");
+}
+
+TEST_CASE("where corners are merged is compressed, too", "[io]") {
+    Scene scene = test::scene_in_metres(shapes::torus(40, 30));
+    Mesh& mesh = scene.parts[0].mesh;
+    separate_corners(mesh);
+    std::vector<float> uv;
+    for (std::size_t w = 0; w < mesh.wedge_count(); ++w) uv.insert(uv.end(), {static_cast<float>(w), 0});
+    mesh.attributes.push_back({"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, uv});
+    io::WriteSettings settings;
+    settings.mesh_manifold = true;
+    settings.quantize.on = true;
+    settings.meshopt.on = true;
+    const io::Written written = test::written(scene, "glb", settings);
+    const Json json = json_of(written);
+    const Json& accessors = json["accessors"];
+    const Json manifold = json["meshes"][0]["extensions"]["EXT_mesh_manifold"];
+    const auto view = [&](const char* of) {
+        const Json& sparse = accessors[manifold["manifoldPrimitive"]["indices"].get<std::size_t>()]["sparse"];
+        return json["bufferViews"][sparse[of]["bufferView"].get<std::size_t>()];
+    };
+    CHECK(view("indices")["extensions"]["EXT_meshopt_compression"]["mode"] == "INDICES");
+    CHECK(view("values")["extensions"]["EXT_meshopt_compression"]["mode"] == "INDICES");
+    const Mesh read = test::read_bytes(written.files[0].bytes, "glb").parts.at(0).mesh;
+    CHECK(read.vertex_count() == shapes::torus(40, 30).vertex_count());
 }
