@@ -59,8 +59,9 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
     for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.string(),
                                         std::string("--threads"), threads, std::string("--quiet")})
         arguments.push_back(argument);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(options.pipeline, ignored)) job.inputs.push_back(options.pipeline);
+    std::error_code ignored; // a pipe of the shell is gone when the job runs
+    if (is_pipeline_file(options.pipeline) && !std::filesystem::is_fifo(options.pipeline, ignored))
+        job.inputs.push_back(options.pipeline);
     for (const auto& input : work.inputs) job.inputs.push_back(input.string());
     for (const auto& output : work.outputs) job.outputs.push_back(output.string());
     return job;

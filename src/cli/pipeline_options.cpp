@@ -202,9 +202,14 @@ namespace {
 
 } // namespace
 
+bool is_pipeline_file(const std::string& pipeline) {
+    if (pipeline == "-") return false;
+    std::error_code trouble;
+    return fs::exists(pipeline, trouble) || (trouble && !docs::ready_pipeline(pipeline));
+}
+
 std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline) {
-    std::error_code ignored;
-    const bool is_file = pipeline == "-" || fs::exists(pipeline, ignored);
+    const bool is_file = pipeline == "-" || is_pipeline_file(pipeline);
     const auto* ready = is_file ? nullptr : docs::ready_pipeline(pipeline);
     if (!is_file && !ready) refuse_unknown(pipeline);
     if (ready) return {{std::string(ready->text), {}}, pipeline};

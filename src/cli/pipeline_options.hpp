@@ -47,6 +47,10 @@ void add_run_options(Arguments& arguments, PipelineOptions& options);
 pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
                                      Problems& problems);
 
+/// Whether that is a file, and no ready pipeline or standard input. A file that cannot be looked at is one:
+/// opening it tells why.
+bool is_pipeline_file(const std::string& pipeline);
+
 /// The text of a file, of standard input ("-"), or of a ready pipeline by name, and what it is called. Throws
 /// missing when there is none.
 std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);

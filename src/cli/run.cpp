@@ -78,10 +78,9 @@ int run_all(const std::vector<std::string>& pipelines, const Planned& all, const
     if (!on_written) confine_to(all.plans, options, console);
     int worst = 0;
     for (std::size_t i = 0; i < all.plans.size(); ++i) {
-        std::error_code ignored;
-        const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i], ignored);
         std::vector<std::filesystem::path> written;
-        const int code = run_with_messages(all.plans[i], options, console, file ? pipelines[i] : "",
+        const int code = run_with_messages(all.plans[i], options, console,
+                                           is_pipeline_file(pipelines[i]) ? pipelines[i] : "",
                                            on_written ? &written : nullptr);
         for (const auto& path : written) on_written(path);
         if (worst == 0) worst = code;

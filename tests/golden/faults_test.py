@@ -46,6 +46,14 @@ class Faults(unittest.TestCase):
                     judged.add((name, neighbour))
         self.assertEqual(len(judged), 4, judged)
 
+    def test_a_pipeline_that_cannot_be_looked_at(self):
+        """It is among the inputs of a depfile, or the run tells that it cannot be read."""
+        trial = self.trial(next(s for s in scenarios.scenarios() if s.name == "reports"))
+        looks = [number for number, path in enumerate(trial.calls("stat"), 1) if pathlib.Path(path).name == "p.yaml"]
+        self.assertGreater(len(looks), 1)
+        for number in looks:
+            self.assertEqual(trial.judge(f"stat {number} {errno.EIO}")[0], [])
+
     def test_the_power_fails(self):
         """Each file is as it was or whole, whenever the power fails; without waiting for the disk it is not."""
         for scenario in scenarios.scenarios():
