@@ -1,11 +1,12 @@
 #include "io/gltf/draco/draco.hpp"
-#include "base/progress.hpp"
 #include "io/gltf/draco/quantise.hpp"
 
 #include "io/gltf/gltf.hpp"
 
+#include "base/allocation_cap.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 
 #include <algorithm>
 #include <array>
@@ -104,8 +105,11 @@ std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
 }
 
 /// Reads the numbers of faces and points that the data promises, and refuses what its bytes cannot hold or
-/// memory cannot: the library takes the memory before it finds the faces. The data is that of a mesh.
-void check_counts(::draco::DecoderBuffer buffer) {
+/// memory cannot: the library takes the memory before it finds the faces. The data is that of a mesh. Returns
+/// how many bytes the library may ask for at once: other numbers in the data say how many bits of a texture's
+/// orientation there are, or how many symbols, and it takes and fills what they ask for, however few bytes
+/// are left.
+std::size_t check_counts(::draco::DecoderBuffer buffer) {
     ::draco::DracoHeader header;
     const auto status = ::draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
     if (!status.ok()) fail(status.error_msg());
@@ -136,6 +140,7 @@ void check_counts(::draco::DecoderBuffer buffer) {
     if (faces > most * bytes || points > most * bytes)
         fail(fmt::format("{} bytes cannot hold {} faces and {} points", bytes, faces, points));
     require_memory(150.0 * faces + 100.0 * points, "decoding Draco data", "use a machine with more memory");
+    return (std::size_t{1} << 20) + 64 * (std::size_t{faces} + points) + 256 * bytes;
 }
 
 std::unique_ptr<::draco::Mesh> decode(Span bytes) {
@@ -144,7 +149,7 @@ std::unique_ptr<::draco::Mesh> decode(Span bytes) {
     const auto type = ::draco::Decoder::GetEncodedGeometryType(&buffer);
     if (!type.ok()) fail(type.status().error_msg());
     if (type.value() != ::draco::TRIANGULAR_MESH) fail("it is a point cloud, and a mesh was expected");
-    check_counts(buffer);
+    const AllocationCap cap(check_counts(buffer));
     ::draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) fail(decoded.status().error_msg());
@@ -171,9 +176,9 @@ DracoMesh decode_draco(Span bytes) {
         for (int a = 0; a < mesh->num_attributes(); ++a)
             result.columns.push_back(column_of(*mesh, *mesh->attribute(a)));
     } catch (const std::bad_alloc&) {
-        fail("it asks for more memory than there is");
+        fail("it asks for more memory than there is, or than its faces and points can need");
     } catch (const std::length_error&) {
-        fail("it asks for more memory than there is");
+        fail("it asks for more memory than there is, or than its faces and points can need");
     }
     return result;
 }
