@@ -5,33 +5,88 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 
 namespace facetmill {
 
 using Colour = std::array<float, 3>; ///< linear
 
-/// What has been drawn so far. x right, y down, z towards the viewer, all in samples.
+/// What has been drawn so far. x right, y down, z towards the viewer, all in samples. Threads may draw at the
+/// same time, in any order: of what is put at a sample the nearest is seen, and of the nearest the lowest
+/// number.
 struct Canvas {
     static constexpr int samples = 2; ///< a side of each pixel
 
     int width, height; ///< samples
-    std::vector<float> depth;
-    std::vector<std::uint32_t> seen; ///< the number of what is seen; none: nothing
 
     Canvas(int pixels_wide, int pixels_high)
         : width(samples * pixels_wide), height(samples * pixels_high),
-          depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -HUGE_VALF),
-          seen(depth.size(), none) {}
+          nearest_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                   packed(-HUGE_VALF, none)) {}
+    std::size_t size() const { return nearest_.size(); }
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     }
     void put(int x, int y, double z, std::uint32_t number) {
-        const std::size_t i = at(x, y);
-        if (!(static_cast<float>(z) > depth[i])) return;
-        depth[i] = static_cast<float>(z);
-        seen[i] = number;
+        const auto depth = static_cast<float>(z);
+        if (!(depth > -HUGE_VALF)) return; // NaN too
+        const std::uint64_t mine = packed(depth, number);
+        const std::atomic_ref<std::uint64_t> sample(nearest_[at(x, y)]);
+        std::uint64_t there = sample.load(std::memory_order_relaxed);
+        while (mine > there && !sample.compare_exchange_weak(there, mine, std::memory_order_relaxed)) {
+        }
+    }
+    /// The depth of a sample by its place (at); -infinity where nothing is seen.
+    float depth(std::size_t i) const {
+        const auto bits = static_cast<std::uint32_t>(nearest_[i] >> 32);
+        return std::bit_cast<float>(bits & sign ? bits ^ sign : ~bits);
+    }
+    /// The number of what is seen there; none: nothing.
+    std::uint32_t seen(std::size_t i) const { return ~static_cast<std::uint32_t>(nearest_[i]); }
+
+  private:
+    static constexpr std::uint32_t sign = 0x80000000;
+    /// Greater when it is nearer, or as near with a lower number: the bits of a float in the order of its
+    /// values.
+    static std::uint64_t packed(float depth, std::uint32_t number) {
+        const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0f); // no -0
+        return std::uint64_t{bits & sign ? ~bits : bits | sign} << 32 | (~number & 0xffffffff);
+    }
+
+    std::vector<std::uint64_t> nearest_;
+};
+
+/// The samples whose middles lie in a box, the last ones included.
+struct SampleBox {
+    int left, right, top, bottom;
+
+    bool empty() const { return left > right || top > bottom; }
+    std::size_t size() const {
+        return static_cast<std::size_t>(right - left + 1) * static_cast<std::size_t>(bottom - top + 1);
     }
 };
+
+/// Those in the box around a triangle, in the rows [first, last) of a canvas of that width. Corners that are
+/// not finite give any of them, or none.
+inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int first, int last, int width) {
+    // NaN is outside of no range, and rounding by conversion is faster than the library's.
+    const auto within = [](double x, int low, int high) { return x > low ? (x < high ? x : high) : low; };
+    const auto up = [&](double x, int low, int high) {
+        const double inside = within(x - 0.5, low, high);
+        const int whole = static_cast<int>(inside);
+        return whole < inside ? whole + 1 : whole;
+    };
+    const auto down = [&](double x, int low, int high) {
+        const double inside = within(x - 0.5, low, high);
+        const int whole = static_cast<int>(inside);
+        return whole > inside ? whole - 1 : whole;
+    };
+    const auto lowest = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
+    const auto highest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
+    return {up(lowest(a.x, b.x, c.x), 0, width), down(highest(a.x, b.x, c.x), -1, width - 1),
+            up(lowest(a.y, b.y, c.y), first, last), down(highest(a.y, b.y, c.y), first - 1, last - 1)};
+}
 
 /// An edge's line through the canvas; the two triangles at an edge get the same numbers but for their sign,
 /// so that no sample between them is missed.
@@ -53,14 +108,18 @@ struct EdgeLine {
     double length() const { return std::sqrt(dx * dx + dy * dy); }
 };
 
+/// Twice the area of a triangle on the canvas, positive when it is seen anticlockwise.
+inline double twice_area(const std::array<Vec3, 3>& p) {
+    return (p[2].x - p[0].x) * (p[1].y - p[0].y) - (p[1].x - p[0].x) * (p[2].y - p[0].y);
+}
+
 /// A triangle on the canvas, seen anticlockwise or not.
 struct CanvasTriangle {
     std::array<Vec3, 3> p;
     std::array<EdgeLine, 3> edges; ///< opposite to each corner
-    double area = 0;               ///< twice, positive when it is seen anticlockwise
+    double area;                   ///< twice, positive when it is seen anticlockwise
 
-    explicit CanvasTriangle(const std::array<Vec3, 3>& corners) : p(corners) {
-        area = (p[2].x - p[0].x) * (p[1].y - p[0].y) - (p[1].x - p[0].x) * (p[2].y - p[0].y);
+    explicit CanvasTriangle(const std::array<Vec3, 3>& corners) : p(corners), area(twice_area(p)) {
         for (std::size_t i = 0; i < 3; ++i) edges[i] = EdgeLine(p[(i + 1) % 3], p[(i + 2) % 3]);
     }
     bool drawn() const { return area != 0 && is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]); }
@@ -83,16 +142,7 @@ struct CanvasTriangle {
 /// is seen.
 template <class Visit>
 void for_each_sample(const CanvasTriangle& t, bool front, int first, int last, int width, Visit&& visit) {
-    const auto [x0, x1] = std::minmax({t.p[0].x, t.p[1].x, t.p[2].x});
-    const auto [y0, y1] = std::minmax({t.p[0].y, t.p[1].y, t.p[2].y});
-    const auto within = [](double x, int low, int high) {
-        return static_cast<int>(std::clamp<double>(x, low, high));
-    };
-    const int left = within(std::ceil(x0 - 0.5), 0, width);
-    const int right = within(std::floor(x1 - 0.5), -1, width - 1);
-    const int top = within(std::ceil(y0 - 0.5), first, last);
-    const int bottom = within(std::floor(y1 - 0.5), first - 1, last - 1);
-    if (left > right || top > bottom) return;
+    const auto [left, right, top, bottom] = samples_around(t.p[0], t.p[1], t.p[2], first, last, width);
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;
     const EdgeLine &e = t.edges[0], &f = t.edges[1], &g = t.edges[2];
     for (int y = top; y <= bottom; ++y) {

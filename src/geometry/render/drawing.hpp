@@ -34,12 +34,13 @@ class PartDrawing {
     const Painter& painter() const { return *painter_; }
 
     const Vec3& point(Index vertex) const { return points_[vertex]; }
-    CanvasTriangle triangle(Index face) const {
-        return CanvasTriangle({corner(face, 0), corner(face, 1), corner(face, 2)});
+    CanvasTriangle triangle(Index face) const { return CanvasTriangle(corners(face)); }
+    std::array<Vec3, 3> corners(Index face) const {
+        return {corner(face, 0), corner(face, 1), corner(face, 2)};
     }
     const Vec3& corner(Index face, Index k) const { return points_[mesh_->vertex(3 * face + k)]; }
     /// Whether the outer side of the triangle is seen.
-    bool front(const CanvasTriangle& t) const { return (t.area > 0) != mirrored_; }
+    bool front(const std::array<Vec3, 3>& corners) const { return (twice_area(corners) > 0) != mirrored_; }
     /// Where on the face the place of the canvas is, in perspective too.
     FacePlace place(const View& view, const CanvasTriangle& t, Index face, double x, double y) const;
     FacePlace vertex_place(Index vertex) const;
@@ -52,6 +53,7 @@ class PartDrawing {
     std::optional<std::pair<Vec3, double>> tangent(const View& view, const FacePlace& place) const;
     /// Which edges are drawn: that opposite to each corner.
     std::array<bool, 3> lines(Index face) const;
+    bool has_normals() const { return normals_ != nullptr; }
     bool has_lines() const { return lines_ != nullptr; }
 
   private:

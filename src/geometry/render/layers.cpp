@@ -10,7 +10,6 @@ Layers::Layers(const std::vector<std::uint32_t>& numbers, int first_row, int las
     std::size_t limit = enough;
     for (const std::uint32_t number : numbers) {
         const PartDrawing& part = drawing.part_of(number);
-        if (!shader.blends(part, number - part.first())) continue;
         add(number, part, canvas, shader);
         if (layers_.size() < limit) continue;
         sort_and_cut();
@@ -25,8 +24,8 @@ void Layers::add(std::uint32_t number, const PartDrawing& part, const Canvas& ca
     if (!t.drawn()) return;
     const std::size_t before = layers_.size();
     // Samples come row by row, so a pixel's do not all follow each other.
-    for_each_sample(t, part.front(t), first_, last_, canvas.width, [&](int x, int y, double z) {
-        if (!(static_cast<float>(z) > canvas.depth[canvas.at(x, y)])) return;
+    for_each_sample(t, part.front(t.p), first_, last_, canvas.width, [&](int x, int y, double z) {
+        if (!(static_cast<float>(z) > canvas.depth(canvas.at(x, y)))) return;
         const auto pixel = static_cast<std::uint32_t>((y - first_) / n * width_ + x / n);
         layers_.push_back(
             {pixel, number, static_cast<float>(z), static_cast<std::uint8_t>(1 << (y % n * n + x % n)), {}});

@@ -13,7 +13,7 @@ class Layers {
     /// is: of a band at most `most` layers for each sample.
     static constexpr std::size_t bytes = std::size_t{64} << 20;
 
-    /// numbers: of all triangles in the band, those that do not blend too.
+    /// numbers: of the triangles in the band that blend.
     Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
            const SceneDrawing& drawing, const Shader& shader);
 

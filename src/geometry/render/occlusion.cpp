@@ -31,14 +31,14 @@ Places places_on(const Canvas& canvas, const View& view) {
         const int x = static_cast<int>(pixel % width) * n, y = static_cast<int>(pixel / width) * n;
         int best_x = x, best_y = y;
         for (int i = 1; i < n * n; ++i)
-            if (canvas.depth[canvas.at(x + i % n, y + i / n)] > canvas.depth[canvas.at(best_x, best_y)]) {
+            if (canvas.depth(canvas.at(x + i % n, y + i / n)) > canvas.depth(canvas.at(best_x, best_y))) {
                 best_x = x + i % n;
                 best_y = y + i / n;
             }
         const std::size_t i = canvas.at(best_x, best_y);
-        places.seen[pixel] = canvas.seen[i];
-        if (canvas.seen[i] == none) return;
-        const Vec3 p = view.place({best_x + 0.5, best_y + 0.5, static_cast<double>(canvas.depth[i])});
+        places.seen[pixel] = canvas.seen(i);
+        if (canvas.seen(i) == none) return;
+        const Vec3 p = view.place({best_x + 0.5, best_y + 0.5, static_cast<double>(canvas.depth(i))});
         for (std::size_t c = 0; c < 3; ++c) places.place[pixel][c] = static_cast<float>(p[c]);
     });
     return places;
@@ -126,7 +126,7 @@ std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, c
         if (places.seen[pixel] == none) return;
         const PartDrawing& part = drawing.part_of(places.seen[pixel]);
         if (!part.has_faces()) return;
-        const Vec3 n = shader.facing_normal(part.triangle(places.seen[pixel] - part.first()));
+        const Vec3 n = shader.facing_normal(part.corners(places.seen[pixel] - part.first()));
         const std::array<float, 3> normal{static_cast<float>(n.x), static_cast<float>(n.y),
                                           static_cast<float>(n.z)};
         open[pixel] = open_at(places, all, static_cast<int>(pixel % width), static_cast<int>(pixel / width),

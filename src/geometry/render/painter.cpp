@@ -50,9 +50,10 @@ Painter::Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& se
     }
 }
 
-const Painter::PrimitivePaint& Painter::primitive(Index face) const {
-    if (face == none || !primitive_of_face_) return primitives_.front();
-    return primitives_[std::min<std::size_t>((*primitive_of_face_)[face], primitives_.size() - 1)];
+bool Painter::any_blends() const {
+    return std::any_of(primitives_.begin(), primitives_.end(), [](const PrimitivePaint& paint) {
+        return paint.look && paint.look->alpha == MaterialLook::Alpha::blend;
+    });
 }
 
 Texel Painter::of_value(const FacePlace& place) const {

@@ -47,6 +47,16 @@ class Painter {
     Texel of(const FacePlace& place) const;
     /// The textures and the rest of the face's material; null when it is not painted by its material.
     const MaterialLook* look(Index face) const { return primitive(face).look; }
+    /// Whether the face's material has holes or blends, so that it does not simply cover what is behind.
+    bool has_holes(Index face) const { return has_alpha(face, MaterialLook::Alpha::mask); }
+    bool blends(Index face) const { return has_alpha(face, MaterialLook::Alpha::blend); }
+    bool any_blends() const;
+    /// The one colour of all places of the face before shading: it has no look, colours or values. None: it
+    /// has.
+    const Texel* plain(Index face) const {
+        const PrimitivePaint& paint = primitive(face);
+        return values_ || by_normal_ || paint.coloured || paint.look ? nullptr : &paint.colour;
+    }
     bool double_sided(Index face) const { return primitive(face).double_sided; }
     bool by_normal() const { return by_normal_; }
 
@@ -57,7 +67,14 @@ class Painter {
         bool coloured = false; ///< by colours_, too
         const MaterialLook* look = nullptr;
     };
-    const PrimitivePaint& primitive(Index face) const;
+    const PrimitivePaint& primitive(Index face) const {
+        if (face == none || !primitive_of_face_) return primitives_.front();
+        return primitives_[std::min<std::size_t>((*primitive_of_face_)[face], primitives_.size() - 1)];
+    }
+    bool has_alpha(Index face, MaterialLook::Alpha alpha) const {
+        const MaterialLook* look = primitive(face).look;
+        return look && look->alpha == alpha;
+    }
     Texel of_value(const FacePlace& place) const;
 
     const Mesh& mesh_;

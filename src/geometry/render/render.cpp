@@ -8,29 +8,35 @@
 #include "geometry/render/occlusion.hpp"
 #include "geometry/render/srgb.hpp"
 
+#include <limits>
 #include <numeric>
 
 namespace facetmill {
 
 namespace {
 
-constexpr int band_rows = 32; ///< of samples, drawn by one thread
+constexpr int band_rows = 32;                       ///< of samples, developed by one thread
+constexpr std::size_t large = std::size_t{1} << 14; ///< samples of a triangle that several threads draw
 
-/// Calls visit(band, number) for each band of rows that a triangle touches, triangle by triangle.
+SampleBox samples_around(const PartDrawing& part, Index face, int first, int last, int width) {
+    return samples_around(part.corner(face, 0), part.corner(face, 1), part.corner(face, 2), first, last,
+                          width);
+}
+
+/// Calls visit(band, number) for each band of rows with samples of a triangle that blends, triangle by
+/// triangle.
 template <class Visit>
 void for_each_in_band(const SceneDrawing& drawing, int height, Visit&& visit) {
     for (const PartDrawing& part : drawing.parts())
-        for (Index f = 0; part.has_faces() && f < part.count(); ++f) {
-            const double a = part.corner(f, 0).y, b = part.corner(f, 1).y, c = part.corner(f, 2).y;
-            const double top = std::min({a, b, c}), bottom = std::max({a, b, c});
-            if (!(top < height && bottom >= 0)) continue; // NaN too
-            const auto last = static_cast<std::size_t>(std::min<double>(bottom, height - 1) / band_rows);
-            for (auto i = static_cast<std::size_t>(std::max(top, 0.0) / band_rows); i <= last; ++i)
-                visit(i, part.first() + f);
+        for (Index f = 0; part.painter().any_blends() && f < part.count(); ++f) {
+            if (!part.painter().blends(f)) continue;
+            const SampleBox box = samples_around(part, f, 0, height, std::numeric_limits<int>::max());
+            for (int band = box.top / band_rows; !box.empty() && band <= box.bottom / band_rows; ++band)
+                visit(static_cast<std::size_t>(band), part.first() + f);
         }
 }
 
-/// The numbers of the triangles that touch each band of rows, in order.
+/// The numbers of the triangles that blend and touch each band of rows, in order.
 std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, int height) {
     const auto count = static_cast<std::size_t>((height + band_rows - 1) / band_rows);
     std::vector<std::size_t> sizes(count);
@@ -86,7 +92,7 @@ class PictureDrawing {
         Picture picture;
         picture.width = settings_.width;
         picture.height = settings_.height;
-        picture.rgba.resize(canvas_.seen.size() / (Canvas::samples * Canvas::samples) * 4);
+        picture.rgba.resize(canvas_.size() / (Canvas::samples * Canvas::samples) * 4);
         parallel_for(
             bands_.size(), [&](std::size_t band) { develop(band, picture); }, 1);
         for (const Vec3& mark : settings_.marks)
@@ -103,25 +109,50 @@ class PictureDrawing {
 
     void draw_faces() {
         Share::loop_tells();
+        for (const PartDrawing& part : drawing_.parts())
+            if (part.has_faces()) draw_part(part);
+    }
+
+    /// The small triangles side by side, then each of the large ones band by band.
+    void draw_part(const PartDrawing& part) {
+        using Faces = std::vector<Index>;
+        const Faces large_ones = parallel_reduce(
+            part.count(), Faces{},
+            [&](std::size_t begin, std::size_t end) {
+                Faces found;
+                for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                    const SampleBox box = samples_around(part, f, 0, canvas_.height, canvas_.width);
+                    if (box.empty()) continue;
+                    if (box.size() > large)
+                        found.push_back(f);
+                    else
+                        draw_face(part, f, 0, canvas_.height);
+                }
+                return found;
+            },
+            [](Faces a, const Faces& b) {
+                a.insert(a.end(), b.begin(), b.end());
+                return a;
+            },
+            4096);
+        if (large_ones.empty()) return;
         parallel_for(
             bands_.size(),
             [&](std::size_t band) {
-                for (const std::uint32_t number : bands_[band]) draw_face(number, band);
+                for (const Index f : large_ones) draw_face(part, f, first_row(band), last_row(band));
             },
             1);
     }
 
-    void draw_face(std::uint32_t number, std::size_t band) {
-        const PartDrawing& part = drawing_.part_of(number);
-        const Index face = number - part.first();
+    /// Its samples in the rows [first, last), unless it blends.
+    void draw_face(const PartDrawing& part, Index face, int first, int last) {
         const CanvasTriangle t = part.triangle(face);
-        if (!t.drawn() || shader_.blends(part, face)) return;
-        const bool holes = shader_.has_holes(part, face);
-        for_each_sample(t, part.front(t), first_row(band), last_row(band), canvas_.width,
-                        [&](int x, int y, double z) {
-                            if (!holes || shader_.is_solid(part, t, face, x + 0.5, y + 0.5))
-                                canvas_.put(x, y, z, number);
-                        });
+        if (!t.drawn() || part.painter().blends(face)) return;
+        const bool holes = part.painter().has_holes(face);
+        for_each_sample(t, part.front(t.p), first, last, canvas_.width, [&](int x, int y, double z) {
+            if (!holes || shader_.is_solid(part, t, face, x + 0.5, y + 0.5))
+                canvas_.put(x, y, z, part.first() + face);
+        });
     }
 
     void draw_points() {
@@ -171,7 +202,7 @@ class PictureDrawing {
         constexpr int n = Canvas::samples;
         std::array<std::uint32_t, n * n> seen{};
         for (int i = 0; i < n * n; ++i)
-            seen[static_cast<std::size_t>(i)] = canvas_.seen[canvas_.at(n * x + i % n, n * y + i / n)];
+            seen[static_cast<std::size_t>(i)] = canvas_.seen(canvas_.at(n * x + i % n, n * y + i / n));
         std::array<Texel, n * n> shades{};
         for (std::size_t i = 0; i < seen.size(); ++i) {
             if (seen[i] == none) continue;
@@ -219,7 +250,7 @@ class PictureDrawing {
         const double jump = 0.015 * std::max(canvas_.width, canvas_.height);
         const auto depth = [&](int qx, int qy) -> double {
             if (qx < 0 || qy < 0 || qx >= canvas_.width || qy >= canvas_.height) return -HUGE_VAL;
-            return static_cast<double>(canvas_.depth[canvas_.at(qx, qy)]);
+            return static_cast<double>(canvas_.depth(canvas_.at(qx, qy)));
         };
         const double here = depth(x, y);
         for (const auto& [dx, dy] : {std::pair{step, 0}, std::pair{0, step}}) {

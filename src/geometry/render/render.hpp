@@ -101,8 +101,8 @@ struct Picture {
 /// one shade for each face among them. Materials that blend lie over each other by depth, the sixteen
 /// nearest at each sample. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D. Luebke,
 /// "Scalable Ambient Obscurance", 2012). The same bytes for any number of threads and any processor. Memory:
-/// 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle touches, and what
-/// blends (Layers). Throws limit (E-MEMORY) when it is not there.
+/// 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle
+/// which blends touches, and its layers (Layers). Throws limit (E-MEMORY) when it is not there.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// The camera of picture_of, which sees all of the scene; empty where the scene is. With settings.camera: in

@@ -33,15 +33,15 @@ struct Shader::Spot {
 
     Spot(const PartDrawing& p, const View& view, const CanvasTriangle& triangle, Index f, double x, double y)
         : part(p), t(triangle), face(f), look(p.painter().look(f)), at(p.place(view, t, f, x, y)),
-          front(p.front(t)), double_sided(p.painter().double_sided(f)) {
+          front(p.front(t.p)), double_sided(p.painter().double_sided(f)) {
         if (!look) return;
         right = p.place(view, t, f, x + Canvas::samples, y);
         below = p.place(view, t, f, x, y + Canvas::samples);
     }
 };
 
-Vec3 Shader::facing_normal(const CanvasTriangle& t) const {
-    const Vec3 a = view_.place(t.p[0]), b = view_.place(t.p[1]), c = view_.place(t.p[2]);
+Vec3 Shader::facing_normal(const std::array<Vec3, 3>& p) const {
+    const Vec3 a = view_.place(p[0]), b = view_.place(p[1]), c = view_.place(p[2]);
     const Vec3 n = normalised(cross(b - a, c - a));
     return dot(n, view_.to_viewer(a)) < 0 ? -n : n;
 }
@@ -103,7 +103,7 @@ Vec3 Shader::bumped(const Spot& spot, const Vec3& normal) const {
 
 /// The normal of the side that is seen.
 Vec3 Shader::normal_at(const Spot& spot) const {
-    Vec3 outer = facing_normal(spot.t); // towards the viewer: the outer one of a front
+    Vec3 outer = facing_normal(spot.t.p); // towards the viewer: the outer one of a front
     if (const auto own = spot.part.normal(view_, spot.at))
         outer = *own;
     else if (!spot.front)
@@ -112,21 +112,27 @@ Vec3 Shader::normal_at(const Spot& spot) const {
     return spot.front ? outer : -outer;
 }
 
+/// The cosine between the normal and the light, or 0 where it comes from behind. right_side: the side that is
+/// seen is one that materials show.
+double Shader::in_light(const Vec3& normal, bool right_side) const {
+    static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
+    double amount = dot(normal, light);
+    if (settings_.shading == Shading::one_sided && !right_side) amount = -amount;
+    if (settings_.shading == Shading::absolute) amount = std::abs(amount);
+    return std::max(0.0, amount);
+}
+
 /// How much of its colour a place shows in the light, that of the surroundings included.
 double Shader::lit(const Spot& spot, const Vec3& normal) const {
-    const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
-    double amount = dot(normal, light);
-    if (settings_.shading == Shading::one_sided && !spot.front && !spot.double_sided) amount = -amount;
-    if (settings_.shading == Shading::absolute) amount = std::abs(amount);
     double around = ambient;
     if (spot.look && spot.look->occlusion_texture)
         around *= 1 + spot.look->occlusion_strength * (textured(spot, spot.look->occlusion_texture)[0] - 1);
-    return around + direct * std::max(0.0, amount);
+    return around + direct * in_light(normal, spot.front || spot.double_sided);
 }
 
 /// x y z of the face's own normal in the world, from 0 to 1, such that it is stored as it is.
 Colour Shader::of_direction(const Spot& spot) const {
-    Vec3 n = facing_normal(spot.t);
+    Vec3 n = facing_normal(spot.t.p);
     if (!spot.front) n = -n;
     const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
     Colour colour{};
@@ -135,10 +141,23 @@ Colour Shader::of_direction(const Spot& spot) const {
     return colour;
 }
 
+/// As colour, of a face without textures, colours or normals of its own: the same at all its places.
+Texel Shader::plain(const PartDrawing& part, Index face, const Texel& paint, float open) const {
+    const std::array<Vec3, 3> p{part.corner(face, 0), part.corner(face, 1), part.corner(face, 2)};
+    const bool right_side = part.front(p) || part.painter().double_sided(face);
+    const float amount = static_cast<float>(ambient + direct * in_light(facing_normal(p), right_side)) * open;
+    Texel colour = settings_.shading == Shading::sides && !right_side ? opaque(inner_side) : paint;
+    for (std::size_t c = 0; c < 3; ++c) colour[c] *= amount;
+    colour[3] = 1;
+    return colour;
+}
+
 Texel Shader::colour(std::uint32_t number, double x, double y, float open) const {
     const PartDrawing& part = drawing_.part_of(number);
     const Index i = number - part.first();
     if (!part.has_faces()) return part.painter().of(part.vertex_place(i));
+    if (const Texel* paint = part.painter().plain(i); paint && !part.has_normals())
+        return plain(part, i, *paint, open);
     const CanvasTriangle t = part.triangle(i);
     const Spot spot(part, view_, t, i, x, y);
     if (part.painter().by_normal()) return opaque(of_direction(spot));
@@ -153,16 +172,6 @@ Texel Shader::colour(std::uint32_t number, double x, double y, float open) const
     if (spot.look->emissive_texture) glow = textured(spot, spot.look->emissive_texture);
     for (std::size_t c = 0; c < 3; ++c) colour[c] += spot.look->emissive[c] * glow[c];
     return colour;
-}
-
-bool Shader::has_holes(const PartDrawing& part, Index face) const {
-    const MaterialLook* look = part.painter().look(face);
-    return look && look->alpha == MaterialLook::Alpha::mask;
-}
-
-bool Shader::blends(const PartDrawing& part, Index face) const {
-    const MaterialLook* look = part.painter().look(face);
-    return look && look->alpha == MaterialLook::Alpha::blend;
 }
 
 bool Shader::is_solid(const PartDrawing& part, const CanvasTriangle& t, Index face, double x,

@@ -15,14 +15,11 @@ class Shader {
     /// canvas. open: how much of the sky is seen from there, 0 to 1.
     Texel colour(std::uint32_t number, double x, double y, float open) const;
 
-    /// Whether the triangle's material has holes or blends, so that it does not simply cover what is behind.
-    bool has_holes(const PartDrawing& part, Index face) const;
-    bool blends(const PartDrawing& part, Index face) const;
     /// Whether a material with holes has none at (x, y).
     bool is_solid(const PartDrawing& part, const CanvasTriangle& t, Index face, double x, double y) const;
 
     /// The unit normal of the triangle towards the viewer, along the canvas' axes.
-    Vec3 facing_normal(const CanvasTriangle& t) const;
+    Vec3 facing_normal(const std::array<Vec3, 3>& corners) const;
 
   private:
     struct Spot; // a place and what is needed of it again and again
@@ -32,6 +29,8 @@ class Shader {
     Vec3 normal_at(const Spot& spot) const;
     Vec3 bumped(const Spot& spot, const Vec3& normal) const;
     std::optional<std::pair<Vec3, Vec3>> tangents(const Spot& spot, const Vec3& normal) const;
+    double in_light(const Vec3& normal, bool right_side) const;
+    Texel plain(const PartDrawing& part, Index face, const Texel& paint, float open) const;
     double lit(const Spot& spot, const Vec3& normal) const;
     Colour of_direction(const Spot& spot) const;
 
