@@ -11,6 +11,7 @@
 #                 TARGET=ply and such: libFuzzer over what reads bytes, with clang (TARGET=all: each for its share)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make site     the manual as a site, in build/site/html
+#   make pictures the pictures of docs/figures.md anew, which changes nothing on an unchanged tree
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
 #   make format   run clang-format over the sources
@@ -26,7 +27,7 @@ TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults fuzz fuzz-stages fuzz-bytes bench site install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults fuzz fuzz-stages fuzz-bytes bench site pictures install deb format check-layers check-style clean
 all: build
 
 deps:
@@ -85,6 +86,9 @@ bench:
 site: build
 	@tools/deps.sh --site
 	python3 tools/site/site.py build/site --mill $(BUILD)/facetmill
+
+pictures: build
+	python3 tools/pictures.py --mill $(BUILD)/facetmill
 
 install: build
 	cmake --install $(BUILD) --prefix $(PREFIX)

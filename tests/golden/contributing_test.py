@@ -11,7 +11,7 @@ import unittest
 
 import support
 
-PAGES = ["CONTRIBUTING.md", "docs/architecture.md", "SECURITY.md", "README.md"]
+PAGES = ["CONTRIBUTING.md", "docs/architecture.md", "SECURITY.md", "README.md", "docs/pipelines.md"]
 BUILD = pathlib.Path(os.environ.get("FACETMILL_BUILD", support.FACETMILL.parent))
 
 

@@ -66,6 +66,22 @@ class Guides(Case):
         for made in ("web.glb", "changes.html", "part.png"):
             self.assertTrue((self.dir / made).stat().st_size > 1000, made)
 
+    def test_the_pipeline_of_the_docs_runs(self):
+        page = (SOURCE / "docs/pipelines.md").read_text()
+        (self.dir / "scan.yaml").write_text(re.search(r"^```yaml\n(.*?)^```", page, flags=re.M | re.S)[1])
+        self.mill("check", "scan.yaml")
+        self.mill("run", "scan.yaml", "-q", "-D", f"input={SCAN}", "--output-dir", "out")
+        for made in ("nefertiti.glb", "nefertiti.1.glb", "nefertiti.html", "nefertiti.json"):
+            self.assertTrue((self.dir / "out" / made).stat().st_size > 1000, made)
+
+    @unittest.skipIf(SLOW, "pictures of the same scenes, ten times slower")
+    def test_the_stored_pictures_are_what_the_command_makes(self):
+        """One of them, byte for byte; the others are as deterministic."""
+        subprocess.run([sys.executable, SOURCE / "tools/pictures.py", self.dir, "--mill", FACETMILL, "--only", "marked"],
+                       check=True, timeout=600)
+        self.assertEqual((self.dir / "marked.png").read_bytes(), (SOURCE / "docs/figures/marked.png").read_bytes(),
+                         "make pictures, and look at them")
+
     @unittest.skipIf(SLOW, "pictures of the same scenes, ten times slower")
     def test_the_pages_of_the_manual_can_be_made(self):
         python = self.python_with_yaml()

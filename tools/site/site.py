@@ -18,7 +18,8 @@ import yaml
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HERE = SOURCE / "tools/site"
 GUIDES = ["scan-to-web", "levels-of-detail", "printing", "checks", "units-and-axes", "asset-builds"]
-PAGES = ["figures", "glossary", "verdicts", "speed", "reliability", "cluster", "architecture"]
+PAGES = ["pipelines", "figures", "glossary", "verdicts", "speed", "web-assets", "large-meshes", "reliability",
+         "cluster", "architecture", "licences"]
 
 
 class Site:
@@ -42,9 +43,8 @@ class Site:
     def link(self, page, words, target, anchor):
         path = (pathlib.Path("docs" if page != "index.md" else ".") / target).as_posix()
         name = re.sub(r"^(\./|docs/\.\./|docs/)", "", path)
-        if name == "README.md":
-            name = "index.md"
-        if name.removesuffix(".md") in PAGES + GUIDES or name == "index.md" or name.startswith("guides/"):
+        name = {"README.md": "index.md", "stages.md": "stages/index.md"}.get(name, name)
+        if name.removesuffix(".md") in PAGES + GUIDES or name in ("index.md", "stages/index.md") or name.startswith("guides/"):
             up = "../" * page.count("/")
             return f"[{words}]({up}{name}{anchor})"
         return words
