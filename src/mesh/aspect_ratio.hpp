@@ -8,15 +8,17 @@
 
 namespace facetmill {
 
+/// aspect_ratio of a triangle with edges of these lengths.
+inline double aspect_ratio(double x, double y, double z, double area) {
+    return area > 0 ? std::max({x, y, z}) * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
+}
+
 /// The longest edge over the diameter of the inscribed circle, in proportion to what a triangle of equal
 /// sides has: longest * perimeter / (4 sqrt(3) * area). 1 for equal sides, infinite without area. What
 /// aspect_ratio means everywhere (C. Stimpson, C. Ernst, P. Knupp, P. Pebay, D. Thompson, 'The Verdict
 /// Geometric Quality Library', 2007).
 inline double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double x = length(b - a), y = length(c - b), z = length(a - c),
-                 area = length(cross(b - a, c - a)) / 2;
-    const double longest = std::max({x, y, z});
-    return area > 0 ? longest * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
+    return aspect_ratio(length(b - a), length(c - b), length(a - c), length(cross(b - a, c - a)) / 2);
 }
 
 } // namespace facetmill

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/spatial/signed_distances.hpp"
+#include "mesh/finite_box.hpp"
 
 #include <algorithm>
 #include <array>
@@ -114,10 +115,12 @@ struct Cell {
     Index vertex;
 };
 
-/// Points by the cells of a grid of 512 along the longest side; those that are not finite are in the last.
+/// Points by the cells of a grid of 256 along the longest side, each a pixel or two of a picture; those that
+/// are not finite are in the last.
 std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
-    constexpr double along = 511;
-    constexpr std::uint64_t none_of_them = (std::uint64_t{1} << 30) - 1;
+    constexpr double along = 255;
+    constexpr int bits = 8; // of each coordinate
+    constexpr std::uint64_t none_of_them = std::uint64_t{1} << 3 * bits;
     const Vec3 size = box.extent();
     const double longest = std::max({size.x, size.y, size.z});
     const double scale = longest > 0 ? along / longest : 0;
@@ -125,19 +128,12 @@ std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
     parallel_for(points.size(), [&](std::size_t i) {
         const Vec3 p = (points[i] - box.min) * scale;
         const auto at = [](double x) { return static_cast<std::uint64_t>(x); };
-        cells[i] = {is_finite(p) ? at(p.x) << 20 | at(p.y) << 10 | at(p.z) : none_of_them,
+        cells[i] = {is_finite(p) ? at(p.x) << 2 * bits | at(p.y) << bits | at(p.z) : none_of_them,
                     static_cast<Index>(i)};
     });
     radix_sort(
-        cells, [](const Cell& cell) { return cell.key; }, 30);
+        cells, [](const Cell& cell) { return cell.key; }, 3 * bits + 1);
     return cells;
-}
-
-Box box_of_finite(const std::vector<Vec3>& points) {
-    Box box;
-    for (const Vec3& p : points)
-        if (is_finite(p)) box.add(p);
-    return box;
 }
 
 /// Distances of many vertices: one of each cell is looked up, and all that lie around the farthest.

@@ -6,6 +6,7 @@
 #include "mesh/face.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace facetmill {
@@ -54,13 +55,15 @@ std::vector<double> powers(int first_octave, std::size_t bins) {
 
 /// The bin among those that begin at the octave, four to an octave; what is below is in the first.
 std::size_t power_bin(double x, int first_octave) {
-    int exponent = 0;
-    const double mantissa = 2 * std::frexp(x, &exponent); // 1 to 2
-    const int octave = exponent - 1 - first_octave;
-    if (!(x > 0) || octave < 0) return 0;
-    const auto quarter = static_cast<std::size_t>(
-        std::upper_bound(std::begin(quarters), std::end(quarters), mantissa) - std::begin(quarters) - 1);
-    return 4 * static_cast<std::size_t>(octave) + quarter;
+    if (!(x > 0)) return 0;
+    constexpr int mantissa_bits = 52, bias = 1023;
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const int octave = static_cast<int>(bits >> mantissa_bits) - bias - first_octave;
+    if (octave < 0) return 0;
+    const std::uint64_t below_two = bits & ((std::uint64_t{1} << mantissa_bits) - 1);
+    const double mantissa = std::bit_cast<double>(below_two | std::uint64_t{bias} << mantissa_bits); // 1 to 2
+    const int quarter = (mantissa >= quarters[1]) + (mantissa >= quarters[2]) + (mantissa >= quarters[3]);
+    return static_cast<std::size_t>(4 * octave + quarter);
 }
 
 constexpr double angle_bin = 2.5; // degrees
@@ -77,10 +80,10 @@ struct Shapes {
     }
 };
 
-double cosine_at(const Vec3& at, const Vec3& b, const Vec3& c) {
-    const Vec3 u = b - at, v = c - at;
-    const double lengths = std::sqrt(dot(u, u) * dot(v, v));
-    return lengths > 0 ? std::clamp(dot(u, v) / lengths, -1.0, 1.0)
+/// At the end of an edge before the next one.
+double cosine_between(const Vec3& edge, double its_length, const Vec3& next, double next_length) {
+    const double lengths = its_length * next_length;
+    return lengths > 0 ? std::clamp(-dot(edge, next) / lengths, -1.0, 1.0)
                        : 1; // a corner without sides has no angle
 }
 
@@ -90,25 +93,60 @@ class ShapesOfFaces {
 
     Shapes operator()(std::size_t begin, std::size_t end) const {
         Shapes out;
-        for (std::size_t f = begin; f < end; ++f) add(static_cast<Index>(f), out);
+        Outline outline;
+        for (std::size_t f = begin; f < end; ++f) add(static_cast<Index>(f), outline, out);
         return out;
     }
 
   private:
-    Vec3 point(Index corner) const { return to_world_.point(mesh_.point(corner)); }
+    /// A face in the world: its points, the edges from each of them to the next, and their lengths.
+    struct Outline {
+        std::vector<Vec3> points, edges;
+        std::vector<double> lengths;
+    };
 
-    void add(Index f, Shapes& out) const {
-        const Index first = mesh_.face_begin(f), end = mesh_.face_end(f);
-        for (Index c = first; c < end; ++c)
-            if (!is_finite(point(c))) return;
-        double sharpest = -1, worst = 0; // cosine, aspect ratio
-        for (Index c = first; c < end; ++c) {
-            const Vec3 p = point(c), next = point(next_corner(c, first, end));
-            const double edge = length(next - p);
-            out.edges.add(power_bin(edge, lowest_octave), edge);
-            sharpest = std::max(sharpest, cosine_at(p, point(previous_corner(c, first, end)), next));
-            if (c > first && c + 1 < end) worst = std::max(worst, aspect_ratio(point(first), p, next));
+    /// False where a point is not finite.
+    bool follow(Index f, Outline& outline) const {
+        const Index first = mesh_.face_begin(f);
+        const std::size_t n = mesh_.face_end(f) - first;
+        outline.points.resize(n);
+        outline.edges.resize(n);
+        outline.lengths.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            outline.points[i] = to_world_.point(mesh_.point(first + static_cast<Index>(i)));
+            if (!is_finite(outline.points[i])) return false;
         }
+        for (std::size_t i = 0; i < n; ++i) {
+            outline.edges[i] = outline.points[i + 1 < n ? i + 1 : 0] - outline.points[i];
+            outline.lengths[i] = length(outline.edges[i]);
+        }
+        return true;
+    }
+
+    /// The largest of the triangles around the first corner.
+    static double worst_aspect(const Outline& o) {
+        const std::size_t n = o.points.size();
+        if (n == 3) {
+            const double area = length(cross(o.edges[0], o.edges[2])) / 2;
+            return aspect_ratio(o.lengths[0], o.lengths[1], o.lengths[2], area);
+        }
+        double worst = 0;
+        for (std::size_t i = 1; i + 1 < n; ++i)
+            worst = std::max(worst, aspect_ratio(o.points[0], o.points[i], o.points[i + 1]));
+        return worst;
+    }
+
+    void add(Index f, Outline& outline, Shapes& out) const {
+        if (!follow(f, outline)) return;
+        const std::size_t n = outline.points.size();
+        double sharpest = -1; // cosine
+        for (std::size_t i = 0; i < n; ++i) {
+            out.edges.add(power_bin(outline.lengths[i], lowest_octave), outline.lengths[i]);
+            const std::size_t next = i + 1 < n ? i + 1 : 0;
+            sharpest = std::max(sharpest, cosine_between(outline.edges[i], outline.lengths[i],
+                                                         outline.edges[next], outline.lengths[next]));
+        }
+        const double worst = worst_aspect(outline);
         const double angle = arc_cosine(sharpest) * 180 / pi;
         out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
         if (std::isfinite(worst))

@@ -1,14 +1,55 @@
 #include "geometry/preview/grid.hpp"
 
+#include "base/parallel.hpp"
+#include "mesh/finite_box.hpp"
+
+#include <algorithm>
 #include <array>
-#include <unordered_map>
 #include <unordered_set>
 
 namespace facetmill {
 
 namespace {
 
-/// The cells that vertices lie in, numbered as they are met.
+/// Keys of 63 bits, numbered as they are met.
+class Numbers {
+  public:
+    Index of(std::uint64_t key) {
+        if (2 * count_ >= keys_.size()) grow();
+        const std::size_t at = place(key);
+        if (keys_[at] == free) {
+            keys_[at] = key;
+            numbers_[at] = count_++;
+        }
+        return numbers_[at];
+    }
+
+  private:
+    static constexpr std::uint64_t free = ~std::uint64_t{0};
+
+    std::size_t place(std::uint64_t key) const {
+        const std::size_t mask = keys_.size() - 1;
+        std::size_t at = (key ^ key >> 32) * 0x9e3779b97f4a7c15U >> 20 & mask;
+        while (keys_[at] != free && keys_[at] != key) at = (at + 1) & mask;
+        return at;
+    }
+    void grow() {
+        const auto keys = std::exchange(keys_, std::vector<std::uint64_t>(4 * keys_.size(), free));
+        const auto numbers = std::exchange(numbers_, std::vector<Index>(keys_.size()));
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            if (keys[i] == free) continue;
+            const std::size_t at = place(keys[i]);
+            keys_[at] = keys[i];
+            numbers_[at] = numbers[i];
+        }
+    }
+
+    std::vector<std::uint64_t> keys_ = std::vector<std::uint64_t>(1024, free);
+    std::vector<Index> numbers_ = std::vector<Index>(1024);
+    Index count_ = 0;
+};
+
+/// The cells that vertices lie in.
 class Cells {
   public:
     Cells(const Box& box, double edge) : least_(box.min) {
@@ -17,11 +58,11 @@ class Cells {
         edge_ = std::max({edge, size.x / most, size.y / most, size.z / most});
     }
 
-    /// The number of the cell of a finite point.
-    Index number(const Vec3& p) {
+    /// The key of the cell of a finite point.
+    std::uint64_t key(const Vec3& p) const {
         std::uint64_t key = 0;
         for (std::size_t i = 0; i < 3; ++i) key = key << 21 | coordinate(p, i);
-        return known_.try_emplace(key, static_cast<Index>(known_.size())).first->second;
+        return key;
     }
     /// How far a point is from the centre of its cell, squared, in cells.
     double off_centre(const Vec3& p) const {
@@ -41,7 +82,6 @@ class Cells {
 
     Vec3 least_;
     double edge_;
-    std::unordered_map<std::uint64_t, Index> known_;
 };
 
 struct HashOfThree {
@@ -62,20 +102,20 @@ std::array<Index, 3> turned(std::array<Index, 3> t) {
 } // namespace
 
 std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_world, double cell) {
-    Box box;
     std::vector<Vec3> places(triangles.vertex_count());
-    for (std::size_t v = 0; v < places.size(); ++v) {
-        places[v] = to_world.point(triangles.positions[v]);
-        if (is_finite(places[v])) box.add(places[v]);
-    }
-    Cells cells(box, cell);
+    parallel_for(places.size(), [&](std::size_t v) { places[v] = to_world.point(triangles.positions[v]); });
+    const Cells cells(box_of_finite(places), cell);
+    std::vector<std::uint64_t> keys(places.size());
+    parallel_for(places.size(),
+                 [&](std::size_t v) { keys[v] = is_finite(places[v]) ? cells.key(places[v]) : 0; });
+    Numbers numbers;
     std::vector<Index> cell_of(places.size(), none);
     std::vector<Index> corner_of; // [cells] of the vertex nearest to the centre
     std::vector<double> distance;
     for (Index c = 0; c < triangles.corner_count(); ++c) {
         const Index v = triangles.vertex(c);
         if (cell_of[v] != none || !is_finite(places[v])) continue;
-        cell_of[v] = cells.number(places[v]);
+        cell_of[v] = numbers.of(keys[v]);
         const double d = cells.off_centre(places[v]);
         if (cell_of[v] == corner_of.size()) {
             corner_of.push_back(c);

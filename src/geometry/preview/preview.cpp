@@ -129,7 +129,7 @@ Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
     wanted.baked = wanted.textures && faces > many_with_textures * settings.faces;
     if (wanted.baked) wanted.textures = false;
     const bool by_grid = !wanted.textures && faces > many * settings.faces;
-    const double cell = by_grid ? cell_edge(scene, 2 * settings.faces) : 0;
+    const double cell = by_grid ? cell_edge(scene, settings.faces + settings.faces / 4) : 0;
     Gatherer gatherer(scene, looks, wanted);
     for (const Part& part : scene.parts) {
         if (part.mesh.face_count() == 0) continue;
