@@ -125,7 +125,7 @@ class ModelWriter {
                    unit_name(scene_.unit), core_space, material_space, FACETMILL_VERSION));
         put_materials();
         const auto first = first_with_equal_mesh(scene_);
-        std::vector<std::uint32_t> objects(scene_.parts.size(), 0); // of the meshes that are first
+        std::vector<Object> objects(scene_.parts.size()); // of the meshes that are first
         std::string items;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
             const Part& part = scene_.parts[i];
@@ -135,14 +135,15 @@ class ModelWriter {
             }
             // A mirrored or flattened placement is not allowed, so such a part is written where it stands.
             const bool placed = part.transform.determinant() > 0;
-            const std::uint32_t same = placed ? objects[first[i]] : 0;
-            const std::uint32_t object = same == 0 ? put_object(part, placed)
-                                         : scene_.parts[first[i]].name == part.name
-                                             ? same
-                                             : put_instance(part.name, same);
-            if (placed && objects[first[i]] == 0) objects[first[i]] = object;
-            items +=
-                fmt::format("  <item objectid=\"{}\"{}/>\n", object, placed ? placement(part.transform) : "");
+            Object object = placed ? objects[first[i]] : Object();
+            if (object.id == 0)
+                object = put_object(part, placed);
+            else if (scene_.parts[first[i]].name != part.name)
+                object.id = put_instance(part.name, object.id);
+            if (placed && objects[first[i]].id == 0) objects[first[i]] = object;
+            written_.dropped_faces += object.dropped_faces;
+            items += fmt::format("  <item objectid=\"{}\"{}/>\n", object.id,
+                                 placed ? placement(part.transform) : "");
         }
         append(out_, " </resources>\n <build>\n" + items + " </build>\n</model>\n");
         tell_what_is_lost();
@@ -150,6 +151,11 @@ class ModelWriter {
     }
 
   private:
+    struct Object {
+        std::uint32_t id = 0;          ///< 0: none yet
+        std::size_t dropped_faces = 0; ///< that are not in it, however often it is placed
+    };
+
     void warn(const char* id, std::string message) {
         written_.warnings.push_back({Severity::warning, id, std::move(message), {}, ""});
     }
@@ -185,7 +191,7 @@ class ModelWriter {
         return text + "\"";
     }
 
-    std::uint32_t put_object(const Part& part, bool placed) {
+    Object put_object(const Part& part, bool placed) {
         const Mesh* mesh = &part.mesh;
         Mesh own;
         if (!placed) {
@@ -207,7 +213,9 @@ class ModelWriter {
         }
         hides_materials_ |= looks.hides_materials();
         put_mesh(*mesh, looks, part.name);
-        return next_id_++;
+        Object object{next_id_++};
+        for (Index f = 0; f < mesh->face_count(); ++f) object.dropped_faces += is_degenerate(*mesh, f);
+        return object;
     }
 
     /// The same mesh under another name.
@@ -235,7 +243,6 @@ class ModelWriter {
                 if (!is_degenerate(mesh, f)) put_triangle(out, mesh, f, looks.of(f), usual);
         });
         append(out_, "    </triangles>\n   </mesh>\n  </object>\n");
-        for (Index f = 0; f < mesh.face_count(); ++f) written_.dropped_faces += is_degenerate(mesh, f);
     }
 
     void put_vertex(std::string& out, const Vec3& p) const {

@@ -173,6 +173,10 @@ TEST_CASE("3MF writes instances once, triangles only, and says what it leaves ou
     REQUIRE(less.log.warnings.size() == 2);
     CHECK(less.log.warnings[0].id == "W-SKIPPED");
     CHECK(less.log.warnings[1].id == "W-FACES");
+    // An instance lacks the same faces once more.
+    flat.parts[1] = flat.parts[0];
+    flat.parts[1].transform.m[0][3] = 2;
+    CHECK(trip(flat).scene.parts.size() == 2);
     flat.unit = Unit::km;
     CHECK(failure([&] { codec.write(flat, {.title = "a"}); }) ==
           "stage [E-UNIT] 3MF has no unit km | write: {unit: m}");
