@@ -71,6 +71,18 @@ const Value* Planner::fragment(const fs::path& file, const Mark& where) {
     return &fragments_.emplace(file, std::move(document)).first->second;
 }
 
+std::vector<fs::path> Planner::chain_to(const fs::path& file) const {
+    if (const auto open = std::find(open_.begin(), open_.end(), file); open != open_.end())
+        return {open, open_.end()};
+    const auto is_pipeline = [&](const PlannedFile& other) { // all else that is read besides is of shapes
+        return !other.written && !other.shapes && other.path.lexically_normal() == file;
+    };
+    if (std::none_of(settings_.others.begin(), settings_.others.end(), is_pipeline)) return {};
+    std::vector<fs::path> all{file};
+    all.insert(all.end(), open_.begin(), open_.end());
+    return all;
+}
+
 Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope& scope,
                        const Position& position, bool& has_scene) {
     const Value path = resolved(entry.value, scope, problems_);
@@ -80,11 +92,12 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
         return {};
     }
     const fs::path file = settings_.places.input(text.text).lexically_normal();
-    if (const auto open = std::find(open_.begin(), open_.end(), file); open != open_.end()) {
+    if (const auto files = chain_to(file); !files.empty()) {
         std::string chain;
-        for (auto one = open; one != open_.end(); ++one) chain += fmt::format("{} -> ", one->string());
+        for (const auto& one : files) chain += fmt::format("{} -> ", one.string());
         problems_.add(path.mark, "E-INCLUDE", fmt::format("'{}' includes itself", file.string()),
                       fmt::format("{}{}", chain, file.string()));
+        has_scene = true; // nobody knows what it would have done
         return {};
     }
     const Value* document = fragment(file, path.mark);

@@ -70,6 +70,8 @@ class Planner {
     /// The stages of the file that an item includes.
     Steps include(const Value& item, const Value::Entry& entry, const Scope& scope, const Position& position,
                   bool& has_scene);
+    /// From a file that is open, the pipeline among them, to the innermost; empty: it is not open.
+    std::vector<std::filesystem::path> chain_to(const std::filesystem::path& file) const;
     /// The document in a file, its paths relative to the pipeline's folder; null after a problem. Throws
     /// missing.
     const Value* fragment(const std::filesystem::path& file, const Mark& where);
