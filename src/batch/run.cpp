@@ -90,15 +90,19 @@ class BatchRun {
         choose_jobs();
         const auto keeping = find_kept();
         std::vector<Job> jobs;
+        std::set<fs::path> folders; // that no job may write to
         for (std::size_t i = 0; i < works_.size(); ++i)
             if (!keeping[i])
                 jobs.push_back({i, works_[i].memory, false});
             else {
-                for (const auto& output : keeping[i]->outputs)
-                    written_[io::identity(settings_.output_dir / output.path)] = {works_[i].asset.name,
-                                                                                  output.sha256};
+                for (const auto& output : keeping[i]->outputs) {
+                    const fs::path path = settings_.output_dir / output.path;
+                    written_[io::identity(path)] = {works_[i].asset.name, output.sha256};
+                    folders.insert(path.parent_path());
+                }
                 finish(i, kept_outcome(*keeping[i]), nullptr);
             }
+        for (const auto& folder : folders) io::remove_abandoned(folder);
         const PoolSettings pool{summary_.jobs, memory(), tokens_.get()};
         Pool(pool, std::move(jobs), [this](const Job& job, const auto& beside) {
             return work(job, beside);

@@ -124,6 +124,15 @@ bool is_abandoned(const fs::path& temporary, int pid) {
     return free;
 }
 
+void remove_abandoned(const fs::path& directory) {
+    std::error_code error;
+    for (fs::directory_iterator it(directory.empty() ? "." : directory, error), end; !error && it != end;
+         it.increment(error)) {
+        const int pid = writer_of(it->path().filename().native());
+        if (pid && is_abandoned(it->path(), pid)) ::unlink(it->path().c_str());
+    }
+}
+
 void keep_permissions(int fd, const fs::path& target, const fs::path& given) {
     struct stat about {};
     if (::stat(target.c_str(), &about) != 0) return;

@@ -41,6 +41,8 @@ int writer_of(std::string_view name);
 /// Whether nobody is at work on the temporary: its process is gone, and nobody holds its lock (a process in
 /// another container that shares the directory has no id here).
 bool is_abandoned(const std::filesystem::path& temporary, int pid);
+/// Removes what processes that are gone left in the directory (empty: the working one).
+void remove_abandoned(const std::filesystem::path& directory);
 
 /// Gives the temporary the permissions, and as far as allowed the owner, of the file it will replace.
 void keep_permissions(int fd, const std::filesystem::path& target, const std::filesystem::path& given);

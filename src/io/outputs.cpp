@@ -95,12 +95,7 @@ bool swept_lately(const fs::path& directory) {
 
 void Outputs::remove_stale(const fs::path& directory) {
     if (!swept_.insert(directory).second || swept_lately(directory)) return;
-    std::error_code error;
-    for (fs::directory_iterator it(directory.empty() ? "." : directory, error), end; !error && it != end;
-         it.increment(error)) {
-        const int pid = writer_of(it->path().filename().native());
-        if (pid && is_abandoned(it->path(), pid)) ::unlink(it->path().c_str());
-    }
+    remove_abandoned(directory);
 }
 
 void Outputs::stage(File& file, Span bytes) {
