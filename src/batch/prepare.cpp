@@ -130,8 +130,11 @@ class FileOwners {
 
     /// What the names of the two inputs have that those of the outputs lack.
     static std::string hint_of(const fs::path& one, const fs::path& other) {
-        if (!one.empty() && !other.empty() && one.filename() != other.filename() &&
-            lower_case(one.stem().string()) == lower_case(other.stem().string()))
+        const auto lower = [](const fs::path& path) { return lower_case(path.string()); };
+        const bool are_two = !one.empty() && !other.empty() && one != other;
+        if (are_two && lower(one) == lower(other))
+            return "their inputs differ in the case of letters only: rename one of them, or leave it out";
+        if (are_two && one.filename() != other.filename() && lower(one.stem()) == lower(other.stem()))
             return "their inputs differ in the suffix only: write: \"${input.name}.glb\" has it in the name; "
                    "if one of them is no mesh, name the suffix in the pattern: --input 'scans/**/*.ply'";
         return "name outputs by a param that differs: write: \"${input.stem}.glb\"; --base sets the folder "
@@ -167,7 +170,7 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
         const auto headers = pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
         if (auto missing = pipeline::missing_inputs(plan); !missing.empty()) {
-            const auto inputs = pipeline::planned_inputs(plan);
+            const auto inputs = pipeline::inputs_of_steps(plan);
             for (auto& d : missing) out.missing.push_back(pipeline::about_input(inputs, std::move(d)));
         }
         Work work{

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace facetmill::pipeline {
 
@@ -94,6 +95,24 @@ bool is_at_one_place(const PlannedFile& a, const PlannedFile& b) {
     return to_string(a.where) == to_string(b.where);
 }
 
+/// What was written at a place, without quotes; empty where that is not one plain name.
+std::string written_at(const Mark& mark) {
+    if (!mark.known() || mark.line < 1 || mark.column < 1) return {};
+    std::string_view text = mark.source->text;
+    for (int line = 1; line < mark.line && text.find('\n') != text.npos; ++line)
+        text.remove_prefix(text.find('\n') + 1);
+    text = text.substr(0, text.find('\n'));
+    const auto begin = static_cast<std::size_t>(mark.column - 1);
+    if (begin >= text.size() || mark.length < 3) return {};
+    text = text.substr(begin, static_cast<std::size_t>(mark.length));
+    const char quote = text.front();
+    if ((quote == '"' || quote == '\'') && text.back() == quote) text = text.substr(1, text.size() - 2);
+    const bool plain = std::all_of(text.begin(), text.end(), [](char c) { // columns count characters
+        return c > ' ' && c <= '~' && c != '\\' && c != '"' && c != '\'' && c != ',';
+    });
+    return plain ? std::string(text) : "";
+}
+
 /// Of a file that is not the first of those: the first is at another place of the pipeline, or at the same
 /// for other values of a foreach: then the name lacks the variables that differ among all of this place.
 std::string hint_of_duplicate(const SameFiles& same, const PlannedFile& file) {
@@ -111,8 +130,11 @@ std::string hint_of_duplicate(const SameFiles& same, const PlannedFile& file) {
         });
         if (differs) differing += "." + part;
     }
-    return fmt::format("foreach writes it for every value: {}{}{}", file.path.stem().string(),
-                       differing.empty() ? all : differing, file.path.extension().string());
+    const std::string written = written_at(file.where), suffix = file.path.extension().string();
+    const std::string name = written.ends_with(suffix) ? written : file.path.filename().string();
+    return fmt::format("foreach writes it for every value: {}{}{}",
+                       name.substr(0, name.size() - suffix.size()), differing.empty() ? all : differing,
+                       suffix);
 }
 
 bool check_inputs(const std::vector<PlannedFile>& files, std::map<std::string, const PlannedFile*>& inputs,
@@ -137,6 +159,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     for (const auto& file : files)
         if (file.written) outputs[lower_case(io::identity(file.path).string())].push_back(&file);
     bool good = check_inputs(files, inputs, problems);
+    std::set<std::string> told; // places
     for (const auto& file : files) {
         if (!file.written) continue;
         const std::string path = io::identity(file.path).string();
@@ -152,6 +175,8 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         const PlannedFile& first = *same.front();
         if (&first == &file) continue;
         good = false;
+        // For some values of a foreach as for others: one name is to be changed.
+        if (is_at_one_place(first, file) && !told.insert(to_string(file.where)).second) continue;
         const bool spelled_alike = io::identity(first.path).string() == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
                      spelled_alike ? fmt::format("'{}' is written twice", file.path.string())
@@ -236,6 +261,8 @@ Diagnostic about_input(const std::vector<fs::path>& inputs, Diagnostic diagnosti
     diagnostic.message = fmt::format("{}{}: {}", first, more, diagnostic.message);
     return diagnostic;
 }
+
+std::vector<fs::path> inputs_of_steps(const Plan& plan) { return paths_of(plan, false, {}).all(); }
 
 std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {
     auto paths = paths_of(plan, false, headers.more_inputs);

@@ -159,6 +159,8 @@ std::vector<Error> input_errors(const Plan& plan, const Headers& headers);
 /// Files that the plan reads and writes, as far as they are known before it runs (globs expanded, and what
 /// the headers tell); includes and presets among the inputs, at their end, and reports among the outputs.
 std::vector<std::filesystem::path> planned_inputs(const Plan& plan, const Headers& headers = {});
+/// Those that stages name: no textures, includes and presets.
+std::vector<std::filesystem::path> inputs_of_steps(const Plan& plan);
 std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Headers& headers = {});
 /// The patterns that name inputs.
 std::vector<std::filesystem::path> planned_patterns(const Plan& plan);
@@ -171,6 +173,8 @@ Diagnostic about_input(const std::vector<std::filesystem::path>& inputs, Diagnos
 /// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
 /// and as JSON.
 std::string describe(const Plan& plan, const Headers& headers = {});
+/// Of the options that a stage was not given, by name, the defaults as they would be written.
+std::map<std::string, std::string> default_texts(const Step& step);
 /// The options of a stage as they will be: given, else the default.
 Json options_json(const Step& step);
 Json describe_json(const Plan& plan, const Headers& headers = {});

@@ -122,7 +122,10 @@ class Batch(Case):
             torn.write('{"asset": "torn')
         self.write("t.csv", "input,n\nin/a.off,1\nin/sub/b.off,1\n" + f"{SCAN},1\n")
         self.assertEqual(self.done_anew("--table", "t.csv"), [str(SCAN)])
+        left = self.dir / f"out/in/.a.ply.facetmill-{run.pid}~"
+        left.write_text("a temporary of the killed process, whose asset was done")
         self.assertEqual(self.done_anew("--table", "t.csv"), [])
+        self.assertFalse(left.exists())
         self.assertEqual(sorted(self.written()), ["in/a.json", "in/a.ply", "in/sub/b.json", "in/sub/b.ply",
                                                   "nefertiti.json", "nefertiti.ply"])
 
@@ -179,6 +182,7 @@ class Batch(Case):
         run = self.batch(expect=2)
         self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
         self.assertIn("one file where case does not count", run.stderr)
+        self.assertIn("differ in the case of letters only", run.stderr)
         (self.dir / "in/A.off").rename(self.dir / "in/a.ply")
         run = self.batch("--input", "in/**/*", expect=2)
         self.assertIn("is written for in/a.off and for in/a.ply", run.stderr)

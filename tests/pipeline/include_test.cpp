@@ -64,6 +64,8 @@ TEST_CASE("a file in the working directory includes its neighbour", "[pipeline]"
     std::filesystem::current_path(here);
     CHECK(result.problems == "");
     CHECK(stages_in(result.plan.steps) == "near/test-load b.ply; ");
+    CHECK(pipeline::planned_inputs(result.plan).size() == 2);
+    CHECK(pipeline::inputs_of_steps(result.plan).size() == 1); // messages are about b.ply alone
 }
 
 TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
@@ -81,6 +83,14 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     };
     has("  - include: a.yaml\n", "b.yaml:2:20: error[E-INCLUDE]: 'a.yaml' includes itself");
     has("  - include: a.yaml\n", "hint: a.yaml -> b.yaml -> a.yaml");
+    // The pipeline is the first link of a chain; what follows is not judged by what is unknown.
+    test::put(folder / "first.yaml", "facetmill: 1\nstages: [{include: second.yaml}, {test-write: o.glb}]\n");
+    test::put(folder / "second.yaml", "facetmill: 1\nstages: [{include: first.yaml}]\n");
+    Problems problems;
+    pipeline::plan_source(pipeline::read_pipeline(folder / "first.yaml"), {}, problems);
+    REQUIRE(problems.all().size() == 1);
+    CHECK(problems.all()[0].id == "E-INCLUDE");
+    CHECK(problems.all()[0].hint.find("first.yaml -> ") != std::string::npos);
     has("  - include: report.yaml\n", "error[E-KEY]: a file that is included has no 'report'");
     has("  - include: needs.yaml\n", "needs.yaml:2:10: error[E-PARAM]: the parameter 'k' has no value");
     has("  - include: needs.yaml\n", "with: {k: ...}");
