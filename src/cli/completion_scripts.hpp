@@ -1,12 +1,12 @@
 #pragma once
 // What the completions do in each shell. The tables of words that they look things up in are written by
-// completions.cpp.
+// completions.cpp. Among the words, <files> stands for files.
 
 namespace facetmill::cli {
 
 /// For bash and zsh: prints the words, each with a tab and a help, that may stand in place of the one that is
-/// typed; files where nothing is printed. _facetmill_table prints the rows of a table, _facetmill_is_stage
-/// knows the stages.
+/// typed; files where nothing is printed, or where <files> is. _facetmill_table prints the rows of a table,
+/// _facetmill_is_stage knows the stages.
 inline constexpr const char* candidates_sh = R"SH(
 # $1: the word that is typed; then the words before it, without facetmill itself.
 _facetmill_candidates() {
@@ -57,7 +57,11 @@ _facetmill() {
   COMPREPLY=()
   while IFS= read -r line; do
     line=${line%%$'\t'*}
-    case $line in "${COMP_WORDS[COMP_CWORD]}"*) COMPREPLY+=("$line") ;; esac
+    case $line in
+      '<files>') compopt -o filenames 2>/dev/null
+                 while IFS= read -r line; do COMPREPLY+=("$line"); done < <(compgen -f -- "${COMP_WORDS[COMP_CWORD]}") ;;
+      "${COMP_WORDS[COMP_CWORD]}"*) COMPREPLY+=("$line") ;;
+    esac
   done < <(_facetmill_candidates "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[@]:1:COMP_CWORD-1}")
 }
 complete -o default -F _facetmill facetmill
@@ -65,16 +69,20 @@ complete -o default -F _facetmill facetmill
 
 inline constexpr const char* zsh_end = R"SH(
 _facetmill() {
-  local line
+  local line files=1
   local -a described
   while IFS= read -r line; do
+    files=0
+    if [[ $line == '<files>' ]]; then
+      files=1
+      break
+    fi
     described+=("${${line%%$'\t'*}//:/\\:}:${line#*$'\t'}")
   done < <(_facetmill_candidates "${words[CURRENT]}" "${(@)words[2,CURRENT-1]}")
-  if (( ${#described} )); then
-    _describe -V facetmill described || _files
-  else
-    _files
-  fi
+  local found=1
+  (( ${#described} )) && _describe -V facetmill described && found=0
+  (( files || found )) && _files && found=0
+  return found
 }
 compdef _facetmill facetmill
 )SH";
@@ -128,7 +136,13 @@ function __facetmill_candidates
             __facetmill_of "stage $stage" "$word" "$option"
     end
 end
-complete -c facetmill -a '(__facetmill_candidates)'
+
+function __facetmill_takes_files
+    set -l candidates (__facetmill_candidates)
+    test (count $candidates) -eq 0; or contains -- '<files>' $candidates
+end
+complete -c facetmill -n 'not __facetmill_takes_files' -f
+complete -c facetmill -a '(__facetmill_candidates | string match -v "<files>")'
 )FISH";
 
 } // namespace facetmill::cli

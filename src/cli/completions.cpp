@@ -16,6 +16,9 @@ namespace facetmill::cli {
 
 namespace {
 
+/// A row of a table: files are offered beside its words (where there are no words, they are always).
+constexpr const char* files_row = "<files>";
+
 constexpr const char* completions_examples = R"(Examples
   facetmill completions bash > ~/.local/share/bash-completion/completions/facetmill
   source <(facetmill completions zsh)                  (in ~/.zshrc, after compinit)
@@ -50,13 +53,14 @@ Words plain(const std::vector<std::string>& texts) {
     return words;
 }
 
-/// What a bare argument of the command may be, besides a file.
+/// What a bare argument of the command may be.
 Words values_of_command(const std::string& command, const Argument& argument) {
     Words words = plain(argument.choices);
-    if (command == "run" || command == "batch" || command == "plan" || command == "check" ||
-        command == "export")
+    if (argument.names == "PIPELINE") {
         for (const auto& ready : docs::ready_pipelines())
             words.push_back({std::string(ready.name), "a ready pipeline"});
+        words.push_back({files_row, ""});
+    }
     if (command == "stages") words = stage_words();
     if (command == "explain")
         for (const auto& id : message_ids())

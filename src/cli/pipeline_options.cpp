@@ -50,11 +50,23 @@ void add_value_options(Arguments& arguments, PipelineOptions& options) {
                   "Stages with a baseline write the current failures to it, and pass.");
 }
 
+namespace {
+
+std::vector<std::string> warning_ids() {
+    std::vector<std::string> ids;
+    for (const auto& id : message_ids())
+        if (id.is_warning()) ids.emplace_back(id.id);
+    return ids;
+}
+
+} // namespace
+
 void add_warning_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
-    arguments.add(
-        "--allow", &options.allowed,
-        "The id of a warning that is not printed and does not fail under --strict; also --quiet=ID.");
+    arguments
+        .add("--allow", &options.allowed,
+             "The id of a warning that is not printed and does not fail under --strict; also --quiet=ID.")
+        .suggests(warning_ids);
     arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
         .hidden();
 }
@@ -329,7 +341,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     settings.strict = options.strict;
     settings.cells = options.cells;
     settings.check_invariants = options.check_invariants;
-    const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::planned_inputs(plan); });
+    const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::inputs_of_steps(plan); });
     const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
     settings.on_stage = [&](const report::StageRecord& stage) {

@@ -127,6 +127,11 @@ class Completions(Case):
         self.assertIn("W-UNITS", self.candidates(shell, "facetmill explain W-UN"))
         self.assertEqual(self.candidates(shell, "facetmill new a.yaml --from scan-to-w"), ["scan-to-web"])
         self.assertIn("quickstart", self.candidates(shell, "facetmill export qui"))
+        self.assertIn("W-UNITS", self.candidates(shell, "facetmill run --allow W-UN"))
+        (self.dir / "quick one.yaml").touch()
+        beside = {"bash": ["quickstart", "quick one.yaml"], "zsh": ["quickstart"], "fish": ["quick one.yaml", "quickstart"]}
+        self.assertEqual(self.candidates(shell, "facetmill run quick"), beside[shell])
+        self.assertNotIn("script", self.candidates(shell, "facetmill cache "))
         for stage in json.loads(self.mill("stages", "--json").stdout):
             name = stage["name"]
             offered = self.candidates(shell, f"facetmill pipe load a ! {name} --")
