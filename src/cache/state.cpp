@@ -8,8 +8,8 @@ namespace facetmill::cache {
 template <>
 struct Members<Memory> {
     static void each(auto& memory, auto&& take) {
-        auto& [record, inputs, absent, scene, bounds] = memory;
-        take(record, inputs, absent, scene, bounds);
+        auto& [record, inputs, absent, scene, told_name, bounds] = memory;
+        take(record, inputs, absent, scene, told_name, bounds);
     }
 };
 

@@ -22,6 +22,7 @@ struct Memory {
     std::vector<report::FileRecord> inputs; ///< files that it read
     std::vector<std::string> absent;        ///< files that it looked for and that were not there
     std::string scene;                      ///< the key of the scene that left it
+    std::string told_name;                  ///< its name, if its warnings have it; else empty
     Box bounds;                             ///< of that scene
 };
 io::Bytes encoded(const Memory& memory);

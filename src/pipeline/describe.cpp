@@ -101,17 +101,31 @@ bool is_excluded(const Declaration& declaration, const std::string& name, const 
 
 } // namespace
 
+std::map<std::string, std::string> default_texts(const Step& step) {
+    std::map<std::string, std::string> texts;
+    const bool is_one = !step.given.is_map() && !step.given.is_null();
+    for (const auto& option : step.stage->options->options) {
+        const bool is_given =
+            is_one ? &option == step.stage->options->primary() : step.given.find(option.name) != nullptr;
+        if (!is_given && !option.default_text.empty() &&
+            !is_excluded(*step.stage->options, option.name, step.given))
+            texts.emplace(option.name, option.default_text);
+    }
+    return texts;
+}
+
 Json options_json(const Step& step) {
     Json out = Json::object();
     const bool is_map = step.given.is_map();
     const Option* primary = step.stage->options->primary();
+    const auto defaults = default_texts(step);
     for (const auto& option : step.stage->options->options) {
         const Value* given = is_map ? step.given.find(option.name) : nullptr;
         if (!is_map && !step.given.is_null() && &option == primary) given = &step.given;
         if (given)
             out[option.name] = value_json(*given);
-        else if (!option.default_text.empty() && !is_excluded(*step.stage->options, option.name, step.given))
-            out[option.name] = value_json(Value::scalar(option.default_text, {}));
+        else if (const auto text = defaults.find(option.name); text != defaults.end())
+            out[option.name] = value_json(Value::scalar(text->second, {}));
     }
     if (is_map) // names of properties and the like, which are no declared options
         for (const auto& entry : step.given.entries)

@@ -33,12 +33,15 @@ void spell(const Value& value, std::vector<std::string>& out) {
     }
 }
 
-/// The options as a map in the order of their names, however they were given.
+/// The options as a map in the order of their names, however they were given, with those that were left out.
 Value as_map(const Step& step) {
     Value map = step.given;
     const Option* primary = step.stage->options->primary();
     if (!map.is_map() && !map.is_null() && primary && !step.stage->options->shorthand)
         map = Value::map({{primary->name, {}, map}});
+    if (map.is_map() || map.is_null())
+        for (const auto& [name, text] : default_texts(step))
+            if (!map.find(name)) map.set(name, Value::scalar(text));
     std::sort(map.entries.begin(), map.entries.end(),
               [](const Value::Entry& a, const Value::Entry& b) { return a.key < b.key; });
     return map;
@@ -135,10 +138,9 @@ void Reuse::before_arms(Flow& flow, const std::vector<Arm>& arms) const {
         know_key(flow);
 }
 
-std::string Reuse::key_of(const Step& step, Flow& flow, double load_diagonal) const {
-    know_key(flow);
-    std::vector<std::string> texts{code_id(), flow.key, step.stage->name, step.name,
-                                   to_string(load_diagonal)};
+/// Of a flow whose key is known.
+std::string Reuse::key_of(const Step& step, const Flow& flow, double load_diagonal) const {
+    std::vector<std::string> texts{code_id(), flow.key, step.stage->name, to_string(load_diagonal)};
     spell(as_map(step), texts);
     texts.push_back(std::to_string(step.only.patterns.size()));
     texts.insert(texts.end(), step.only.patterns.begin(), step.only.patterns.end());
@@ -166,12 +168,15 @@ bool Reuse::recall(const Step& step, Flow& flow, RunState& run, report::StageRec
 
 bool Reuse::recall_known(const Step& step, Flow& flow, RunState& run, report::StageRecord& stage) {
     const double load_diagonal = run.load_diagonal;
+    know_key(flow);
+    trace_.back().before = flow.key;
     const std::string key = trace_.back().key = key_of(step, flow, load_diagonal);
     const auto bytes = store_->get(key, cache::Kind::memory);
     if (!bytes) return false;
     auto memory = cache::decoded_memory(*bytes);
     if (!memory) store_->reject(key, cache::Kind::memory);
     if (!memory || !are_unchanged(*memory)) return false;
+    if (!memory->told_name.empty() && memory->told_name != step.name) return false;
     trace_.back().way = TracedStep::Way::recalled;
     for (const auto& input : memory->inputs) {
         trace_.back().inputs.emplace_back(input.path, input.sha256);
@@ -239,6 +244,11 @@ void Reuse::keep_known(const Step& step, Flow& flow, const RunState& run, const 
     memory.inputs = since(run.record.inputs, before.inputs);
     memory.absent = since(run.record.absent, before.absent);
     memory.scene = flow.key;
+    const bool tells_name =
+        std::any_of(stage.warnings.begin(), stage.warnings.end(), [&](const Diagnostic& warning) {
+            return warning.message.find(step.name) != std::string::npos;
+        });
+    if (tells_name) memory.told_name = step.name;
     memory.bounds = flow.scene.bounds();
     if (step.stage->loads)
         flow.loaded = {before.key, std::move(memory)};

@@ -2,10 +2,10 @@
 // Which stages need not be run, because the cache knows what they did with the same scene and options; and
 // what it is told of those that were run.
 //
-// A stage is recalled when it reads nothing but the scene, its options, its name and `only`, and does nothing
-// but give a scene and fill its own record; or when it loads, and the files that it read are the same. Those
-// that judge or write always run. What a stage did besides is looked at after it ran, too, and then not
-// stored.
+// A stage is recalled when it reads nothing but the scene, its options and `only`, and does nothing but give
+// a scene and fill its own record (its name may be in a warning only); or when it loads, and the files that
+// it read are the same. Those that judge or write always run. What a stage did besides is looked at after it
+// ran, too, and then not stored.
 //
 // The key of a scene that a stage made is of the scene before it, the stage, its options, this program and
 // its libraries; that of any other scene (loaded, joined ...) is of its contents, so that it does not matter
@@ -56,7 +56,7 @@ class Reuse {
     void keep_known(const Step& step, Flow& flow, const RunState& run, const report::StageRecord& stage,
                     const Before& before);
     static void know_key(Flow& flow);
-    std::string key_of(const Step& step, Flow& flow, double load_diagonal) const;
+    std::string key_of(const Step& step, const Flow& flow, double load_diagonal) const;
     void run_again(Flow& flow, std::size_t first);
     void know_documents(const Scene& scene);
     void share_documents(Scene& scene);

@@ -177,7 +177,7 @@ class Runner {
     bool run_stage_on_cells(const Step& step, CellFlow& cells) {
         auto stage = new_record(step);
         stage.before = brief_of_cells(cells);
-        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, TracedStep::Way::always});
+        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::always});
         const Stopwatch watch;
         const Share share(settings_.progress);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
@@ -266,7 +266,7 @@ class Runner {
     void record_skipped(const Step& step) {
         auto stage = new_record(step);
         stage.skipped = true;
-        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, TracedStep::Way::skipped});
+        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::skipped});
         record().stages.push_back(std::move(stage));
     }
 

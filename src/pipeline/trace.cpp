@@ -25,11 +25,8 @@ std::string name_of_last(const Plan& plan, const std::string& pipeline_file) {
 }
 
 Json as_json(const TracedStep& step) {
-    return {{"name", step.name},
-            {"stage", step.stage},
-            {"options", step.options},
-            {"inputs", step.inputs},
-            {"key", step.key}};
+    return {{"name", step.name},     {"stage", step.stage},   {"options", step.options},
+            {"inputs", step.inputs}, {"before", step.before}, {"key", step.key}};
 }
 
 bool is_step(const Json& step) {
@@ -41,7 +38,8 @@ bool is_step(const Json& step) {
     };
     return step.is_object() && has("name", &Json::is_string) && has("stage", &Json::is_string) &&
            has("options", &Json::is_object) && has("inputs", &Json::is_array) &&
-           has("key", &Json::is_string) && std::all_of(step["inputs"].begin(), step["inputs"].end(), is_pair);
+           has("before", &Json::is_string) && has("key", &Json::is_string) &&
+           std::all_of(step["inputs"].begin(), step["inputs"].end(), is_pair);
 }
 
 bool is_last(const Json& last) {
@@ -111,7 +109,8 @@ std::string reason(const TracedStep& step, const Json& last) {
     compare_inputs((*before)["inputs"], step, reasons);
     if (!reasons.empty()) return fmt::format("{}", fmt::join(reasons, ", "));
     if (last["code"] != code_id()) return "facetmill or one of its libraries changed";
-    if ((*before)["key"] != step.key) return "the scene before it changed";
+    if ((*before)["before"] != step.before) return "the scene before it changed";
+    if ((*before)["key"] != step.key) return "its options are written in another way";
     return "its result was not stored, or is gone";
 }
 

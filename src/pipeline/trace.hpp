@@ -19,7 +19,8 @@ struct TracedStep {
     std::string name, stage;
     Json options = Json::object(); ///< as facetmill plan --json has them, and `only`
     std::vector<std::pair<std::string, std::string>> inputs; ///< paths and digests
-    std::string key;                                         ///< empty: it has none
+    std::string before{};                                    ///< the key of the scene that it gets
+    std::string key{};                                       ///< empty: it has none
     Way way = Way::ran;
 };
 using Trace = std::vector<TracedStep>;

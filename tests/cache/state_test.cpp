@@ -180,9 +180,11 @@ TEST_CASE("what a run tells of a stage comes back, but for its places", "[cache]
     memory.inputs = {{"a.ply", 12, "abc", {{"faces", 1}}}};
     memory.absent = {"b.png"};
     memory.scene = "key";
+    memory.told_name = "smooth";
     memory.bounds = {{0, 0, 0}, {1, 2, 3}};
     const auto back = cache::decoded_memory(cache::encoded(memory));
     REQUIRE(back);
+    CHECK(back->told_name == "smooth");
     const auto &mine = back->record, &other = memory.record;
     CHECK_FALSE(mine.before);
     REQUIRE(mine.after);
