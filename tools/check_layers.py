@@ -51,6 +51,7 @@ PUBLIC = {
     "io/gltf/nodes.hpp": "where meshes stand, for cells",
     "io/gltf/byte_kinds.hpp": "what the bytes of a file are spent on",
     "io/gltf/looks.hpp": "materials as pictures draw them",
+    "io/gltf/pose.hpp": "scenes as pictures show them",
     "io/gltf/textures.hpp": "the images of documents, for textures",
     "io/gltf/tidy.hpp": "documents without what nothing uses, for optimize and tangents",
 }

@@ -6,7 +6,7 @@
 For each file, and for small ones made here that show a feature of materials each: the structural similarity of both pictures
 (Z. Wang et al., 2004; 1: equal) on grey ground, and the part of the pixels that differ by more than 16 of 255. --pairs keeps
 both beside each other. Light is diffuse, as facetmill has it, so that metalness and roughness do not count; inner sides are
-orange; skins are in bind pose; no occlusion. A GLB or glTF file with data: URIs.
+orange; skinned and morphed parts in the pose of their nodes; no occlusion. A GLB or glTF file with data: URIs.
 
 npm install three;  pip install numpy pillow scikit-image;  apt-get install chromium"""
 
@@ -59,6 +59,31 @@ function plain(own) {
   return m;
 }
 
+// In the world, as joints and morph weights have it.
+function posed(node) {
+  const geometry = node.geometry.clone(), place = geometry.attributes.position, normal = geometry.attributes.normal;
+  const p = new THREE.Vector3(), n = new THREE.Vector3(), q = new THREE.Vector3(), step = 1e-3;
+  const turned = new THREE.Matrix3().getNormalMatrix(node.matrixWorld);
+  const places = new Float32Array(3 * place.count), normals = new Float32Array(3 * place.count);
+  for (let i = 0; i < place.count; ++i) {
+    node.getVertexPosition(i, p);
+    if (normal) {
+      n.fromBufferAttribute(normal, i);
+      (geometry.morphAttributes.normal ?? []).forEach((m, k) => n.addScaledVector(q.fromBufferAttribute(m, i), node.morphTargetInfluences[k]));
+      if (node.isSkinnedMesh) {
+        q.fromBufferAttribute(place, i).addScaledVector(n, step);
+        n.copy(node.applyBoneTransform(i, q)).sub(p);
+      }
+      n.applyMatrix3(turned).normalize().toArray(normals, 3 * i);
+    }
+    p.applyMatrix4(node.matrixWorld).toArray(places, 3 * i);
+  }
+  geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+  if (normal) geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.morphAttributes = {};
+  return geometry;
+}
+
 window.draw = async (url) => {
   const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
   loader.setDRACOLoader(new DRACOLoader().setDecoderPath("/three/examples/jsm/libs/draco/gltf/"));
@@ -68,8 +93,9 @@ window.draw = async (url) => {
   scene.traverse((node) => {
     if (!node.isMesh) return;
     const add = (material) => {
-      const mesh = new THREE.Mesh(node.geometry, material);
-      if (!node.isSkinnedMesh) mesh.applyMatrix4(node.matrixWorld);
+      const moves = node.isSkinnedMesh || node.morphTargetInfluences?.some((w) => w !== 0);
+      const mesh = new THREE.Mesh(moves ? posed(node) : node.geometry, material);
+      if (!moves) mesh.applyMatrix4(node.matrixWorld);
       mesh.updateMatrixWorld(true);
       out.add(mesh);
     };

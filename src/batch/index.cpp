@@ -58,10 +58,10 @@ std::string to_html(const Summary& summary) {
         const std::string code_text =
             out.verdict == Outcome::Verdict::ok || out.exit_code != 0 ? std::to_string(out.exit_code) : "";
         rows += fmt::format(
-            "<tr>{}{}{}{}{}{}{}{}</tr>\n", picture_cell(asset, out, bytes),
+            "<tr>{}{}{}{}{}{}{}<td class=\"notes\">{}</td></tr>\n", picture_cell(asset, out, bytes),
             cell(fmt::format("<span class=\"{}\">{}</span>", kind_of(out), verdict_word(out.verdict))),
             cell(code(asset.name)), number_cell(code_text), number_cell(grouped(out.faces_in)),
-            number_cell(grouped(out.faces_out)), number_cell(sized(out.bytes)), cell(notes_of(out)));
+            number_cell(grouped(out.faces_out)), number_cell(sized(out.bytes)), notes_of(out));
     }
     const bool good = count(summary, Outcome::Verdict::ok) == summary.assets.size();
     std::string page = report::html_begin(summary.pipeline, fmt::format("{} assets", summary.assets.size()));

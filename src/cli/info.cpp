@@ -8,6 +8,7 @@
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
 #include "io/gltf/looks.hpp"
+#include "io/gltf/pose.hpp"
 #include "io/outputs.hpp"
 #include "io/png.hpp"
 #include "report/contents.hpp"
@@ -179,7 +180,8 @@ Picture info_picture(const Scene& scene, const Console& console) {
     io::LookReader reader;
     settings.looks = reader.looks(scene, warnings);
     for (const auto& warning : warnings) console.diagnostic(warning);
-    return picture_of(scene, settings);
+    const auto posed = io::posed(scene);
+    return picture_of(posed ? *posed : scene, settings);
 }
 
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,

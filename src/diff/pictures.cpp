@@ -2,6 +2,7 @@
 
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
+#include "io/gltf/pose.hpp"
 #include "io/png.hpp"
 #include "report/deviation_view.hpp"
 #include "report/viewer.hpp"
@@ -38,12 +39,16 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     PictureSettings settings;
     settings.width = 640;
     settings.height = 480;
-    Camera camera = camera_of(a);
+    // Distances are those of the meshes, in bind pose; what is seen is the pose.
+    const auto posed_a = io::posed(a), posed_b = io::posed(b);
+    const Scene &seen_a = posed_a ? *posed_a : a, &seen_b = posed_b ? *posed_b : b;
+    Camera camera = camera_of(seen_a);
     settings.camera = camera;
-    camera.seen.add(camera_of(b, settings).seen);
+    camera.seen.add(camera_of(seen_b, settings).seen);
     settings.camera = camera;
     const auto looks_a = looks_of(a), looks_b = looks_of(b);
-    ComparisonPictures out{png_of(a, settings, looks_a), png_of(b, settings, looks_b), {}, {}, {}};
+    ComparisonPictures out{png_of(seen_a, settings, looks_a), png_of(seen_b, settings, looks_b), {}, {}, {}};
+    if (posed_a || posed_b) settings.camera.reset();
     const Surface surface_a = surface_or_points_of(a, filled_surface),
                   surface_b = surface_or_points_of(b, filled_surface);
     const FaceTree tree(surface_a, FaceTree::Use::near);

@@ -125,11 +125,12 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
     out += compared_figure(picture("second", name_b, pictures.b), "first", name_b,
                            fmt::format("{}; left of the slider {}", name_b, name_a)) +
            "</div>\n" + viewer_section(pictures.view);
+    if (pictures.backward || pictures.forward) out += "<h2>Signed distances</h2>\n";
     if (pictures.backward)
-        out += "<h2>Distances of the second from the first</h2>\n" +
+        out += "<h3>Distances of the second from the first</h3>\n" +
                deviation_html(*pictures.backward, "backward", "the second file");
     if (pictures.forward)
-        out += "<h2>Distances of the first from the second</h2>\n" +
+        out += "<h3>Distances of the first from the second</h3>\n" +
                deviation_html(*pictures.forward, "forward", "the first file");
     out += overview_html(comparison);
     for (const char* section : comparison_sections)

@@ -12,6 +12,13 @@ namespace facetmill {
 /// The inverse of an affine map; none when it is singular.
 std::optional<Transform> inverse(const Transform& t);
 
+/// Of a direction that is perpendicular to what the transform moves: the cofactors times it.
+inline Vec3 moved_normal(const Transform& t, const Vec3& n) {
+    const Vec3 x{t.m[0][0], t.m[0][1], t.m[0][2]}, y{t.m[1][0], t.m[1][1], t.m[1][2]},
+        z{t.m[2][0], t.m[2][1], t.m[2][2]};
+    return {dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n)};
+}
+
 /// The vector turned about a unit axis, in radians, anticlockwise seen against the axis. After O. Rodrigues,
 /// "Des lois geometriques qui regissent les deplacements d'un systeme solide dans l'espace" (1840).
 inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {

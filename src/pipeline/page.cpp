@@ -1,6 +1,7 @@
 #include "pipeline/page.hpp"
 
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/gltf/pose.hpp"
 #include "io/png.hpp"
 #include "mesh/face.hpp"
 #include "report/check_text.hpp"
@@ -114,7 +115,8 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
         return;
     }
     PictureSettings settings = sized_for_page();
-    settings.camera = camera_for(scene);
+    const auto posed = io::posed(scene);
+    settings.camera = camera_for(posed ? *posed : scene);
     std::string shown = report::scene_picture(scene, settings, looks_);
     if (shown == last_picture_) return;
     bytes_ += shown.size();
@@ -128,7 +130,8 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
         record_.pictures_left_out += 3;
     else
         settings = sized_for_page();
-    if (settings) settings->camera = camera_for(scene);
+    if (settings && !io::posed(scene))
+        settings->camera = camera_for(scene); // distances are those in bind pose
     auto view =
         report::deviation_view(scene, {from.name, from.surface->bounds().diagonal(), from.tree()}, settings);
     bytes_ += view.picture.size() + view.behind.size() + view.close.size();

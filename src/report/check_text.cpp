@@ -1,6 +1,7 @@
 #include "report/check_text.hpp"
 
 #include "base/numbers.hpp"
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 
 #include <algorithm>
@@ -113,7 +114,8 @@ std::string margin_text(const Check& check) {
     if (!std::isfinite(margin)) return {};
     const std::string share =
         limit != 0 ? fmt::format(" ({:.3g} % of the limit)", 100 * std::abs(margin / limit)) : "";
-    const std::string amount = fmt::format("{:.6g}", std::abs(margin));
+    const std::string amount = count ? grouped(static_cast<std::uint64_t>(std::abs(margin)))
+                                     : fmt::format("{:.6g}", std::abs(margin));
     if (margin >= 0) return margin == 0 ? "none" : fmt::format("{} to spare{}", amount, share);
     if (count) return fmt::format("{} too {}{}", amount, below < above ? "many" : "few", share);
     return fmt::format("{} too {}{}", amount, below < above ? "much" : "little", share);

@@ -1,5 +1,6 @@
 #include "report/scene_picture.hpp"
 
+#include "io/gltf/pose.hpp"
 #include "io/png.hpp"
 
 namespace facetmill::report {
@@ -7,7 +8,8 @@ namespace facetmill::report {
 std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks) {
     std::vector<Diagnostic> ignored;
     settings.looks = looks.looks(scene, ignored);
-    return io::base64(io::png(picture_of(scene, settings)));
+    const auto posed = io::posed(scene);
+    return io::base64(io::png(picture_of(posed ? *posed : scene, settings)));
 }
 
 std::string small_picture(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/signed_distances.hpp"
 #include "io/encode_image.hpp"
+#include "io/gltf/pose.hpp"
 #include "io/png.hpp"
 #include "report/viewer_data.hpp"
 #include "report/viewer_script.hpp"
@@ -87,9 +88,12 @@ void ViewedScenes::add_after(const Scene& scene, const std::string& name,
     scenes_.push_back(std::move(*json));
 }
 
-std::optional<Json> ViewedScenes::packed(const Scene& scene, const std::string& name,
+std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& name,
                                          const std::shared_ptr<const MaterialLooks>& looks,
                                          const FaceTree* from) {
+    const auto posed = io::posed(given);
+    const Scene& scene = posed ? *posed : given;
+    if (posed) from = nullptr; // distances are those in bind pose
     const Preview preview = preview_of(scene, {faces_, looks});
     if (preview.mesh.vertex_count() == 0) return {};
     std::vector<float> distances;

@@ -318,6 +318,9 @@ TEST_CASE("the margin of a check is what is left of its limit, or missing", "[re
     CHECK(margin_text(check) == "2 to spare (40 % of the limit)");
     check.found = std::int64_t{9};
     CHECK(margin_text(check) == "4 too many (80 % of the limit)");
+    check.found = std::int64_t{1234567};
+    CHECK(margin_text(check).starts_with("1,234,562 too many"));
+    check.found = std::int64_t{9};
     check.min = check.max = 10;
     CHECK(margin_text(check) == "1 too few (10 % of the limit)");
     check.found = 0.5;

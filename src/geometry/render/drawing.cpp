@@ -5,6 +5,7 @@
 #include "base/portable_math.hpp"
 #include "geometry/normals/normals.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/transform.hpp"
 
 #include <fmt/format.h>
 
@@ -22,13 +23,6 @@ std::shared_ptr<const Mesh> mesh_to_draw(const Mesh& mesh, ShadingNormals normal
     Mesh own = mesh.all_triangles() ? mesh : triangles_of(mesh);
     if (smooth) give_normals(own, NormalKind::smooth, 40 * pi / 180);
     return std::make_shared<const Mesh>(std::move(own));
-}
-
-/// Of a direction that is perpendicular to what the transform moves: the cofactors times it.
-Vec3 moved_normal(const Transform& t, const Vec3& n) {
-    const Vec3 x{t.m[0][0], t.m[0][1], t.m[0][2]}, y{t.m[1][0], t.m[1][1], t.m[1][2]},
-        z{t.m[2][0], t.m[2][1], t.m[2][2]};
-    return {dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n)};
 }
 
 } // namespace

@@ -138,9 +138,13 @@ class LookBuilder {
                  fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20));
             return nullptr;
         }
+        if (size && size->first > max_pixels / std::max<std::size_t>(1, size->second)) {
+            warn(place.path(), fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second));
+            return nullptr;
+        }
         auto pixels = decoded_image(*bytes);
         if (!pixels) {
-            warn(place.path(), "it is broken, larger than 2^26 pixels, or neither PNG nor JPEG nor WebP");
+            warn(place.path(), "it is broken, or neither PNG nor JPEG nor WebP");
             return nullptr;
         }
         auto image = texture_image(static_cast<int>(pixels->width), static_cast<int>(pixels->height),

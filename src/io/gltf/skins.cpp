@@ -3,6 +3,8 @@
 // C * joint's world by a node above their roots, and the inverse bind matrices B become B * inverse(C): the
 // sum is moved by C in every pose.
 
+#include "io/gltf/skins.hpp"
+
 #include "io/gltf/patch.hpp"
 
 #include <algorithm>
@@ -27,7 +29,8 @@ std::set<std::size_t> roots_of(const Json& document, const std::vector<NodeFrame
     return roots;
 }
 
-/// The inverse bind matrices of a skin, 16 numbers each, column by column.
+} // namespace
+
 std::vector<float> bind_matrices(Source& source, const Place& skin, std::size_t joints) {
     if (const auto reference = skin.find("inverseBindMatrices")) {
         const Accessor a = accessor(source, *reference);
@@ -46,6 +49,8 @@ Transform from_columns(const float* m) {
         for (std::size_t column = 0; column < 4; ++column) t.m[row][column] = m[4 * column + row];
     return t;
 }
+
+namespace {
 
 void to_columns(const Transform& t, float* m) {
     for (std::size_t row = 0; row < 3; ++row)

@@ -13,6 +13,8 @@ occlusion textures (PNG, JPEG, WebP) with wrap, filter and KHR_texture_transform
 blending, vertex colours, KHR_materials_unlit; colours are mixed in linear light. Metalness and
 roughness are ignored, because there is no environment map. Where a texture cannot be drawn
 (missing, broken, more than 2^26 pixels), the plain colour is drawn, with a warning (W-TEXTURE).
+Skinned parts are drawn as the nodes place their joints, and morphed parts by their default weights,
+as viewers show them before anything plays; other stages work on the bind pose.
 
 The front is towards +z if y points up (glTF), and towards -y if z does. If the file does not say
 which axis is up, the scene stands on its flat base, if it has one; otherwise the longer of the y

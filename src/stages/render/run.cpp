@@ -1,5 +1,6 @@
 #include "base/progress.hpp"
 #include "io/gltf/looks.hpp"
+#include "io/gltf/pose.hpp"
 #include "io/png.hpp"
 #include "stages/render/help.hpp"
 #include "stages/render/options.hpp"
@@ -10,7 +11,9 @@ namespace facetmill::render_stage {
 
 namespace {
 
-Picture taken(const RenderOptions& o, const Scene& scene, Context& context) {
+Picture taken(const RenderOptions& o, const Scene& given, Context& context) {
+    const std::optional<Scene> posed = io::posed(given);
+    const Scene& scene = posed ? *posed : given;
     io::LookReader reader;
     std::vector<Diagnostic> warnings;
     std::shared_ptr<const MaterialLooks> looks;

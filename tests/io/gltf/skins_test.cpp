@@ -2,6 +2,7 @@
 #include "io/convert.hpp"
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/nodes.hpp"
+#include "io/gltf/pose.hpp"
 #include "io/read_back.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
@@ -90,6 +91,28 @@ TEST_CASE("a skinned part that is moved plays as before, where it is now", "[io]
         const Json json = Json::parse(again.documents[0]->json);
         CHECK(json["nodes"][2] == Json::parse(leg)["nodes"][2]); // joints and animations are as they were
         CHECK(json["animations"][0]["channels"] == Json::parse(leg)["animations"][0]["channels"]);
+    }
+}
+
+TEST_CASE("pictures show skinned parts as the nodes place their joints", "[io]") {
+    Json json = Json::parse(leg);
+    json["nodes"][2]["translation"] = {3, 1, 0};
+    json["nodes"][2]["rotation"] = {0, 0, 0.6, 0.8};
+    const Scene scene = test::read_text(json.dump());
+    const auto seen = io::posed(scene);
+    REQUIRE(seen);
+    check_same(seen->parts.at(0).mesh.positions, posed(scene, {3, 1, 0}));
+    CHECK(seen->parts[0].mesh.positions[2] != scene.parts[0].mesh.positions[2]);
+    CHECK(seen->parts.at(1).mesh.positions == scene.parts.at(1).mesh.positions);
+    // A joint that is no node, and matrices that are no matrices: drawn as it is.
+    for (const char* member : {"joints", "inverseBindMatrices"}) {
+        Scene broken = scene;
+        json["skins"][0][member] = member[0] == 'j' ? Json{1, 99} : Json(0);
+        Document document = *scene.documents.at(0);
+        document.json = json.dump();
+        broken.documents[0] = std::make_shared<const Document>(std::move(document));
+        CHECK_FALSE(io::posed(broken));
+        json = Json::parse(scene.documents.at(0)->json);
     }
 }
 
