@@ -86,7 +86,8 @@ void check_finite(const Part& part, const std::string& name) {
     const Vec3& p = positions[first];
     throw Error(ErrorKind::malformed, "E-NAN",
                 fmt::format("vertex {} of part '{}' in '{}' is ({}, {}, {}), expected finite numbers", first,
-                            part.name, name, p.x, p.y, p.z));
+                            part.name, name, p.x, p.y, p.z),
+                "correct that vertex, or export the file again");
 }
 
 /// Beyond this size, or below one over it, what stages compute from products of coordinates may overflow or

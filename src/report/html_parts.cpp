@@ -29,7 +29,7 @@ code, pre { font-family: ui-monospace, SFMono-Regular, Menlo, Consolas, monospac
 pre { background: var(--soft); border-radius: .4rem; padding: .7rem .9rem; overflow-x: auto; margin: .3rem 0; }
 .good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { color: var(--quiet); }
 p.soft { font-size: .88rem; max-width: 46rem; } td:first-child span { white-space: nowrap; }
-td.notes { min-width: 15rem; } .digest code { overflow-wrap: anywhere; display: inline-block; min-width: 18em; font-size: .78em; }
+td.notes { min-width: 22rem; } .digest code { overflow-wrap: anywhere; display: inline-block; min-width: 18em; font-size: .78em; }
 .badge { font-size: .82rem; font-weight: 600; border: 1px solid; border-radius: 1rem; padding: .02rem .55rem; }
 .verdict { font-weight: 600; padding: .75rem 1.1rem; background: var(--soft); border-left: .3rem solid;
   border-radius: .3rem; margin: 1.1rem 0 .4rem; }

@@ -139,7 +139,8 @@ class LookBuilder {
             return nullptr;
         }
         if (size && size->first > max_pixels / std::max<std::size_t>(1, size->second)) {
-            warn(place.path(), fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second));
+            warn(place.path(),
+                 fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second));
             return nullptr;
         }
         auto pixels = decoded_image(*bytes);
