@@ -8,6 +8,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <thread>
 
 namespace facetmill {
@@ -19,9 +20,22 @@ namespace {
 std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global_control>;
 int count = 0;
 
+/// TBB begins with requests for memory under locks that it takes again to tell that there was none, and so
+/// would wait for itself for ever (oneTBB 2022). It begins here, where there is room, and does not end.
+void begin_tbb() {
+    static tbb::task_arena* kept = nullptr;
+    if (kept) return;
+    constexpr std::size_t room = std::size_t{1} << 20; // more than it takes
+    void* volatile place = ::operator new(room);       // volatile: it is not left out
+    ::operator delete(place);
+    kept = new tbb::task_arena(1);
+    kept->initialize();
+}
+
 } // namespace
 
 void set_threads(int wanted) {
+    begin_tbb();
     count = wanted > 0 ? wanted : default_threads();
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(count));

@@ -15,7 +15,8 @@
 
 namespace facetmill {
 
-/// Sets how many threads everything uses from now on; 0: all cores. Call it once, at the start.
+/// Sets how many threads everything uses from now on; 0: all cores. Call it once, at the start. Throws
+/// std::bad_alloc when there is no room for the scheduler.
 void set_threads(int count);
 int threads();
 

@@ -167,9 +167,9 @@ class Names(Tree):
         path.write_text(text.replace(old, "".join(spell(name) for name in self.NAMES)))
 
     def check_with_ninja(self, folder, *command):
-        """Before 1.12 Ninja does not read ' " & in depfiles, and makes what has them again every time."""
+        """Before 1.13 Ninja does not read ' " & in depfiles, and makes what has them again every time."""
         version = subprocess.run(["ninja", "--version"], capture_output=True, text=True).stdout
-        old = tuple(map(int, version.split(".")[:2])) < (1, 12)
+        old = tuple(map(int, version.split(".")[:2])) < (1, 13)
         self.check(folder, *command, nothing="" if old else "no work to do")
         again = self.run_in(folder, *command)
         for name in self.NAMES:

@@ -6,6 +6,7 @@ namespace tbb {
 class task_arena {
   public:
     explicit task_arena(int) {}
+    void initialize() {}
     template <class Body>
     void execute(const Body& body) {
         body();
