@@ -6,7 +6,8 @@
 Each scenario runs once to count its calls; then once for each call that fails (at most --points a class, evenly spread).
 What must hold: no crash, no hang; an exit code that fits; a message that names the file; outputs all new or all as they
 were; inputs untouched; no temporary left; and the next run without faults succeeds and leaves exactly what a run in a
-fresh folder leaves. With --kill the process is killed just before each call instead. FACETMILL and FACETMILL_INJECTOR
+fresh folder leaves. With --kill the process is killed just before each call instead; between the renames that give
+several outputs their names, some may be new then and the others old. FACETMILL and FACETMILL_INJECTOR
 name the executable and the shared library of inject.c.
 """
 
@@ -121,8 +122,18 @@ class Trial:
         assert code == 0, said
         return [(line[2], os.path.normpath(folder / line[3])) for line in lines if line[2]]
 
-    def group_problems(self, there):
-        for group in self.scenario.groups:
+    @functools.cached_property
+    def naming(self):
+        """The numbers of the calls after the first of the renames that give outputs their names, up to the last one."""
+        outputs = {os.path.normpath(self.room / "work" / name) for group in self.scenario.groups for name in group}
+        renames = [n for n, (call, path) in enumerate(self.trace(), 1)
+                   if call.startswith("rename") and path in outputs]
+        return range(renames[0] + 1, renames[-1] + 1) if renames else range(0)
+
+    def group_problems(self, there, singly=False):
+        """singly: each file may be old or new."""
+        groups = self.scenario.groups
+        for group in ([name] for names in groups for name in names) if singly else groups:
             is_old = all(there.get(name) == self.old.get(name) for name in group)
             is_new = all(there.get(name) == self.new.get(name) for name in group)
             if not (is_old or is_new):
@@ -160,6 +171,7 @@ class Trial:
 
     def judge(self, fault, expect_kill=False):
         """What is wrong after a run with that fault, and the call that failed."""
+        naming = self.naming if expect_kill else ()  # before the folder is made, since it takes a run
         folder = self.fresh()
         code, said, lines = self.run(folder, self.scenario.command, fault)
         failed = lines[0] if lines else None
@@ -175,7 +187,7 @@ class Trial:
             problems.append(f"exit code {code}")
         told_loss = code == 0 and failed[0] == "stat" and "warning[W-IMAGE]" in said
         if not told_loss:
-            problems += self.group_problems(there)
+            problems += self.group_problems(there, killed and int(fault.split()[1]) in naming)
         if failed[0] != "unlink" or expect_kill:
             problems += self.left_problems(there, killed)
         if not expect_kill:

@@ -9,12 +9,12 @@ data=$here/../data/fuzz
 runs=build/fuzz/runs
 
 if [ "$1" = table ]; then
-    echo "| target | executions | hours of the processor | edges reached |"
+    echo "| target | executions | minutes of the processor | edges reached |"
     echo "|---|---|---|---|"
     sort "$runs" | awk '
         { executions[$1] += $2; seconds[$1] += $3; if ($4 > edges[$1]) edges[$1] = $4; e += $2; s += $3; if (!seen[$1]++) order[++n] = $1 }
-        END { for (i = 1; i <= n; i++) { t = order[i]; printf "| %s | %d | %.2f | %d |\n", t, executions[t], seconds[t] / 3600, edges[t] }
-              printf "| all | %d | %.2f | |\n", e, s / 3600 }'
+        END { for (i = 1; i <= n; i++) { t = order[i]; printf "| %s | %d | %.1f | %d |\n", t, executions[t], seconds[t] / 60, edges[t] }
+              printf "| all | %d | %.1f | |\n", e, s / 60 }'
     exit 0
 fi
 
@@ -30,7 +30,7 @@ fi
 look_at_clock() {
     times >build/fuzz/times
     spent=$(awk 'NR == 2 { split($1, u, /[ms]/); split($2, s, /[ms]/)
-                           printf "%d", 60 * (u[1] + s[1]) + u[2] + s[2] }' build/fuzz/times)
+                           printf "%.2f", 60 * (u[1] + s[1]) + u[2] + s[2] }' build/fuzz/times)
 }
 
 # Another target reads the same language.
@@ -59,7 +59,7 @@ for target in $targets; do
     executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -1)
     look_at_clock
-    echo "$target ${executions:-0} $((spent - before)) ${edges:-0}" >>"$runs"
+    echo "$target ${executions:-0} $(echo "$spent $before" | awk '{ printf "%.2f", $1 - $2 }') ${edges:-0}" >>"$runs"
     echo "$target: ${executions:-0} executions, ${edges:-0} edges reached, $(find "$found" -type f ! -name log | wc -l) found"
 done
 exit $status

@@ -13,7 +13,14 @@
 #include <sys/resource.h>
 #include <sys/time.h>
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) // GCC
+#define WITH_SANITIZER 1
+#elif defined(__has_feature) // Clang
+#define WITH_SANITIZER __has_feature(address_sanitizer)
+#else
+#define WITH_SANITIZER 0
+#endif
+#if WITH_SANITIZER
 #include <sanitizer/common_interface_defs.h>
 #endif
 
@@ -83,7 +90,7 @@ int main(int count, char** arguments) {
     }
     for (const int number : {SIGPROF, SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
         std::signal(number, on_signal);
-#ifdef __SANITIZE_ADDRESS__
+#if WITH_SANITIZER
     __sanitizer_set_death_callback(tell_current);
 #endif
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
