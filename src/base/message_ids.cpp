@@ -240,9 +240,8 @@ std::span<const MessageId> message_ids() {
          "Simplify earlier, or use fewer threads or a machine with more memory."},
         {"E-MESHOPT",
          {Kind::malformed},
-         "Data under EXT_meshopt_compression or KHR_meshopt_compression cannot be decoded: it is damaged, or "
-         "uses a newer version than the library supports.",
-         "Export the input again without it, or with streams of version 0."},
+         "Data under EXT_meshopt_compression or KHR_meshopt_compression cannot be decoded: it is damaged.",
+         "Export the input again."},
         {"E-MISSING",
          {Kind::usage},
          "A required option or key is missing.",

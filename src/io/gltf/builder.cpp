@@ -160,6 +160,7 @@ std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing
     constexpr std::size_t json_bytes = 160; // that the extension's object takes
     std::vector<Bytes> packed(old_view_.size());
     std::vector<Span> plain(old_view_.size());
+    const int version = meshopt_.extension == MeshoptSettings::Extension::khr ? 1 : 0;
     for (std::size_t i = 0; i < plain.size() && i < how.size(); ++i) {
         const auto added = new_views_.find(old_view_[i]);
         if (!how[i] || passes_through(i)) continue;
@@ -171,7 +172,7 @@ std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing
         packed.size(),
         [&](std::size_t i) {
             if (plain[i].empty()) return;
-            Bytes stream = encode_meshopt(plain[i], *how[i]);
+            Bytes stream = encode_meshopt(plain[i], *how[i], version);
             if (!how[i]->filter.empty() || stream.size() + json_bytes < plain[i].size())
                 packed[i] = std::move(stream);
         },

@@ -1,6 +1,7 @@
 #include "io/gltf/compress.hpp"
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/attribute_stream.hpp"
 #include "io/gltf/builder.hpp"
 
 #include <algorithm>
@@ -174,7 +175,9 @@ std::vector<std::optional<Packing>> packings(const Json& document,
     return all;
 }
 
-Bytes encode_meshopt(Span bytes, const Packing& packing) {
+Bytes encode_meshopt(Span bytes, const Packing& packing, int version) {
+    if (packing.mode == "ATTRIBUTES" && version == 1)
+        return encode_attribute_stream(bytes, packing.count, packing.stride);
     choose_versions();
     Bytes out;
     const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());

@@ -23,8 +23,9 @@ struct Packing {
 std::vector<std::optional<Packing>> packings(const Json& document,
                                              const std::map<std::size_t, std::string>& filters);
 
-/// The view's bytes as a stream of version 0 (ATTRIBUTES) or 1 (indices), which both extensions have.
-Bytes encode_meshopt(Span bytes, const Packing& packing);
+/// The view's bytes as a stream: attributes in this version, 0 or 1 (KHR_meshopt_compression alone has 1),
+/// indices in version 1.
+Bytes encode_meshopt(Span bytes, const Packing& packing, int version);
 
 /// The extension's object in a view, of either name; null when there is none.
 const Json* compression_of(const Json& view);

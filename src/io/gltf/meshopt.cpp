@@ -1,6 +1,7 @@
 #include "io/gltf/accessor.hpp"
 
 #include "base/parallel.hpp"
+#include "io/gltf/attribute_stream.hpp"
 
 #include <bit>
 #include <cstring>
@@ -19,7 +20,8 @@ struct Compressed {
 };
 
 /// The decoders check their input, but their preconditions are only assertions, and count decides how much
-/// memory is taken: both are checked here. A byte of input gives at most 64 of output (attributes), a
+/// memory is taken: both are checked here. A byte of input gives at most 64 of output (attributes; 1024 in
+/// version 1), a
 /// triangle or an index.
 void check(const Place& place, const Compressed& c) {
     const auto refuse = [&](const std::string& why) { place.fail(why, "E-MESHOPT"); };
@@ -31,16 +33,12 @@ void check(const Place& place, const Compressed& c) {
     if (!attributes && c.stride != 2 && c.stride != 4)
         refuse(fmt::format("byteStride {} is neither 2 nor 4", c.stride));
     if (triangles && c.count % 3 != 0) refuse(fmt::format("count {} is not a multiple of 3", c.count));
-    const std::size_t most = attributes  ? (c.bytes.size() + 256) * 64 / c.stride
-                             : triangles ? c.bytes.size() * 3
-                                         : c.bytes.size();
+    const std::size_t most = attributes && is_attribute_stream_1(c.bytes)
+                                 ? most_elements_in_stream(c.bytes.size(), c.stride)
+                             : attributes ? (c.bytes.size() + 256) * 64 / c.stride
+                             : triangles  ? c.bytes.size() * 3
+                                          : c.bytes.size();
     if (c.count > most) refuse(fmt::format("{} bytes cannot hold {} elements", c.bytes.size(), c.count));
-    if (attributes && !c.bytes.empty() && c.bytes[0] == std::byte{0xA1} && MESHOPTIMIZER_VERSION < 230)
-        place.fail(
-            fmt::format("its stream of version 1 needs meshoptimizer 0.23, and this is {}.{}",
-                        MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100),
-            "E-MESHOPT",
-            "write it with streams of version 0, or decompress it with another tool (gltf-transform copy)");
     if (c.filter == "NONE") return;
     if (!attributes) refuse("a filter needs mode ATTRIBUTES");
     if (c.filter == "OCTAHEDRAL" && c.stride != 4 && c.stride != 8)
@@ -74,6 +72,16 @@ void decode_colours(Bytes& bytes) {
     });
 }
 
+/// The numbers that a filter makes of a view's.
+Bytes filtered(Bytes out, const Compressed& c) {
+    if (c.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), c.count, c.stride);
+    if (c.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), c.count, c.stride);
+    if (c.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), c.count, c.stride);
+    if (c.filter == "COLOR" && c.stride == 4) decode_colours<std::uint8_t>(out);
+    if (c.filter == "COLOR" && c.stride == 8) decode_colours<std::uint16_t>(out);
+    return out;
+}
+
 } // namespace
 
 std::optional<Place> meshopt_extension(const Place& owner) {
@@ -91,6 +99,11 @@ Bytes decode_meshopt(Source& source, const Place& extension) {
     check(extension, c);
     source.need(static_cast<double>(c.count) * static_cast<double>(c.stride));
     Bytes out(c.count * c.stride);
+    if (c.mode == "ATTRIBUTES" && is_attribute_stream_1(c.bytes)) {
+        auto decoded = decode_attribute_stream(c.bytes, c.count, c.stride);
+        if (!decoded) extension.fail("the compressed bytes are damaged", "E-MESHOPT");
+        return filtered(std::move(*decoded), c);
+    }
     const auto* from = reinterpret_cast<const unsigned char*>(c.bytes.data());
     const int failed = c.mode == "ATTRIBUTES"
                            ? meshopt_decodeVertexBuffer(out.data(), c.count, c.stride, from, c.bytes.size())
@@ -100,12 +113,7 @@ Bytes decode_meshopt(Source& source, const Place& extension) {
     if (failed)
         extension.fail(fmt::format("the compressed bytes are damaged (meshoptimizer says {})", failed),
                        "E-MESHOPT");
-    if (c.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), c.count, c.stride);
-    if (c.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), c.count, c.stride);
-    if (c.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), c.count, c.stride);
-    if (c.filter == "COLOR" && c.stride == 4) decode_colours<std::uint8_t>(out);
-    if (c.filter == "COLOR" && c.stride == 8) decode_colours<std::uint16_t>(out);
-    return out;
+    return filtered(std::move(out), c);
 }
 
 } // namespace facetmill::io::gltf

@@ -79,7 +79,8 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
     d.choice<Extension>(
         "extension", &MeshoptOptions::extension,
         {{"EXT", Extension::ext, "EXT_meshopt_compression, which readers have known since 2020"},
-         {"KHR", Extension::khr, "KHR_meshopt_compression, with the same streams (version 0)"}},
+         {"KHR", Extension::khr,
+          "KHR_meshopt_compression, with streams of version 1: smaller files for newer readers"}},
         "The name of the extension under which the compressed data is stored.");
     d.option("filters", &MeshoptOptions::filters,
              "Encodes normals and tangents on an octahedron, rotations of animations and instances in 16 "

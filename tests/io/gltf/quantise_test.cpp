@@ -369,11 +369,11 @@ TEST_CASE("rotations and paths of animations are compressed within 16 bits", "[i
     }
 }
 
-TEST_CASE("KHR_meshopt_compression is read, colours too, and version 1 is refused by name", "[io]") {
+TEST_CASE("KHR_meshopt_compression is read, colours and streams of version 1, too", "[io]") {
     // Two colours of 8 bits: luma, two chrominances, alpha below a bit.
     const std::vector<std::uint8_t> coded = {100, 10, 246, 0x80 | 0x7F, 50, 0, 0, 0x80 | 0x00};
     io::Bytes bytes =
-        io::gltf::encode_meshopt(std::as_bytes(std::span(coded)), {"ATTRIBUTES", "COLOR", 4, 2});
+        io::gltf::encode_meshopt(std::as_bytes(std::span(coded)), {"ATTRIBUTES", "COLOR", 4, 2}, 0);
     const auto document = [&] {
         return Json{{"bufferViews",
                      {{{"buffer", 1},
@@ -394,14 +394,32 @@ TEST_CASE("KHR_meshopt_compression is read, colours too, and version 1 is refuse
     const std::vector<int> wanted = {120, 90, 100, 255, 50, 50, 50, 0};
     for (std::size_t i = 0; i < 8; ++i) CHECK(std::to_integer<int>(view[i]) == wanted[i]);
 
-    const std::vector<io::Bytes> newer{[&] {
-                                           io::Bytes copy = bytes;
-                                           copy[0] = std::byte{0xA1};
-                                           return copy;
-                                       }(),
-                                       {}};
-    io::gltf::Source refused(json, newer);
-    CHECK_THROWS_AS(refused.view(std::size_t{0}), Error);
+    bytes = io::gltf::encode_meshopt(std::as_bytes(std::span(coded)), {"ATTRIBUTES", "COLOR", 4, 2}, 1);
+    const Json json_1 = document();
+    std::vector<io::Bytes> newer{bytes, {}};
+    io::gltf::Source source_1(json_1, newer);
+    const auto view_1 = source_1.view(std::size_t{0});
+    for (std::size_t i = 0; i < 8; ++i) CHECK(std::to_integer<int>(view_1[i]) == wanted[i]);
+    newer[0][1] = std::byte{0x55};
+    io::gltf::Source damaged(json_1, newer);
+    CHECK_THROWS_AS(damaged.view(std::size_t{0}), Error);
+}
+
+TEST_CASE("KHR_meshopt_compression has streams of version 1, which are smaller", "[io]") {
+    io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+    Scene scene = test::scene_in_metres(shapes::torus(160, 80));
+    settings.meshopt.on = true;
+    const std::size_t old = test::written(scene, "glb", settings).files[0].bytes.size();
+    settings.meshopt.extension = io::MeshoptSettings::Extension::khr;
+    const io::Written written = test::written(scene, "glb", settings);
+    CHECK(static_cast<double>(written.files[0].bytes.size()) < 0.95 * static_cast<double>(old));
+    const Part part = test::read_bytes(written.files[0].bytes, "glb").parts.at(0);
+    CHECK(part.mesh.face_count() == scene.parts[0].mesh.face_count());
+    // Under the other name it is decompressed and written anew.
+    settings.meshopt.extension = io::MeshoptSettings::Extension::ext;
+    const io::Written again = test::written(test::read_bytes(written.files[0].bytes, "glb"), "glb", settings);
+    CHECK(json_of(again)["extensionsRequired"].dump().find("EXT_meshopt") != std::string::npos);
+    CHECK(again.files[0].bytes.size() < old + old / 20);
 }
 
 TEST_CASE("write refuses quantize and meshopt beside draco", "[stages]") {
