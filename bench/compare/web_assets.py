@@ -43,7 +43,11 @@ def tools(facetmill, npm):
         found = shutil.which(name) if name == "gltfpack" else None
         return found or shutil.which(name, path=str(npm / "node_modules/.bin") if npm else None)
     own = [str(facetmill), "pipe", "-q", "load", "IN", "!"]
-    optimize = ["optimize", "--palette", "--drop_attributes", "!"]
+    # What the pipeline web does with images=keep: their pixels stay.
+    optimize = ["clean", "--weld", "exact", "--non_manifold", "false", "!",
+                "optimize", "--palette", "--drop_attributes", "!"]
+    repack = ["textures", "--repack", "!"]
+    position = str(BITS["position"])
     web = ["textures", "2048", "--format", "webp", "!"]
     draco_bits = ["--quantize-position", BITS["position"], "--quantize-normal", BITS["normal"], "--quantize-texcoord",
                   BITS["uv"], "--quantize-color", BITS["colour"], "--quantize-generic", BITS["generic"]]
@@ -53,13 +57,19 @@ def tools(facetmill, npm):
     whole = ["--texture-compress", "webp", "--simplify", "false", "--compress"]
     all_of_them = {
         "draco": {"facetmill": [*own, "write", "OUT", "--draco"],
-                  "facetmill optimize": [*own, *optimize, "write", "OUT", "--draco"],
+                  "facetmill web": [*own, *optimize, *repack, "write", "OUT", "--draco.position_bits", position],
                   "gltf-transform draco": ["gltf-transform", "draco", "IN", "OUT", *draco_bits],
                   "gltf-pipeline -d": ["gltf-pipeline", "-i", "IN", "-o", "OUT", "-d", *pipeline_bits]},
         "meshopt": {"facetmill": [*own, "write", "OUT", "--meshopt"],
-                    "facetmill optimize": [*own, *optimize, "write", "OUT", "--meshopt"],
+                    "facetmill web": [*own, *optimize, *repack, "write", "OUT", "--meshopt", "--quantize.position",
+                                      position],
                     "gltf-transform meshopt": ["gltf-transform", "meshopt", "IN", "OUT"],
-                    "gltfpack -cc": ["gltfpack", "-cc", "-i", "IN", "-o", "OUT"]},
+                    "gltfpack -cc": ["gltfpack", "-cc", "-i", "IN", "-o", "OUT"],
+                    "gltfpack -cc -kn -km -ke": ["gltfpack", "-cc", "-kn", "-km", "-ke", "-i", "IN", "-o", "OUT"]},
+        "meshopt, version 1": {
+            "facetmill web, KHR": [*own, *optimize, *repack, "write", "OUT", "--meshopt.extension", "KHR",
+                                   "--quantize.position", position],
+            "gltfpack -cz": ["gltfpack", "-cz", "-i", "IN", "-o", "OUT"]},
         "whole, draco": {"facetmill": [*own, *optimize, *web, "write", "OUT", "--draco"],
                          "gltf-transform optimize": ["gltf-transform", "optimize", "IN", "OUT", *whole, "draco"]},
         "whole, meshopt": {"facetmill": [*own, *optimize, *web, "write", "OUT", "--meshopt"],
@@ -96,7 +106,7 @@ class Comparison:
     def __init__(self, options):
         self.facetmill = (options.build / "facetmill").resolve()
         self.npm = options.npm and options.npm.resolve()
-        self.python, self.repeat = options.python, options.repeat
+        self.python, self.repeat, self.pictures = options.python, options.repeat, not options.no_pictures
         self.folder = pathlib.Path(options.keep or tempfile.mkdtemp())
         self.folder.mkdir(parents=True, exist_ok=True)
 
@@ -125,6 +135,8 @@ class Comparison:
         return measured and 1e4 * measured["percent"]["maximum"]
 
     def picture(self, before, after):
+        if not self.pictures:
+            return math.nan
         files = [before.with_suffix(".png"), after.with_suffix(".png")]
         for glb, png in zip((before, after), files):
             if glb is after or not png.exists():
@@ -151,6 +163,13 @@ def mean(numbers):
     return math.exp(sum(logarithms) / len(logarithms)) if logarithms else math.nan
 
 
+def told(made):
+    """Bytes, and in brackets what was measured."""
+    measured = [f"{made[key]:.{digits}f}" for key, digits in (("deviation", 0), ("picture", 2))
+                if made[key] is not None and not math.isnan(made[key])]
+    return f"{made['bytes']:,}" + (f" ({', '.join(measured)})" if measured else "")
+
+
 def print_assets(group, rows):
     """A line for each asset: bytes, deviation and picture of each tool."""
     names = list(rows)
@@ -160,7 +179,7 @@ def print_assets(group, rows):
         cells = []
         for name in names:
             made = rows[name][asset]["made"]
-            cells.append(f"{made['bytes']:,} ({made['deviation'] or math.nan:.0f}, {made['picture']:.2f})" if made else "none")
+            cells.append(told(made) if made else "none")
         print(f"| {asset} | {rows[names[0]][asset]['before']:,} | " + " | ".join(cells) + " |")
 
 
@@ -185,6 +204,7 @@ def main():
     add_common_options(ask, repeat=1)
     ask.add_argument("--npm", type=pathlib.Path, help="the folder that has node_modules")
     ask.add_argument("--keep", help="a folder for all files that are made")
+    ask.add_argument("--no-pictures", action="store_true", help="does not render what was made")
     ask.add_argument("--group", action="append", help="only these comparisons")
     ask.add_argument("assets", nargs="+", type=pathlib.Path)
     options = ask.parse_args()
