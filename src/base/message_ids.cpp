@@ -45,7 +45,8 @@ std::span<const MessageId> message_ids() {
          "A mesh that is larger than the memory given is to be processed in cells on disk, and a stage, an "
          "option "
          "or the format of the file needs all of it at once.",
-         "Put simplify before the stage, write the file as binary PLY or STL, or give more `--memory`; "
+         "Put simplify or clip before the stage, write the file as binary PLY or STL, or give more "
+         "`--memory`; "
          "docs/large-meshes.md says what works on cells."},
         {"E-CHANGED",
          {Kind::malformed},

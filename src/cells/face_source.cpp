@@ -19,6 +19,23 @@ namespace {
 
 enum class Format { none, ply, stl, obj, off, gltf };
 
+/// Mapped, so that only what is looked at takes memory. The file must be none that is_packed.
+io::Input open_mapped(const std::filesystem::path& path) {
+    constexpr std::size_t smallest = std::size_t{1} << 16;
+    return io::Input::open(path, smallest);
+}
+
+/// Whether it is compressed, under whatever name.
+bool is_packed(const std::filesystem::path& path) {
+    if (io::packing_named(path) != io::Packing::none) return true;
+    constexpr std::uintmax_t magic = 8;
+    std::error_code error;
+    io::Bytes first(std::min(magic, std::filesystem::file_size(path, error)));
+    if (error) return false; // opening it will tell
+    ReadFile(path).read(0, first);
+    return io::packing_of(first) != io::Packing::none;
+}
+
 /// As io::read_scene takes it: by content where it is sure, else by the suffix.
 Format format_of(const io::Input& input) {
     const io::Codec* codec = nullptr;
@@ -42,7 +59,6 @@ bool has_other_encoding(const io::Input& input) {
 }
 
 std::optional<std::string> why_not(const io::Input& input, Format format) {
-    if (input.stored().data() != input.bytes().data()) return "it is compressed"; // under whatever name
     switch (format) {
     case Format::ply:
         return why_ply_not_streamed(input);
@@ -144,8 +160,8 @@ std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, cons
 
 std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
     if (path == "-" || io::is_stream(path)) return "it is a stream, and is read more than once";
-    if (io::packing_named(path) != io::Packing::none) return "it is compressed";
-    const io::Input input = io::Input::open(path);
+    if (is_packed(path)) return "it is compressed";
+    const io::Input input = open_mapped(path);
     return why_not(input, format_of(input));
 }
 
@@ -156,8 +172,8 @@ std::uint64_t estimated_faces(const std::filesystem::path& path) {
     if (path == "-" || io::is_stream(path)) return 0;
     const auto size = std::filesystem::file_size(path, ignored);
     if (ignored) return 0;
-    if (io::packing_named(path) != io::Packing::none) return size / packed_bytes;
-    const io::Input input = io::Input::open(path);
+    if (is_packed(path)) return size / packed_bytes;
+    const io::Input input = open_mapped(path);
     const Format format = format_of(input);
     if (format == Format::ply) return ply_faces(input);
     if (format == Format::stl) return is_text_stl(input) ? size / stl_text_bytes : stl_faces(input);
@@ -171,11 +187,11 @@ std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>&
                                        const std::filesystem::path& scratch) {
     std::vector<io::Input> inputs;
     for (const auto& path : paths) {
-        const io::Input& input = inputs.emplace_back(io::Input::open(path));
-        if (const auto why = why_not(input, format_of(input)))
+        if (const auto why = why_not_streamed(path))
             throw Error(ErrorKind::usage, "E-CELLS",
                         fmt::format("'{}' cannot be processed in cells: {}", path.string(), *why),
                         "write it as binary PLY or STL first, or use more memory");
+        inputs.push_back(open_mapped(path));
     }
     FaceSource::Contents contents;
     contents.name = paths.front().stem().string();

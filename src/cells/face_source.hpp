@@ -28,6 +28,7 @@ class FaceSource {
     struct Contents {
         std::vector<File> files;
         Box bounds;
+        std::uint64_t vertices = 0;       ///< of the files; 0 where places are what makes them
         std::vector<std::string> dropped; ///< what of the files is not carried, in words; empty: all is
         std::uint64_t skipped_faces = 0;  ///< of fewer than three corners
         std::string name;                 ///< of the mesh

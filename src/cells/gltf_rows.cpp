@@ -104,7 +104,7 @@ class GltfReader final : public RowReader {
             });
             dropped.assign(attributes.begin(), attributes.end());
             for (const auto& path : buffers_) {
-                const io::Input buffer = io::Input::open(path);
+                const io::Input buffer = io::Input::open(path, 1 << 16); // mapped
                 neighbours.push_back({buffer, digest_of(buffer)});
             }
             return digest_of(input_);

@@ -18,6 +18,8 @@ namespace {
 // Measured: the memory that simplify takes at its peak for each triangle that it is given, and what the
 // process has beside.
 constexpr std::uint64_t bytes_of_face = 300, bytes_of_process = std::uint64_t{28} << 20;
+// The same where there are more vertices than a surface that hangs together has.
+constexpr std::uint64_t bytes_of_face_alone = 200, bytes_of_vertex = 200;
 // ... and where all is in memory, with the deviation measured.
 constexpr std::uint64_t bytes_in_core = 200;
 
@@ -39,7 +41,7 @@ struct Station {
 struct Left {
     Block block;
     double error = 0;
-    std::size_t collapses = 0, turned = 0, vertices = 0;
+    std::size_t collapses = 0, turned = 0, vertices = 0, faces = 0;
 };
 
 /// Every other level of the tree, and its leaves; each after its children.
@@ -107,6 +109,7 @@ class Hierarchy {
             work(joins);
         }
         const std::size_t root = stations_.size() - 1;
+        require_room(root);
         Cell cell = cell_of(root);
         HierarchyResult result;
         result.error = error_below(root);
@@ -133,10 +136,13 @@ class Hierarchy {
     void work(const std::vector<std::size_t>& stations) {
         if (stations.empty()) return;
         std::uint64_t largest = 0;
-        for (const std::size_t s : stations) largest = std::max(largest, faces_given(s));
+        for (const std::size_t s : stations) {
+            require_room(s);
+            largest = std::max(largest, bytes_given(s));
+        }
         const std::uint64_t free = means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0;
         const std::size_t workers = static_cast<std::size_t>(std::clamp<std::uint64_t>(
-            free / std::max<std::uint64_t>(1, largest * bytes_of_face), 1,
+            free / std::max<std::uint64_t>(1, largest), 1,
             std::min<std::uint64_t>(static_cast<std::uint64_t>(threads()), stations.size())));
         std::atomic<std::size_t> next{0};
         parallel_for(
@@ -147,13 +153,30 @@ class Hierarchy {
             1);
     }
 
-    /// Faces that the station will have before it is simplified.
-    std::uint64_t faces_given(std::size_t station) const {
+    /// Bytes that simplifying the station takes.
+    std::uint64_t bytes_given(std::size_t station) const {
         const Station& s = stations_[station];
-        if (s.leaf != Tree::no_node) return s.faces;
+        if (s.leaf != Tree::no_node)
+            return s.faces * bytes_of_face_alone +
+                   s.faces * partition_.vertices() / partition_.faces() * bytes_of_vertex;
+        std::uint64_t bytes = 0;
+        for (const std::size_t child : s.children)
+            bytes += left_[child].faces * bytes_of_face_alone + left_[child].vertices * bytes_of_vertex;
+        return bytes;
+    }
+
+    /// Throws limit (E-MEMORY) where cells did not get small enough to be joined.
+    void require_room(std::size_t station) const {
+        const std::uint64_t needed = bytes_of_process + bytes_given(station);
+        if (stations_[station].leaf != Tree::no_node || needed <= means_.memory) return;
         std::uint64_t faces = 0;
-        for (const std::size_t child : s.children) faces += left_[child].vertices * 2;
-        return faces;
+        for (const std::size_t child : stations_[station].children) faces += left_[child].faces;
+        throw out_of_memory(
+            fmt::format(
+                "cells of {} triangles were simplified to {} and not further (non-manifold places, many "
+                "components and max_quadric_error hold edges); joining them needs {}, --memory gives {}",
+                grouped(stations_[station].faces), grouped(faces), sized(needed), sized(means_.memory)),
+            "give more memory, ask for more faces, or set max_quadric_error: off");
     }
 
     void settle(std::size_t station) {
@@ -165,6 +188,7 @@ class Hierarchy {
         left.collapses = r.collapses;
         left.turned = r.turned;
         left.vertices = r.mesh.vertex_count();
+        left.faces = r.mesh.face_count();
         Cell done;
         for (const Index source : r.sources) {
             const bool held = cell.home[source] != Cell::inner;

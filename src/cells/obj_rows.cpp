@@ -13,11 +13,13 @@ namespace facetmill::cells {
 namespace {
 
 constexpr std::size_t with_colour = 6; ///< numbers of a vertex
+constexpr std::size_t longest_word = 20;
 
 /// What a statement is.
 struct Statement {
     enum class Kind { other, vertex, face };
     Kind kind = Kind::other;
+    std::string word; ///< of others
     std::array<double, 8> numbers{};
     std::size_t count = 0;             ///< of numbers
     std::vector<std::int64_t> corners; ///< as written: from 1, negative: back from here
@@ -56,12 +58,14 @@ class ObjReader final : public RowReader {
                 vertex(out, s, with_extra && !extra.empty());
             else if (s.kind == Statement::Kind::face)
                 highest = std::max(highest, face(out, s, base, known));
+            else
+                note(s.word);
         }
         const auto all = static_cast<std::int64_t>(out.vertices() - base);
         if (highest > all) refuse(first_bad(all), all);
         for (const auto& [there, what] :
              {std::pair{uvs_, "texture coordinates"}, std::pair{normals_, "normals"},
-              std::pair{materials_, "materials"}, std::pair{groups_, "objects and groups"},
+              std::pair{materials_, "materials"}, std::pair{groups_ > 1, "objects and groups"},
               std::pair{lines_, "lines and points"}, std::pair{late_colours_, "colours of vertices"}})
             if (there) dropped.emplace_back(what);
         return sum.digest();
@@ -84,18 +88,18 @@ class ObjReader final : public RowReader {
             s.kind = Statement::Kind::face;
             while (!text.at_line_end()) s.corners.push_back(corner(text));
         } else {
-            note(word);
+            s.word.assign(word.substr(0, longest_word));
             while (!text.word_on_line().empty()) {
             } // with the lines that it goes on for
         }
         text.next_line();
     }
 
-    void note(std::string_view word) const {
+    void note(std::string_view word) {
         uvs_ |= word == "vt";
         normals_ |= word == "vn";
         materials_ |= word == "usemtl";
-        groups_ |= word == "o" || word == "g";
+        groups_ += word == "o" || word == "g";
         lines_ |= word == "l" || word == "p";
     }
 
@@ -168,8 +172,8 @@ class ObjReader final : public RowReader {
     Identity identity_;
     std::vector<std::uint32_t> rows_;
     /// What the file has and rows have not.
-    mutable bool uvs_ = false, normals_ = false, materials_ = false, groups_ = false, lines_ = false;
-    bool late_colours_ = false;
+    bool uvs_ = false, normals_ = false, materials_ = false, lines_ = false, late_colours_ = false;
+    std::size_t groups_ = 0;
 };
 
 } // namespace

@@ -167,6 +167,7 @@ class RowSource final : public FaceSource {
           coordinates_(rows_, name()), stride_(row_size(rows_.vertex)) {
         settings_.weld = io::Weld::off;
         for (const auto& group : rows_.groups) by_place_ |= group.identity != Identity::number;
+        if (!by_place_) own_contents().vertices = rows_.vertex_count;
     }
 
     std::size_t record_size() const override { return sizeof(Corners); }

@@ -98,7 +98,7 @@ void add_cell_options(Arguments& arguments, PipelineOptions& options) {
                   "processed in cells on disk, see --partition. Default: no limit.");
     arguments
         .add("--partition", &options.partition,
-             "Whether load and simplify work on cells on disk: auto (where --memory is too\nlittle), always "
+             "Whether the first stages work on cells on disk: auto (where --memory is too\nlittle), always "
              "or never.")
         .one_of({"auto", "always", "never"});
     arguments.add("--scratch", &options.scratch,

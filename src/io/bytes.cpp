@@ -18,7 +18,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Below this a file is read rather than mapped: nobody can shrink memory under us.
+/// Below this a file is read rather than mapped, unless less is asked for: nobody can shrink memory under us.
 constexpr std::size_t map_from = std::size_t{64} << 20;
 
 struct Descriptor {
@@ -129,7 +129,7 @@ Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
     const bool regular = S_ISREG(about.st_mode) && !standard;
     const auto size = static_cast<std::size_t>(regular ? about.st_size : 0);
     if (regular) input.path_ = path;
-    if (size >= map_from) input.owner_ = map_file(file.fd, size);
+    if (size >= std::min(map_from, max_stream)) input.owner_ = map_file(file.fd, size);
     if (input.owner_) {
         input.bytes_ = {static_cast<const std::byte*>(input.owner_.get()), size};
         input.mapped_ = stamp_of(about);

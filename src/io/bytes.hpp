@@ -28,7 +28,7 @@ class Input {
   public:
     /// Opens a file, or standard input for "-". Throws missing (E-FILE, E-DIRECTORY, E-PERMISSION) or limit
     /// (E-SIZE, when a stream goes beyond max_stream bytes). What is compressed (gzip, zstd) is unpacked,
-    /// within the same limit.
+    /// within the same limit. Regular files of max_stream bytes and more are mapped.
     static Input open(const std::filesystem::path& path, std::size_t max_stream = std::size_t{4} << 30);
     static Input of(std::string name, Bytes bytes);
     /// The same bytes under another name, for a staged output: that of its target. `instead` says which file

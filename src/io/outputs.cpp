@@ -98,7 +98,7 @@ void Outputs::remove_stale(const fs::path& directory) {
     remove_abandoned(directory);
 }
 
-void Outputs::stage(File& file, Span bytes) {
+void Outputs::stage(File& file, const std::function<void(const Put&)>& produce) {
     const fs::path directory = file.resolved.parent_path();
     constexpr int max_attempts = 1000;
     for (int attempt = 0;; ++attempt) {
@@ -114,7 +114,7 @@ void Outputs::stage(File& file, Span bytes) {
     try {
         ::flock(file.lock, LOCK_EX | LOCK_NB);
         keep_permissions(file.lock, file.resolved, file.target);
-        write_all(file.lock, bytes, file.target);
+        produce([&](Span bytes) { write_all(file.lock, bytes, file.target); });
         if (settings_.sync) begin_sync(file.lock);
         // Network file systems say only at a close that there is no room; the lock lives in the other
         // descriptor.
@@ -128,16 +128,65 @@ void Outputs::stage(File& file, Span bytes) {
     if (files_.size() >= max_locks) ::close(std::exchange(file.lock, -1));
 }
 
+namespace {
+
+[[noreturn]] void refuse_input(const fs::path& target, const Mark& where) {
+    throw Error(ErrorKind::output, "E-OVERWRITE",
+                fmt::format("'{}' would overwrite an input", target.string()),
+                "give the output another name, or write elsewhere with --output-dir", where);
+}
+
+[[noreturn]] void refuse_twice(const fs::path& target) {
+    throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
+                fmt::format("'{}' is written twice in one run, with different contents", target.string()),
+                "give the second a name or a folder of its own");
+}
+
+} // namespace
+
 void Outputs::protect(const fs::path& input, std::string sum) {
     if (!is_stream(input)) inputs_.insert_or_assign(identity(input), std::move(sum));
 }
 
-const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark& where) {
+std::unique_ptr<Outputs::File> Outputs::file_for(const fs::path& target, const Mark& where) const {
     auto file = std::make_unique<File>();
     file->target = target;
     file->where = where;
+    file->resolved = is_stream(target) ? target : followed(target);
+    return file;
+}
+
+void Outputs::make_place(const File& file) {
+    std::error_code error;
+    if (file.target.filename().empty() || fs::is_directory(file.resolved, error))
+        cannot_write(file.target, EISDIR);
+    make_directory(file.resolved.parent_path());
+    remove_stale(file.resolved.parent_path());
+}
+
+const Outputs::File& Outputs::add(const fs::path& target, const std::function<void(const Put&)>& produce,
+                                  const Mark& where) {
+    auto file = file_for(target, where);
+    const fs::path self = identity(file->resolved);
+    if (inputs_.contains(self)) refuse_input(target, where);
+    for (const auto& other : files_)
+        if (!is_streamed(*other) && self == identity(other->resolved)) refuse_twice(target);
+    make_place(*file);
+    Sha256 sum;
+    stage(*file, [&](const Put& put) {
+        produce([&](Span bytes) {
+            sum.add(bytes);
+            file->bytes += bytes.size();
+            put(bytes);
+        });
+    });
+    file->sha256 = sum.digest();
+    return *files_.emplace_back(std::move(file));
+}
+
+const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark& where) {
+    auto file = file_for(target, where);
     const bool stream = is_stream(target);
-    file->resolved = stream ? target : followed(target);
     file->bytes = bytes.size();
     ShareOfSteps steps({3, 2});
     file->sha256 = sha256(bytes);
@@ -145,27 +194,18 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     const fs::path self = stream ? target : identity(file->resolved);
     const auto input = inputs_.find(self);
     file->is_input = input != inputs_.end();
-    if (file->is_input && input->second != file->sha256)
-        throw Error(ErrorKind::output, "E-OVERWRITE",
-                    fmt::format("'{}' would overwrite an input", target.string()),
-                    "give the output another name, or write elsewhere with --output-dir", where);
+    if (file->is_input && input->second != file->sha256) refuse_input(target, where);
     for (const auto& other : files_) {
         if (self != (is_streamed(*other) ? other->target : identity(other->resolved))) continue;
         // Two glTF files in one folder share their textures.
         if (!stream && other->bytes == file->bytes && other->sha256 == file->sha256) return *other;
-        throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
-                    fmt::format("'{}' is written twice in one run, with different contents", target.string()),
-                    "give the second a name or a folder of its own");
+        refuse_twice(target);
     }
     if (stream) {
         file->stream.assign(bytes.begin(), bytes.end());
     } else if (!file->is_input) {
-        std::error_code error;
-        if (target.filename().empty() || fs::is_directory(file->resolved, error))
-            cannot_write(target, EISDIR);
-        make_directory(file->resolved.parent_path());
-        remove_stale(file->resolved.parent_path());
-        stage(*file, bytes);
+        make_place(*file);
+        stage(*file, [&](const Put& put) { put(bytes); });
     }
     return *files_.emplace_back(std::move(file));
 }

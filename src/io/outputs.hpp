@@ -5,6 +5,7 @@
 
 #include "io/bytes.hpp"
 
+#include <functional>
 #include <map>
 #include <set>
 
@@ -45,6 +46,11 @@ class Outputs {
     /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
     /// already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
+    /// The same for a file that is not in memory: produce hands over its bytes, piece by piece. The target
+    /// is no stream; an input, or one that was staged, is refused whatever its bytes.
+    using Put = std::function<void(Span)>;
+    const File& add(const std::filesystem::path& target, const std::function<void(const Put&)>& produce,
+                    const Mark& where = {});
     /// Before anything is staged.
     void set(const CommitSettings& settings) { settings_ = settings; }
     /// Bytes of a staged file, for reading back.
@@ -71,7 +77,9 @@ class Outputs {
         std::filesystem::path aside;
         CleanUp* clean_up = nullptr; ///< as long as streams may fail
     };
-    void stage(File& file, Span bytes);
+    std::unique_ptr<File> file_for(const std::filesystem::path& target, const Mark& where) const;
+    void make_place(const File& file);
+    void stage(File& file, const std::function<void(const Put&)>& produce);
     void leave_unchanged();
     void sync_contents() const;
     void sync_names() const;

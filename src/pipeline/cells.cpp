@@ -23,13 +23,23 @@ const char* key_in_the_way(const Step& step) {
     return nullptr;
 }
 
-/// How many of the first steps turn the inputs into a scene that is small.
+std::vector<std::string> stages_on_cells() {
+    std::vector<std::string> names;
+    for (const StageInfo& stage : stages())
+        if (stage.on_cells) names.push_back(stage.name);
+    return names;
+}
+
+/// How many of the first steps work on cells: up to the one that makes the mesh small, or all.
 std::size_t steps_on_cells(const Steps& steps, const std::string& what, const std::string& way_out) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const Step& step = steps[i];
         if (step.kind != Step::Kind::stage || !step.stage->on_cells)
-            refuse_cells(what, fmt::format("'{}' cannot work on a mesh in cells", step.name),
-                         "put it after simplify, which makes the mesh small, or " + way_out, step.where);
+            refuse_cells(
+                what, fmt::format("'{}' cannot work on a mesh in cells", step.name),
+                fmt::format("put it after simplify or clip, which make the mesh small, or {} ({} can)",
+                            way_out, fmt::join(stages_on_cells(), ", ")),
+                step.where);
         if (step.when && step.when->known && !*step.when->known)
             refuse_cells(what, fmt::format("'{}' is skipped", step.name), "leave the step out, or " + way_out,
                          step.where);
@@ -46,7 +56,7 @@ std::size_t steps_on_cells(const Steps& steps, const std::string& what, const st
                          step.where);
         if (step.stage->ends_cells) return i + 1;
     }
-    refuse_cells(what, "no stage makes the mesh small", "add simplify, or " + way_out, {});
+    return steps.size();
 }
 
 } // namespace
@@ -79,7 +89,9 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
             refuse_cells(what, fmt::format("'{}' cannot be read in pieces: {}", file.path.string(), *why),
                          "write it as binary PLY or STL, or " + way_out, file.where);
     cells.steps = steps_on_cells(plan.steps, what, way_out);
-    cells.why = fmt::format("in cells on disk up to '{}': {}", plan.steps[cells.steps - 1].name, what);
+    const Step& last = plan.steps[cells.steps - 1];
+    cells.why = last.stage->ends_cells ? fmt::format("in cells on disk up to '{}': {}", last.name, what)
+                                       : fmt::format("in cells on disk: {}", what);
     return cells;
 }
 

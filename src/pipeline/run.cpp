@@ -106,16 +106,17 @@ class Runner {
         for (const auto& error : headers.errors) failures_.add(error);
         try_outputs(headers);
         Flow flow;
-        if (!failures_.any() && run_on_cells(flow) && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
-            !plan_.reports.empty() && fetch({}, "the inspection at the end", flow))
+        const bool small = !failures_.any() && run_on_cells(flow);
+        if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) && !plan_.reports.empty() &&
+            fetch({}, "the inspection at the end", flow))
             failures_.guarded({}, "the inspection at the end", [&] {
                 const Share share = beside_stages("inspection at the end");
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
                 if (takes_pictures_) view_.at_end(flow.scene);
                 if (takes_pictures_) page_.at_end(flow.scene);
             });
-        if (settings_.last_picture && !takes_pictures_ && !failures_.any() && !record().stages.empty() &&
-            fetch({}, "a picture", flow))
+        if (small && settings_.last_picture && !takes_pictures_ && !failures_.any() &&
+            !record().stages.empty() && fetch({}, "a picture", flow))
             failures_.guarded({}, "a picture",
                               [&] { record().stages.back().picture = report::small_picture(flow.scene); });
         finish_outputs();
@@ -143,7 +144,7 @@ class Runner {
     }
 
     /// Runs the first steps where they are to work on cells; the scene is in memory afterwards. False after a
-    /// failure.
+    /// failure, and when all steps were done on cells.
     bool run_on_cells(Flow& flow) {
         if (!failures_.guarded({}, "the plan", [&] { on_cells_ = plan_cells(plan_, settings_.cells); }))
             return false;
@@ -154,6 +155,7 @@ class Runner {
         if (cells.means.memory == 0) cells.means.memory = memory_there() / 4 * 3;
         for (std::size_t i = 0; i < on_cells_.steps; ++i)
             if (!run_stage_on_cells(plan_.steps[i], cells)) return false;
+        if (!cells.scene) return false;
         flow.scene = std::move(*cells.scene);
         flow.replaced();
         return true;
@@ -180,6 +182,7 @@ class Runner {
         trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::always});
         const Stopwatch watch;
         const Share share(settings_.progress);
+        const std::size_t checked = record().checks.size();
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
             if (step.stage->loads) context.say(on_cells_.why);
@@ -195,7 +198,7 @@ class Runner {
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
-        return done;
+        return done && failures_.judge_checks(checked);
     }
 
     /// Runs the steps on the scene. False when the chain ended early; the scene is then worth nothing.

@@ -58,7 +58,7 @@ struct StageInfo {
     /// most that any of them ask for.
     CrossingFacePolicy crossing_faces = CrossingFacePolicy::keep;
     OptionRoles roles = {};
-    bool ends_cells = false; ///< what on_cells makes is a scene in memory
+    bool ends_cells = false; ///< what on_cells makes is a scene in memory; else cells go on
 
     // Filled by make_stage. Declarations are made when they are first asked for.
     Lazy<Declaration> options = {};

@@ -48,9 +48,11 @@ void sort_sides(std::vector<Side>& sides) {
 /// Looks at the wings of one vertex after the other; keeps its room between them.
 class LinkReader {
   public:
-    LinkReader(bool triangles, Found& found) : triangles_(triangles), found_(found) {}
+    LinkReader(bool triangles, std::span<const Turn> turns, Found& found)
+        : triangles_(triangles && turns.empty()), turns_(turns), found_(found) {}
 
     void read(Index v, std::span<const Wing> wings) {
+        if (turn_of(v) != Turn::now) return;
         if (wings.empty()) {
             ++found_.counts.isolated_vertices;
             return;
@@ -67,6 +69,12 @@ class LinkReader {
     }
 
   private:
+    Turn turn_of(Index v) const { return turns_.empty() ? Turn::now : turns_[v]; }
+    /// Whether the edge is counted at v, of its two ends.
+    bool counts_edge(Index v, Index to) const {
+        return turn_of(to) == Turn::now ? v < to : turn_of(to) == Turn::later;
+    }
+
     /// Runs of sides to the same vertex are the uses of one edge.
     void read_edges(Index v, std::size_t wings) {
         partner_.assign(2 * wings, none);
@@ -84,7 +92,7 @@ class LinkReader {
                 partner_[sides_[begin + 1].slot] = sides_[begin].slot;
             }
             if (uses == 1) ends_.push_back(sides_[begin]);
-            if (v < to) count_edge(key_of(v, to), uses, balance);
+            if (counts_edge(v, to)) count_edge(key_of(v, to), uses, balance);
         }
     }
 
@@ -165,6 +173,7 @@ class LinkReader {
     }
 
     bool triangles_;
+    std::span<const Turn> turns_; ///< empty: all now
     Found& found_;
     bool crowded_ = false;
     std::vector<Side> sides_, ends_;
@@ -218,7 +227,9 @@ void read_bucket(std::span<const Wing> wings, std::size_t first, std::size_t las
 
 } // namespace
 
-Connectivity connectivity_of(const Mesh& mesh) {
+Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh, {}); }
+
+Connectivity connectivity_of(const Mesh& mesh, std::span<const Turn> turns) {
     const auto buckets = fill_buckets<Wing>(mesh, [&](Index f, auto&& emit) {
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         if (begin == end) return;
@@ -234,7 +245,7 @@ Connectivity connectivity_of(const Mesh& mesh) {
         buckets.count(), Found{},
         [&](std::size_t begin, std::size_t end) {
             Found found;
-            LinkReader reader(mesh.all_triangles(), found);
+            LinkReader reader(mesh.all_triangles(), turns, found);
             for (std::size_t b = begin; b < end; ++b)
                 read_bucket(buckets.of(b), buckets.first_vertex(b),
                             std::min(mesh.vertex_count(), buckets.first_vertex(b + 1)), reader);
@@ -245,7 +256,7 @@ Connectivity connectivity_of(const Mesh& mesh) {
             return a;
         },
         16);
-    all.counts.boundary_loops = count_loops(all);
+    if (turns.empty()) all.counts.boundary_loops = count_loops(all);
     return all.counts;
 }
 

@@ -5,6 +5,7 @@
 #include "mesh/mesh.hpp"
 
 #include <cstdint>
+#include <span>
 
 namespace facetmill {
 
@@ -19,7 +20,18 @@ struct Connectivity {
         0; ///< of an all-triangle mesh: triangles of three vertices seen before
 };
 
+/// Where a vertex stands that a mesh shares with others, as the parts of a larger one are counted one after
+/// another.
+enum class Turn : std::uint8_t {
+    later, ///< not all of its faces are here
+    now,   ///< all are
+    before ///< it was counted
+};
+
 /// Counts all of it. O(corners log(faces at a vertex)), parallel, the same for any number of threads.
 Connectivity connectivity_of(const Mesh& mesh);
+/// The vertices whose turn it is, and edges that have one of these and none of before. Loops, isolated
+/// vertices and duplicates are not counted. turns: [vertices].
+Connectivity connectivity_of(const Mesh& mesh, std::span<const Turn> turns);
 
 } // namespace facetmill

@@ -1,3 +1,5 @@
+#include "cells/gather.hpp"
+#include "cells/inspect_cells.hpp"
 #include "stage/both_sides.hpp"
 #include "stage/options/box.hpp"
 #include "stage/options/cap.hpp"
@@ -6,7 +8,10 @@
 #include "stage/stage.hpp"
 #include "stages/clip/help.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <functional>
 
 namespace facetmill::clip_stage {
 
@@ -182,7 +187,7 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
     return report;
 }
 
-Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {
+PartsToClip parts_to_clip(const ClipOptions& o) {
     PartsToClip how;
     how.settings.keep = o.keep;
     how.settings.convex = o.box || (o.keep == Keep::both && o.planes.size() > 1);
@@ -195,8 +200,97 @@ Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& repor
         how.front = ".inside";
         how.back = ".outside";
     }
-    report = clip_parts(scene, Cutter(o, scene, context), how, context);
+    return how;
+}
+
+Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {
+    report = clip_parts(scene, Cutter(o, scene, context), parts_to_clip(o), context);
     return scene;
+}
+
+std::optional<std::string> why_not_on_cells(const ClipOptions& o) {
+    if (o.keep == Keep::both) return "keep: both makes nothing small";
+    if (o.space == Space::local) return "space: local needs the part in memory";
+    return {};
+}
+
+/// Faces of cells that a clip may keep or cut: others do not meet what it keeps, nor what it caps.
+class Reached {
+  public:
+    Reached(std::vector<Plane> planes, const PartsToClip& how, const Box& box)
+        : planes_(std::move(planes)), keep_(how.settings.keep), convex_(how.settings.convex) {
+        // Caps of a plane close on all that the planes before it have kept.
+        if (how.settings.cap && planes_.size() > 1) {
+            if (keep_ == Keep::back && convex_)
+                planes_.clear();
+            else
+                planes_.resize(1);
+        }
+        // Points count as on a plane within the rounding of float32: well below a millionth.
+        constexpr double near = 1e-6;
+        const Vec3 e = box.extent();
+        double size = std::max({e.x, e.y, e.z});
+        for (const Vec3& p : {box.min, box.max})
+            size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        for (const Plane& p : planes_) margin_.push_back(near * size * length(p.normal));
+    }
+
+    bool operator()(const Vec3& a, const Vec3& b, const Vec3& c) {
+        const double away = keep_ == Keep::front ? -1 : 1; // the side that goes
+        bool all = !planes_.empty(), any = false;
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            const double s[] = {side(planes_[i], a), side(planes_[i], b), side(planes_[i], c)};
+            const bool beyond =
+                std::all_of(std::begin(s), std::end(s), [&](double x) { return away * x > margin_[i]; });
+            in_plane_ |=
+                std::all_of(std::begin(s), std::end(s), [&](double x) { return std::abs(x) <= margin_[i]; });
+            all &= beyond;
+            any |= beyond;
+        }
+        return !(keep_ == Keep::back && convex_ ? all : any);
+    }
+    /// Whether a face lay in a plane, or nearly so.
+    bool in_plane() const { return in_plane_; }
+
+  private:
+    std::vector<Plane> planes_;
+    std::vector<double> margin_;
+    Keep keep_;
+    bool convex_, in_plane_ = false;
+};
+
+/// What becomes of faces in the plane depends on whether the part is closed, which some of its faces do not
+/// tell.
+void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
+    if (inspect(some).closed == cells::inspect_cells(*flow.partition, {}, flow.means).closed) return;
+    throw Error(ErrorKind::usage, "E-CELLS",
+                "clip: a face lies in the plane, and what becomes of it needs the whole mesh in memory",
+                "move the plane a little, or give more memory");
+}
+
+/// Brings what the planes reach into memory, and clips that.
+void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
+    const PartsToClip how = parts_to_clip(o);
+    Scene outline = flow.outline();
+    const Cutter cutter(o, outline, context);
+    const Box box = outline.parts.front().mesh.bounds();
+    Reached reached(cutter.planes_for(outline.parts.front()), how, box);
+    Mesh some = cells::gathered(*flow.partition, std::ref(reached), flow.means);
+    if (reached.in_plane()) check_faces_in_plane(flow, some);
+    flow.partition.reset();
+    // The rounding that snaps points is that of the whole box.
+    for (const double x : {box.min.x, box.max.x})
+        for (const double y : {box.min.y, box.max.y})
+            for (const double z : {box.min.z, box.max.z}) some.positions.push_back({x, y, z});
+    for (Attribute& a : some.attributes) a.resize(some.count(a.domain));
+    Scene scene{{}, {}, outline.unit, outline.up, {}};
+    Part& part = scene.parts.emplace_back(outline.parts.front());
+    part.mesh = std::move(some);
+    part.changed = true;
+    const ClipReport report = clip_parts(scene, cutter, how, context);
+    for (Part& clipped : scene.parts) drop_unused(clipped.mesh);
+    context.report(fields_of<ClipReport>(declare_report), &report);
+    flow.scene = std::move(scene);
 }
 
 const RegisterStage clip_stage = make_stage<ClipOptions>(
@@ -210,8 +304,11 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
                   "clip: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}, cap: true}",
                   "clip: {box: {centre: [0, 0, 0], size: [2, 1, 1], angle: 30deg}, keep: outside}"},
      .may_lose = MayLose::all,
-     .crossing_faces = CrossingFacePolicy::fill},
-    declare, declare_report, run, StageHooks<ClipOptions>{.files = {}, .verify = verify});
+     .crossing_faces = CrossingFacePolicy::fill,
+     .ends_cells = true},
+    declare, declare_report, run,
+    StageHooks<ClipOptions>{
+        .files = {}, .verify = verify, .on_cells = run_on_cells, .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 

@@ -159,7 +159,14 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     flow.part = contents.name;
     flow.unit = contents.unit;
     flow.up = contents.up;
+    flow.box = contents.bounds;
     flow.partition = std::make_unique<cells::Partition>(source, flow.means);
+    if (contents.vertices > flow.partition->vertices())
+        context.warn(
+            "W-CELLS",
+            fmt::format("{}: cells do not carry {} that no face uses", source->name(),
+                        counted(contents.vertices - flow.partition->vertices(), "vertex", "vertices")),
+            "use more memory, if they are needed");
     if (contents.skipped_faces > 0)
         context.warn("W-FACES", fmt::format("{}: {} of fewer than three corners skipped", source->name(),
                                             counted(contents.skipped_faces, "face")));

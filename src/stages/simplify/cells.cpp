@@ -3,6 +3,7 @@
 #include "base/words.hpp"
 #include "cells/hierarchy.hpp"
 #include "mesh/power_scale.hpp"
+#include "mesh/transform.hpp"
 #include "stages/simplify/parts.hpp"
 
 #include <fmt/format.h>
@@ -11,26 +12,16 @@ namespace facetmill::simplify_stage {
 
 namespace {
 
-/// A scene of the box of the cells, which lengths are resolved in.
-Scene outline(const CellFlow& flow) {
-    Scene scene;
-    scene.unit = flow.unit;
-    scene.up = flow.up;
-    Part& part = scene.parts.emplace_back();
-    part.name = flow.part;
-    const Box box = flow.bounds();
-    part.mesh.positions = {box.min, box.max};
-    return scene;
-}
-
 SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flow, Context& context) {
     SimplifyShare share;
     if (o.faces) share.faces = static_cast<std::size_t>(*o.faces);
     if (o.max_quadric_error) {
         const Length& limit = *o.max_quadric_error;
         const bool of_part = limit.kind == Length::Kind::percent && limit.of == Length::Of::part;
-        share.max_quadric_error = of_part ? limit.amount / 100 * diagonal(flow.bounds())
-                                          : context.resolve(limit, outline(flow), "max_quadric_error");
+        const Scene outline = flow.outline(); // limits are of the world, the cells are before the transform
+        share.max_quadric_error =
+            of_part ? limit.amount / 100 * diagonal(outline.parts.front().mesh.bounds())
+                    : context.resolve(limit, outline, "max_quadric_error") / greatest_stretch(flow.transform);
         if (!(*share.max_quadric_error > 0)) share.max_quadric_error.reset(); // of a single point
     }
     return simplify_settings(o, {}, share);
@@ -66,7 +57,7 @@ std::optional<std::string> why_not_on_cells(const SimplifyOptions& o) {
 void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& context) {
     const SimplifySettings settings = settings_in_cells(o, flow, context);
     cells::HierarchyResult done = cells::simplify_cells(*flow.partition, settings, flow.means);
-    Scene scene = outline(flow);
+    Scene scene = flow.outline();
     Part& part = scene.parts.front();
     part.changed = true;
     part.mesh = std::move(done.mesh);

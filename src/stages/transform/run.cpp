@@ -1,3 +1,4 @@
+#include "cells/inspect_cells.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/placement.hpp"
 #include "stages/transform/help.hpp"
@@ -17,8 +18,10 @@ Transform moved(const Vec3& by) {
 
 class Mover {
   public:
-    Mover(Scene& scene, const TransformOptions& o, Context& context)
-        : scene_(scene), o_(o), context_(context) {}
+    /// box: around the only part, of which the scene is an outline, where the transform puts it.
+    using BoxOf = std::function<Box(const Transform&)>;
+    Mover(Scene& scene, const TransformOptions& o, Context& context, BoxOf box = {})
+        : scene_(scene), o_(o), context_(context), box_(std::move(box)) {}
 
     TransformReport run() {
         const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
@@ -51,6 +54,7 @@ class Mover {
     }
 
     Box box() const {
+        if (box_) return box_(scene_.parts.front().transform);
         Box all;
         for (const Part& part : scene_.parts)
             if (context_.selects(part, scene_))
@@ -82,12 +86,29 @@ class Mover {
     Scene& scene_;
     const TransformOptions& o_;
     Context& context_;
+    BoxOf box_;
     Transform all_;
 };
 
 Scene run(Scene scene, const TransformOptions& o, Context& context, TransformReport& report) {
     report = Mover(scene, o, context).run();
     return scene;
+}
+
+std::optional<std::string> why_not_on_cells(const TransformOptions& o) {
+    if (o.bake) return "bake is for nodes, which cells have none of";
+    return {};
+}
+
+void run_on_cells(const TransformOptions& o, CellFlow& flow, Context& context) {
+    const auto box = [&](const Transform& t) { return cells::box_of_cells(*flow.partition, t); };
+    Scene outline = flow.outline();
+    const TransformReport report = Mover(outline, o, context, box).run();
+    flow.transform = outline.parts.front().transform;
+    flow.unit = outline.unit;
+    flow.up = outline.up;
+    flow.box = box(flow.transform);
+    context.report(fields_of<TransformReport>(declare_transform_report), &report);
 }
 
 const RegisterStage registered = make_stage<TransformOptions>(
@@ -101,7 +122,8 @@ const RegisterStage registered = make_stage<TransformOptions>(
      .moves = true,
      .may_lose = MayLose::area,
      .roles = {.sets_unit = "unit"}},
-    declare_transform, declare_transform_report, run, {.verify = verify_transform});
+    declare_transform, declare_transform_report, run,
+    {.verify = verify_transform, .on_cells = run_on_cells, .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 

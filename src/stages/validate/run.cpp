@@ -1,4 +1,5 @@
 #include "stage/stage.hpp"
+#include "stages/validate/cells.hpp"
 #include "stages/validate/failed_copy.hpp"
 #include "stages/validate/help.hpp"
 #include "stages/validate/judge.hpp"
@@ -89,6 +90,19 @@ void verify(const ValidateOptions& o, const Value& given, Problems& problems) {
     if (o.mark) verify_failed_copy(o.mark->text, given, problems);
 }
 
+std::optional<std::string> why_not_on_cells(const ValidateOptions& o) {
+    if (o.limits.any()) return "limits need the whole scene";
+    if (o.per == Per::component) return "per: component needs the whole mesh";
+    if (o.baseline || o.mark) return "baseline and mark look at places of the whole mesh";
+    return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));
+}
+
+void run_on_cells(const ValidateOptions& o, CellFlow& flow, Context& context) {
+    judge_cells(profiled(o.assertions, o.profile, o.limits, context.where()), o.severity, flow, context);
+    const ValidateReport report;
+    context.report(fields_of<ValidateReport>(declare_report), &report);
+}
+
 StageFiles files(const ValidateOptions& o) {
     StageFiles files;
     if (o.baseline) (o.update_baseline ? files.outputs : files.inputs).push_back(*o.baseline);
@@ -104,7 +118,9 @@ const RegisterStage registered{make_stage<ValidateOptions>(
                   "validate: {min_angle: {min: 5deg}, severity: warn, mark: failed.glb}"},
      .checks = true,
      .roles = {.baseline = "baseline", .updates_baseline = "update_baseline"}},
-    declare, declare_report, run, StageHooks<ValidateOptions>{.files = files, .verify = verify})};
+    declare, declare_report, run,
+    StageHooks<ValidateOptions>{
+        .files = files, .verify = verify, .on_cells = run_on_cells, .why_not_on_cells = why_not_on_cells})};
 
 } // namespace
 

@@ -18,6 +18,8 @@ struct WriteReport {
     std::optional<io::VertexCacheUse> order;
 };
 
+void declare_write_report(DeclareFields<WriteReport>& d);
+
 /// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
 /// when the option asks for one and the scene has none; warns of guesses.
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,

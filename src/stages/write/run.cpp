@@ -1,5 +1,6 @@
 #include "base/portable_math.hpp"
 #include "base/progress.hpp"
+#include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/help.hpp"
 
@@ -76,7 +77,9 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
         context.where());
 }
 
-void declare_report(DeclareFields<WriteReport>& d) {
+} // namespace
+
+void declare_write_report(DeclareFields<WriteReport>& d) {
     d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
         .only_when("it is not 1");
     d.field("up", &WriteReport::up, "The axis that points up in the file.")
@@ -102,6 +105,8 @@ void declare_report(DeclareFields<WriteReport>& d) {
              declare_order)
         .only_when("triangles were put in another order");
 }
+
+namespace {
 
 Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& report) {
     const io::Codec* codec = codec_of(o);
@@ -161,8 +166,12 @@ const RegisterStage registered = make_stage<WriteOptions>(
      .tells = true,
      .crossing_faces = CrossingFacePolicy::name,
      .roles = {.writes_in_unit = "unit"}},
-    declare_write, declare_report, run,
-    {.files = files_of_write, .verify = verify_write, .crossing_faces = crossing_faces});
+    declare_write, declare_write_report, run,
+    {.files = files_of_write,
+     .verify = verify_write,
+     .crossing_faces = crossing_faces,
+     .on_cells = write_on_cells,
+     .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 

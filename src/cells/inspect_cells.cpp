@@ -1,0 +1,271 @@
+#include "cells/inspect_cells.hpp"
+
+#include "base/memory.hpp"
+#include "base/progress.hpp"
+#include "base/readable_numbers.hpp"
+#include "cells/gather.hpp"
+#include "geometry/inspect/connectivity.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "mesh/power_scale.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace facetmill::cells {
+
+namespace {
+
+constexpr const char* counted_name = "counted"; ///< [vertices] 1: counted before
+constexpr const char* set_name = "set";         ///< [faces] the number of its set of connected faces
+
+template <class T>
+std::vector<T>& values_of(Mesh& mesh, const char* name, Domain domain) {
+    return std::get<std::vector<T>>(mesh.find(name, domain)->data);
+}
+
+/// Sets of faces that hang together, numbered as they are met.
+class Sets {
+  public:
+    std::uint32_t add() {
+        parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+        return parent_.back();
+    }
+    std::uint32_t find(std::uint32_t set) {
+        while (parent_[set] != set) set = parent_[set] = parent_[parent_[set]];
+        return set;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+    std::size_t count() {
+        std::size_t roots = 0;
+        for (std::uint32_t set = 0; set < parent_.size(); ++set) roots += find(set) == set;
+        return roots;
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+class CellInspection {
+  public:
+    CellInspection(const Partition& partition, const Transform& transform, const Means& means)
+        : partition_(partition), transform_(transform), means_(means) {
+        middle_ = transform.point(partition.source().contents().bounds.centre());
+    }
+
+    Properties run() {
+        rim_of(0);
+        Properties& p = found_;
+        p.vertices = p.wedges = static_cast<std::int64_t>(partition_.vertices());
+        p.faces = p.triangles = static_cast<std::int64_t>(partition_.faces());
+        p.edges = sums_.edges;
+        p.boundary_edges = sums_.boundary_edges;
+        p.closed = sums_.uncancelled_edges == 0;
+        p.edge_manifold = sums_.crowded_edges == 0;
+        p.vertex_manifold = sums_.non_manifold_vertices == 0;
+        p.oriented = sums_.disagreeing_edges == 0;
+        p.components = inside_sets_ + static_cast<std::int64_t>(sets_.count());
+        p.euler = p.vertices - p.edges + p.faces;
+        if (p.closed) p.volume = (transform_.determinant() < 0 ? -volume_ : volume_) / 6;
+        if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented)
+            p.genus = p.components - p.euler / 2;
+        p.parts = 1;
+        p.materials = 0;
+        return p;
+    }
+
+  private:
+    /// The faces of the node that have a vertex which cells outside of it share; all else is counted.
+    Cell rim_of(std::uint32_t number) {
+        const Tree::Node& node = partition_.tree().nodes[number];
+        Cell cell;
+        if (node.is_leaf()) {
+            cell = partition_.cell(node.leaf);
+            Share::tell_item(node.leaf, partition_.tree().leaves.size());
+            cell.mesh.attributes.clear();
+            add_sums(cell.mesh);
+            add_labels(cell);
+        } else {
+            std::vector<Cell> cells;
+            for (const std::uint32_t child : node.child) cells.push_back(rim_of(child));
+            require_room(cells);
+            cell = joined(std::move(cells), node.depth);
+            join_sets(cell.mesh);
+        }
+        count(cell);
+        return cell;
+    }
+
+    void require_room(const std::vector<Cell>& cells) const {
+        constexpr std::uint64_t per_face = 200; // with vertices of its own, and what counting takes
+        std::uint64_t faces = 0;
+        for (const Cell& cell : cells) faces += cell.mesh.face_count();
+        if (faces * per_face > means_.memory / 2)
+            throw out_of_memory(
+                fmt::format("{} triangles at vertices that cells share need {} at once; --memory "
+                            "gives {}",
+                            grouped(faces), sized(2 * faces * per_face), sized(means_.memory)),
+                "give more memory");
+    }
+
+    /// What each face has by itself.
+    void add_sums(const Mesh& mesh) {
+        std::vector<Vec3> positions;
+        positions.reserve(mesh.positions.size());
+        for (const Vec3& p : mesh.positions) {
+            positions.push_back(transform_.point(p));
+            found_.bounds.add(positions.back());
+        }
+        double area = 0, volume = 0; // of the cell, so that small terms meet small ones
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            const Vec3 &a = positions[mesh.vertex(3 * f)], &b = positions[mesh.vertex(3 * f + 1)],
+                       &c = positions[mesh.vertex(3 * f + 2)];
+            const Vec3 product = cross(b - a, c - a);
+            area += safe_length(product) / 2;
+            volume += dot(a - middle_, product);
+            found_.degenerate_faces += is_degenerate(mesh, f);
+        }
+        found_.area += area;
+        volume_ += volume;
+    }
+
+    /// Sets of faces that no other cell shares a vertex of are counted here, others get a number.
+    void add_labels(Cell& cell) {
+        const Components components = face_components(cell.mesh);
+        std::vector<std::uint32_t> number(components.count, UINT32_MAX), of_face(cell.mesh.face_count());
+        std::vector<bool> goes_on(components.count, false);
+        for (std::size_t c = 0; c < cell.mesh.corners.size(); ++c)
+            if (cell.home[cell.mesh.corners[c]] != Cell::inner) goes_on[components.of_face[c / 3]] = true;
+        for (std::size_t k = 0; k < components.count; ++k) {
+            if (goes_on[k])
+                number[k] = sets_.add();
+            else
+                ++inside_sets_;
+        }
+        for (std::size_t f = 0; f < of_face.size(); ++f) of_face[f] = number[components.of_face[f]];
+        cell.mesh.attributes.push_back({set_name, Domain::face, Role::index, 1, false, std::move(of_face)});
+        cell.mesh.attributes.push_back({counted_name, Domain::vertex, Role::index, 1, false,
+                                        std::vector<std::uint8_t>(cell.mesh.vertex_count(), 0)});
+    }
+
+    /// Faces that have a vertex in common hang together.
+    void join_sets(Mesh& mesh) {
+        const auto& of_face = values_of<std::uint32_t>(mesh, set_name, Domain::face);
+        std::vector<std::uint32_t> met(mesh.vertex_count(), UINT32_MAX);
+        for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+            std::uint32_t& first = met[mesh.corners[c]];
+            const std::uint32_t set = of_face[c / 3];
+            if (first == UINT32_MAX)
+                first = set;
+            else
+                sets_.join(first, set);
+        }
+    }
+
+    /// Counts what is complete, and keeps the faces of what is not.
+    void count(Cell& cell) {
+        auto& counted = values_of<std::uint8_t>(cell.mesh, counted_name, Domain::vertex);
+        std::vector<Turn> turns(cell.home.size());
+        for (std::size_t v = 0; v < turns.size(); ++v)
+            turns[v] = cell.home[v] != Cell::inner ? Turn::later : counted[v] ? Turn::before : Turn::now;
+        const Connectivity now = connectivity_of(cell.mesh, turns);
+        sums_.edges += now.edges;
+        sums_.boundary_edges += now.boundary_edges;
+        sums_.uncancelled_edges += now.uncancelled_edges;
+        sums_.crowded_edges += now.crowded_edges;
+        sums_.disagreeing_edges += now.disagreeing_edges;
+        sums_.non_manifold_vertices += now.non_manifold_vertices;
+        count_duplicates(cell.mesh, turns);
+        for (std::size_t v = 0; v < turns.size(); ++v) counted[v] = turns[v] != Turn::later;
+        keep_open(cell);
+    }
+
+    /// Faces with the same vertices come together where one of these is complete first.
+    void count_duplicates(const Mesh& mesh, const std::vector<Turn>& turns) {
+        for (const Index f : duplicate_faces(mesh)) {
+            bool now = false, before = false;
+            for (const Index v : mesh.face_wedges(f)) {
+                now |= turns[v] == Turn::now;
+                before |= turns[v] == Turn::before;
+            }
+            found_.duplicate_faces += now && !before;
+        }
+    }
+
+    static void keep_open(Cell& cell) {
+        std::vector<Index> faces;
+        for (Index f = 0; f < cell.mesh.face_count(); ++f) {
+            const auto wedges = cell.mesh.face_wedges(f);
+            if (std::any_of(wedges.begin(), wedges.end(),
+                            [&](Index v) { return cell.home[v] != Cell::inner; }))
+                faces.push_back(f);
+        }
+        cell = with_faces(std::move(cell), faces);
+    }
+
+    const Partition& partition_;
+    const Transform& transform_;
+    const Means& means_;
+    Vec3 middle_;
+    Properties found_;
+    Connectivity sums_;
+    Sets sets_;
+    std::int64_t inside_sets_ = 0;
+    double volume_ = 0; ///< six times
+};
+
+} // namespace
+
+bool inspects(const Property& property) {
+    static constexpr std::string_view known[] = {"vertices",
+                                                 "wedges",
+                                                 "edges",
+                                                 "faces",
+                                                 "triangles",
+                                                 "components",
+                                                 "euler",
+                                                 "genus",
+                                                 "boundary_edges",
+                                                 "closed",
+                                                 "edge_manifold",
+                                                 "vertex_manifold",
+                                                 "oriented",
+                                                 "degenerate_faces",
+                                                 "duplicate_faces",
+                                                 "isolated_vertices",
+                                                 "area",
+                                                 "volume",
+                                                 "bounds",
+                                                 "parts",
+                                                 "materials",
+                                                 "unit",
+                                                 "up"};
+    return std::find(std::begin(known), std::end(known), property.name) != std::end(known);
+}
+
+Box box_of_cells(const Partition& partition, const Transform& transform) {
+    const Box own = partition.source().contents().bounds;
+    Box all;
+    bool axes = true;
+    for (const auto& row : transform.m) axes &= (row[0] != 0) + (row[1] != 0) + (row[2] != 0) <= 1;
+    if (own.empty()) return all;
+    if (axes) {
+        all.add(transform.point(own.min));
+        all.add(transform.point(own.max));
+        return all;
+    }
+    for (std::uint32_t leaf = 0; leaf < partition.tree().leaves.size(); ++leaf)
+        for (const Vec3& p : partition.cell(leaf).mesh.positions) all.add(transform.point(p));
+    return all;
+}
+
+Properties inspect_cells(const Partition& partition, const Transform& transform, const Means& means) {
+    return CellInspection(partition, transform, means).run();
+}
+
+} // namespace facetmill::cells

@@ -1,0 +1,97 @@
+#include "stages/write/cells.hpp"
+
+#include "cells/write_cells.hpp"
+#include "io/output_files.hpp"
+#include "io/packing.hpp"
+#include "mesh/power_scale.hpp"
+#include "stages/write/file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::write_stage {
+
+namespace {
+
+/// Reads the file again: that its bytes are those that were handed over.
+void read_again(const io::Outputs::File& file, Context& context) {
+    const cells::ReadFile there(file.temporary);
+    Sha256 sum;
+    cells::Stream all(there, 0, file.bytes, &sum);
+    all.skip(file.bytes);
+    if (sum.digest() != file.sha256)
+        throw Error(ErrorKind::output, "E-READBACK",
+                    fmt::format("'{}' cannot be read as it was written", file.target.string()),
+                    "write it to another disk", context.where());
+}
+
+void warn_of_rounding(double rounding, const WriteOptions& o, const io::Codec& codec, const CellFlow& flow,
+                      Context& context) {
+    constexpr double tolerable = 1e-6; // of the diagonal
+    if (rounding <= tolerable * diagonal(flow.bounds())) return;
+    context.warn(
+        "W-ROUNDED",
+        fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are coarse so far from the "
+                    "origin (the diagonal is {:.4g})",
+                    o.path.text, rounding, diagonal(flow.bounds())),
+        codec.can.full_precision ? "precision: full keeps all digits"
+                                 : "write PLY with precision: full, or transform: {centre: true} first");
+}
+
+/// A point near the middle of the cells, where float32 would round positions by more than a millionth.
+Vec3 origin_of(const WriteOptions& o, const io::Codec& codec, const CellFlow& flow) {
+    constexpr double tolerable = 1e-6, step = 1.0 / (1 << 24); // of the diagonal; of a float32
+    const Box box = flow.partition->source().contents().bounds;
+    double most = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
+    if (!codec.can.transforms || o.origin.kind != OriginOption::Kind::automatic ||
+        most * step <= tolerable * diagonal(box))
+        return {};
+    const Vec3 centre = box.centre();
+    return {std::round(centre.x), std::round(centre.y), std::round(centre.z)};
+}
+
+} // namespace
+
+std::optional<std::string> why_not_on_cells(const WriteOptions& o) {
+    const io::Codec* codec = codec_of(o);
+    if (!codec || !codec->write) return {};
+    if (o.path.text == "-" || io::is_stream(o.path.text)) return "cells are not written to a stream";
+    if (io::packing_named(o.path.text) != io::Packing::none) return "cells are not compressed";
+    if (o.normals != NormalKind::keep || o.tangents != Tangents::keep)
+        return "normals and tangents need the whole mesh";
+    if (o.origin.kind == OriginOption::Kind::point) return "origin is automatic or kept in cells";
+    return cells::why_not_written(*codec, settings_of(o, *codec, o.path.text));
+}
+
+void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
+    const io::Codec& codec = *codec_of(o);
+    WriteReport report;
+    Scene outline = flow.outline();
+    to_convention(outline, o, codec, context, report);
+    const std::filesystem::path target = context.places().output(o.path.text);
+    const io::WriteSettings settings = settings_of(o, codec, target);
+    const cells::WritePlace place{outline.parts.front().transform, origin_of(o, codec, flow)};
+    double rounding = 0;
+    const auto& staged = context.run().outputs.add(
+        target,
+        [&](const io::Outputs::Put& put) {
+            rounding = cells::write_cells(*flow.partition, place, codec, settings, put);
+        },
+        context.where());
+    warn_of_rounding(rounding, o, codec, flow, context);
+    if (codec.name == "glb")
+        for (const Attribute& a : flow.partition->cell(0).mesh.attributes)
+            context.attribute_changes(outline.parts.front(),
+                                      {{a.name, a.domain, AttributeChange::Kind::dropped,
+                                        "a GLB that is written from cells has positions only"}});
+    const std::string told = std::filesystem::path(o.path.text).lexically_normal().string();
+    context.run().record.outputs.push_back(
+        {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, {})});
+    if (context.run().read_back) read_again(staged, context);
+    context.report(fields_of<WriteReport>(declare_write_report), &report);
+}
+
+} // namespace facetmill::write_stage
