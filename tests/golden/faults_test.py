@@ -46,6 +46,13 @@ class Faults(unittest.TestCase):
                     judged.add((name, neighbour))
         self.assertEqual(len(judged), 4, judged)
 
+    def test_a_temporary_that_cannot_be_removed(self):
+        """The next batch removes it, though it writes nothing."""
+        trial = self.trial(next(s for s in scenarios.scenarios() if s.name == "batch"))
+        temporaries = [number for number, path in enumerate(trial.calls("unlink"), 1) if ".facetmill-" in path]
+        self.assertGreater(len(temporaries), 0)
+        self.assertEqual(trial.judge(f"unlink {temporaries[0]} {errno.EROFS}")[0], [])
+
     def test_a_pipeline_that_cannot_be_looked_at(self):
         """It is among the inputs of a depfile, or the run tells that it cannot be read."""
         trial = self.trial(next(s for s in scenarios.scenarios() if s.name == "reports"))

@@ -243,6 +243,17 @@ TEST_CASE("counts are not believed", "[io]") {
         }) == "limit [E-LIMIT] test: accessors[0]: 1000000000 elements of zeros, without bytes in the file");
 }
 
+TEST_CASE("Draco decodes what takes far less room than it decodes to", "[io]") {
+    Mesh mesh = shapes::grid(149, 149); // 22,500 vertices of 508 bytes each, all alike
+    mesh.attributes.push_back({"_FEATURES", Domain::vertex, Role::generic, 127, false,
+                               std::vector<std::uint32_t>(mesh.vertex_count() * 127, 7)});
+    const auto drc = test::written(test::scene_in_metres(mesh), "drc").files.at(0).bytes;
+    CHECK(drc.size() < 60000);
+    const Scene read = test::read_bytes(drc, "drc");
+    CHECK(read.parts.at(0).mesh.vertex_count() == mesh.vertex_count());
+    CHECK(read.parts.at(0).mesh.attributes.at(0).components == 127);
+}
+
 TEST_CASE("Draco rounds alike with and without fused multiply-add", "[io]") {
     // With as many bits as a float32 has, adding 1/2 rounds, and rounding once or twice differs often.
     const io::DracoGrid grid{{0.0F, -0.3F, 1e-3F}, 1.7F, 24};

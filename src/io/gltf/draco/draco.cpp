@@ -140,7 +140,8 @@ std::size_t check_counts(::draco::DecoderBuffer buffer) {
     if (faces > most * bytes || points > most * bytes)
         fail(fmt::format("{} bytes cannot hold {} faces and {} points", bytes, faces, points));
     require_memory(150.0 * faces + 100.0 * points, "decoding Draco data", "use a machine with more memory");
-    return (std::size_t{1} << 20) + 64 * (std::size_t{faces} + points) + 256 * bytes;
+    constexpr std::size_t point_bytes = 512; // 127 components of four bytes, as many as are written
+    return (std::size_t{1} << 20) + 64 * std::size_t{faces} + point_bytes * points + 256 * bytes;
 }
 
 std::unique_ptr<::draco::Mesh> decode(Span bytes) {
