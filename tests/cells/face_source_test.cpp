@@ -38,8 +38,8 @@ Mesh read_whole(const std::vector<std::filesystem::path>& paths, io::Weld weld =
     return all;
 }
 
-Mesh in_cells(const std::vector<std::filesystem::path>& paths, std::uint64_t most,
-              io::Weld weld = io::Weld::automatic) {
+Mesh read_in_cells(const std::vector<std::filesystem::path>& paths, std::uint64_t most,
+                   io::Weld weld = io::Weld::automatic) {
     io::ReadSettings settings;
     settings.weld = weld;
     const auto folder = paths.front().parent_path();
@@ -51,7 +51,7 @@ Mesh in_cells(const std::vector<std::filesystem::path>& paths, std::uint64_t mos
 std::string failure_of(const std::filesystem::path& path, bool cells) {
     try {
         if (cells)
-            in_cells({path}, 100);
+            read_in_cells({path}, 100);
         else
             read_whole({path});
     } catch (const Error& error) {
@@ -88,7 +88,7 @@ TEST_CASE("files of all formats come in cells as they come in memory", "[cells]"
         const auto path = folder / name;
         for (const auto& file : io::codec_for(path)->write(scene, {.ascii = ascii, .title = "m"}).files)
             io::write_now(file.name.extension() == ".bin" ? folder / file.name.string() : path, file.bytes);
-        const Mesh whole = read_whole({path}), cells = in_cells({path}, 200);
+        const Mesh whole = read_whole({path}), cells = read_in_cells({path}, 200);
         CHECK(cells.vertex_count() == whole.vertex_count());
         CHECK(test::triangles_of(cells) == test::triangles_of(whole));
     }
@@ -106,7 +106,7 @@ TEST_CASE("text is read through a window that is smaller than the file", "[cells
             path,
             io::codec_for(path)->write(scene, {.ascii = true, .double_positions = true}).files.front().bytes);
         CHECK(std::filesystem::file_size(path) > (1 << 20));
-        CHECK(test::triangles_of(in_cells({path}, 10000)) == test::triangles_of(read_whole({path})));
+        CHECK(test::triangles_of(read_in_cells({path}, 10000)) == test::triangles_of(read_whole({path})));
     }
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("a face of 10,000 corners and lines that go on are read as in memory",
     test::put(folder / "m.obj", "f 3 2 1\n" + obj + face + "\nf -1 -2 -3/4/5\nf 1 2\n");
     const Mesh whole = read_whole({folder / "m.obj"});
     CHECK(whole.face_count() == 9998 + 2);
-    CHECK(test::triangles_of(in_cells({folder / "m.obj"}, 100)) == test::triangles_of(whole));
+    CHECK(test::triangles_of(read_in_cells({folder / "m.obj"}, 100)) == test::triangles_of(whole));
 }
 
 TEST_CASE("several files are one mesh, joined where that is asked for", "[cells]") {
@@ -143,7 +143,7 @@ TEST_CASE("several files are one mesh, joined where that is asked for", "[cells]
             paths.back(),
             io::codec_for(paths.back())->write(scene, {.double_positions = true}).files.front().bytes);
     }
-    const Mesh joined = in_cells(paths, 200, io::Weld::exact), apart = in_cells(paths, 200);
+    const Mesh joined = read_in_cells(paths, 200, io::Weld::exact), apart = read_in_cells(paths, 200);
     CHECK(test::triangles_of(joined) == test::triangles_of(sphere));
     CHECK(joined.vertex_count() == sphere.vertex_count());
     CHECK(apart.vertex_count() == read_whole(paths).vertex_count());
