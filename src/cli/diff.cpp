@@ -108,6 +108,10 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
     }
     confine(allowed, options.sandbox, console);
     set_threads(options.threads);
+    if (options.samples != SIZE_MAX) {
+        options.settings.deviation.samples = options.samples;
+        options.settings.deviation.mean_error = 0;
+    }
     options.settings.ignored = {options.ignored.begin(), options.ignored.end()};
     return folders ? diff_of_folders(options, line, console) : diff_of_files(options, line, console);
 }
@@ -140,8 +144,9 @@ Command diff_command() {
                 .separated_by_commas()
                 .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
             arguments
-                .add("--samples", &settings.deviation.samples,
-                     "Points measured on the area, each way. Default: 100000.")
+                .add("--samples", &options->samples,
+                     "Points spread over the area, each way, all of them measured.\n"
+                     "Default: 100000; rms and mean are of as many of these as they need.")
                 .between(0, 1000000000);
             arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
                 .not_negative();

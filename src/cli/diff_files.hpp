@@ -13,6 +13,7 @@ struct DiffOptions {
     std::string a, b, maximum, rms, mean;
     std::vector<std::string> ignored;
     report::ComparisonSettings settings;
+    std::size_t samples = SIZE_MAX;   ///< of the deviation, which averages them all then; or not given
     std::string unit, up;             ///< of files that state none
     std::vector<std::string> reports; ///< pages and Markdown files to write
     bool json = false, all = false;

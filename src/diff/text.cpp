@@ -36,9 +36,11 @@ std::string place_text(const DeviationResult& d) {
 
 std::string measured_text(const Comparison& comparison) {
     const DeviationResult& d = *comparison.deviation;
-    std::string text = fmt::format(
-        "    {} and {} samples, seed {}, and all {} and {} vertices; percentages of {:.6g}\n",
-        d.forward.samples, d.backward.samples, d.seed, d.forward.vertices, d.backward.vertices, d.diagonal);
+    std::string text =
+        fmt::format("    {} and {} samples ({} and {} averaged), seed {}, and all {} and {} vertices; "
+                    "percentages of {:.6g}\n",
+                    d.forward.samples, d.backward.samples, d.forward.averaged, d.backward.averaged, d.seed,
+                    d.forward.vertices, d.backward.vertices, d.diagonal);
     const std::string a = comparison.geometry_a, b = comparison.geometry_b;
     if (a != "surface" || b != "surface")
         text += fmt::format("    of {} and {}; mean and rms of points are over all of them\n", a, b);

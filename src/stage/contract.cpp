@@ -37,9 +37,12 @@ report::EvidenceEntry evidence_of(const DirectedDeviation& way, bool forward) {
 } // namespace
 
 DeviationSettings DeviationLimits::settings() const {
-    return {.samples = static_cast<std::size_t>(samples),
-            .seed = static_cast<std::uint64_t>(seed),
-            .certify = certify};
+    DeviationSettings settings{.seed = static_cast<std::uint64_t>(seed), .certify = certify};
+    if (samples) {
+        settings.samples = static_cast<std::size_t>(*samples);
+        settings.mean_error = 0;
+    }
+    return settings;
 }
 
 void declare_deviation(Declare<DeviationLimits>& d) {
@@ -59,8 +62,9 @@ void declare_deviation(Declare<DeviationLimits>& d) {
          {"load", From::load, "the scene as last loaded"}},
         "What the scene is compared with; as a stage of its own ensure always compares with load.");
     d.option("samples", &DeviationLimits::samples,
-             "The number of points measured on the area, each way (a count); all vertices are measured in "
-             "addition.")
+             "The number of points spread over the area, each way, all of them measured (a count; 100000 "
+             "unless given, and rms and mean are of as many of these as they need); all vertices are "
+             "measured in addition.")
         .between(0, 1e9);
     d.option("seed", &DeviationLimits::seed, "The seed of the sample positions.").at_least(0);
     d.option("certify", &DeviationLimits::certify,

@@ -15,7 +15,8 @@ struct DeviationLimits {
     enum class From { stage, load };
     std::optional<Length> max, rms, mean;
     From from = From::stage; ///< compared with what entered the step, or with the scene as last loaded
-    std::int64_t samples = 100000, seed = 1;
+    std::optional<std::int64_t> samples; ///< all of them are averaged; without, as many as that takes
+    std::int64_t seed = 1;
     bool certify = false;
 
     DeviationSettings settings() const;

@@ -8,11 +8,14 @@
 
 namespace facetmill {
 
-/// Samples on triangles are rounded, and so is what is closest to them: a distance that coordinates of that
-/// size cannot tell from 0 (16 units of the last place) is 0, so that a surface is 0 from itself.
+/// Samples on triangles are rounded, and so is what is closest to them: the distance up to which coordinates
+/// of that size cannot be told from there (16 units of the last place).
+inline double distance_of_none(const Vec3& p) {
+    return 16 * 2.220446049250313e-16 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+}
+/// Such a distance is 0, so that a surface is 0 from itself.
 inline double told_from_zero(double distance, const Vec3& p) {
-    const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    return distance <= 16 * 2.220446049250313e-16 * size ? 0 : distance;
+    return distance <= distance_of_none(p) ? 0 : distance;
 }
 
 /// Sets d.bound, and raises d.maximum where a point found on the way is farther. d holds what the samples

@@ -42,8 +42,16 @@ Vec3 sample_on(const Surface& surface, std::size_t triangle, double u, double v)
     return a + (surface.point(triangle, 1) - a) * u + (surface.point(triangle, 2) - a) * v;
 }
 
-/// A distance that is not this many times its error is computed again, exactly.
-constexpr double most_errors = 256;
+/// A distance that is not this many times its error is computed again, exactly, unless the error is this part
+/// of the farthest so far.
+constexpr double most_errors = 256, least_part = 1.0 / 16384;
+
+/// Which samples the means are of: every ninth, every third, or all. Each has those before it.
+enum class Portion { ninth, third, all };
+constexpr Portion first_portion(std::size_t sample) {
+    return sample % 9 == 4 ? Portion::ninth : sample % 3 == 1 ? Portion::third : Portion::all;
+}
+constexpr double unmeasured = -1;
 
 struct Farthest {
     Vec3 from, to;
@@ -63,6 +71,33 @@ std::vector<Index> first_uses(const Surface& surface) {
     });
     return first;
 }
+
+/// Points of a surface and their distances to another, as far as they are measured.
+struct Samples {
+    std::vector<SurfaceSample> points;
+    std::vector<double> distances;
+    std::vector<std::size_t> firsts; ///< [triangles + 1] the first of each; they are in the triangles' order
+
+    Samples(const Surface& surface, const DeviationSettings& settings)
+        : points(sample_area(surface, settings.samples, settings.seed)), distances(points.size(), unmeasured),
+          firsts(surface.size() + 1) {
+        for (const SurfaceSample& s : points) ++firsts[s.triangle];
+        exclusive_scan(firsts);
+    }
+
+    /// Whether a sample of the triangle that is not measured may be farther than all so far: few of the
+    /// others are, or one of them comes to half of that.
+    bool may_exceed(double most, std::size_t t) const {
+        constexpr std::size_t enough = 8;
+        std::size_t known = 0;
+        double farthest = 0;
+        for (std::size_t i = firsts[t]; i < firsts[t + 1]; ++i) {
+            known += distances[i] != unmeasured;
+            farthest = std::max(farthest, distances[i]);
+        }
+        return known < enough || farthest >= most / 2;
+    }
+};
 
 /// Measures one way, the triangles in an order in which each is near the one before.
 class Walk {
@@ -88,11 +123,11 @@ class Walk {
         return parallel_reduce(
             order_.size(), Farthest{},
             [&](std::size_t begin, std::size_t end) {
-                Vertices waiting{*this, GroupDistances(to_), {{}, {}, least}};
+                Candidates waiting{*this, GroupDistances(to_), {{}, {}, least}};
                 for (std::size_t i = begin; i < end; ++i)
                     for (std::size_t k = 0; k < 3; ++k) {
                         const Index v = from_.corners[3 * std::size_t{order_[i]} + k];
-                        if (first_uses_[v] == order_[i]) waiting.add(from_.positions[v]);
+                        if (first_uses_[v] == order_[i]) waiting.add(from_.positions[v], SIZE_MAX);
                     }
                 waiting.finish();
                 return waiting.best;
@@ -100,60 +135,77 @@ class Walk {
             farther_of, 4096);
     }
 
-    /// The distances of all samples, and the farthest.
-    Farthest measure(const std::vector<SurfaceSample>& samples, std::vector<double>& distances) const {
-        distances.resize(samples.size());
-        const std::vector<std::size_t> firsts = first_samples(samples);
-        const std::size_t chunk = std::clamp<std::size_t>(order_.size() / 64, 1, 4096);
+    /// The farthest of the samples that have not been measured, likewise; but for those of triangles where
+    /// the others stay well below it.
+    Farthest farthest_sample(const Samples& samples, double least) const {
         Share::loop_tells();
         return parallel_reduce(
             order_.size(), Farthest{},
             [&](std::size_t begin, std::size_t end) {
-                Groups groups{*this, samples, distances, GroupDistances(to_), {{}, {}, 0}};
+                Candidates waiting{*this, GroupDistances(to_), {{}, {}, least}};
                 for (std::size_t i = begin; i < end; ++i)
-                    groups.add(firsts[order_[i]], firsts[order_[i] + std::size_t{1}]);
+                    if (samples.may_exceed(least, order_[i])) waiting.add_unmeasured(samples, order_[i]);
+                waiting.finish();
+                return waiting.best;
+            },
+            farther_of, samples_chunk());
+    }
+
+    /// Measures the samples of a portion, but for those that are; returns the farthest of them.
+    Farthest measure(Samples& samples, Portion portion) const {
+        Share::loop_tells();
+        return parallel_reduce(
+            order_.size(), Farthest{},
+            [&](std::size_t begin, std::size_t end) {
+                Groups groups{*this, samples.points, samples.distances, GroupDistances(to_), {{}, {}, 0}};
+                for (std::size_t i = begin; i < end; ++i)
+                    groups.add(samples.firsts[order_[i]], samples.firsts[order_[i] + std::size_t{1}],
+                               portion);
                 groups.finish();
                 return groups.best;
             },
-            farther_of, chunk);
+            farther_of, samples_chunk());
     }
 
   private:
-    /// Of each triangle its first sample; they are in the order of the triangles.
-    std::vector<std::size_t> first_samples(const std::vector<SurfaceSample>& samples) const {
-        std::vector<std::size_t> firsts(from_.size() + 1);
-        for (const SurfaceSample& s : samples) ++firsts[s.triangle];
-        exclusive_scan(firsts);
-        return firsts;
-    }
+    std::size_t samples_chunk() const { return std::clamp<std::size_t>(order_.size() / 64, 1, 4096); }
 
     /// Raises `best` if p is farther. The coordinates of samples are rounded, those of vertices are not.
     void consider(const Vec3& p, std::size_t sample, Index& hint, Farthest& best) const {
-        const Closest c = closest_point(to_, p, hint, best.distance);
+        const double none_below = sample == SIZE_MAX ? 0 : distance_of_none(p);
+        const Closest c = closest_point(to_, p, hint, std::max(best.distance, none_below));
         hint = c.triangle;
-        const double distance = sample == SIZE_MAX ? c.distance : told_from_zero(c.distance, p);
+        const double distance = c.distance <= none_below ? 0 : c.distance;
         if (distance > best.distance) best = {p, c.point, distance, sample};
     }
 
-    /// Vertices that wait to be compared with the farthest together.
-    struct Vertices {
+    /// Points that wait to be compared with the farthest together.
+    struct Candidates {
         const Walk& walk;
         GroupDistances together;
         Farthest best;
         std::vector<Vec3> points{};
+        std::vector<std::size_t> samples{}; ///< their numbers, SIZE_MAX for vertices
         Index hint = none;
 
-        void add(const Vec3& p) {
+        void add(const Vec3& p, std::size_t sample) {
             points.push_back(p);
+            samples.push_back(sample);
             if (points.size() == GroupDistances::most) finish();
+        }
+
+        void add_unmeasured(const Samples& samples, std::size_t t) {
+            for (std::size_t i = samples.firsts[t]; i < samples.firsts[t + 1]; ++i)
+                if (samples.distances[i] == unmeasured) add(samples.points[i].point, i);
         }
 
         void finish() {
             if (!points.empty() && !together.all_within(points, best.distance, hint))
                 for (std::size_t i = 0; i < points.size(); ++i)
                     if (together.distance(i) + together.error() > best.distance)
-                        walk.consider(points[i], SIZE_MAX, hint, best);
+                        walk.consider(points[i], samples[i], hint, best);
             points.clear();
+            samples.clear();
         }
     };
 
@@ -168,8 +220,10 @@ class Walk {
         std::vector<Vec3> points{};
         Index hint = none;
 
-        void add(std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) waiting.push_back(static_cast<Index>(i));
+        void add(std::size_t begin, std::size_t end, Portion portion) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (first_portion(i) <= portion && distances[i] == unmeasured)
+                    waiting.push_back(static_cast<Index>(i));
             if (waiting.size() >= GroupDistances::most / 2) finish();
         }
 
@@ -206,7 +260,7 @@ class Walk {
             }
             for (std::size_t k = 0; k < some.size(); ++k) {
                 const double distance = together.distance(k);
-                if (together.error() * most_errors > distance) {
+                if (together.error() > std::max(distance / most_errors, best.distance * least_part)) {
                     measure_alone(some[k], together.triangle(k));
                     continue;
                 }
@@ -235,27 +289,46 @@ class Walk {
     std::vector<Index> first_uses_;
 };
 
+/// Of the distances that were measured.
 struct DistanceSums {
-    double distances = 0, squares = 0;
+    std::size_t count = 0;
+    double distances = 0, squares = 0, differences = 0; ///< the last between squares of neighbours, squared
+
+    DistanceSums plus(const DistanceSums& b) const {
+        return {count + b.count, distances + b.distances, squares + b.squares, differences + b.differences};
+    }
+    double rms() const { return std::sqrt(squares / static_cast<double>(count)); }
+    /// The standard error of the RMS, as a part of it; infinity when that is 0. Samples lie in equal parts of
+    /// the area one after the other, so what neighbours differ by is what chance adds. After W. G. Cochran,
+    /// "Sampling Techniques" (1977), 8.11.
+    double error() const { return squares > 0 ? std::sqrt(differences / 2) / squares / 2 : HUGE_VAL; }
 };
 
-void set_means(DirectedDeviation& d, const std::vector<double>& distances) {
-    const DistanceSums sums = parallel_reduce(
+DistanceSums sums_of(const std::vector<double>& distances) {
+    return parallel_reduce(
         distances.size(), DistanceSums{},
         [&](std::size_t begin, std::size_t end) {
             DistanceSums s;
+            double last = unmeasured;
             for (std::size_t i = begin; i < end; ++i) {
+                if (distances[i] == unmeasured) continue;
+                const double square = distances[i] * distances[i];
+                if (last != unmeasured) s.differences += (square - last) * (square - last);
+                last = square;
+                ++s.count;
                 s.distances += distances[i];
-                s.squares += distances[i] * distances[i];
+                s.squares += square;
             }
             return s;
         },
-        [](const DistanceSums& a, const DistanceSums& b) {
-            return DistanceSums{a.distances + b.distances, a.squares + b.squares};
-        });
-    if (distances.empty()) return;
-    d.mean = std::min(sums.distances / static_cast<double>(distances.size()), d.maximum);
-    d.rms = std::min(std::sqrt(sums.squares / static_cast<double>(distances.size())), d.maximum);
+        [](const DistanceSums& a, const DistanceSums& b) { return a.plus(b); });
+}
+
+void set_means(DirectedDeviation& d, const DistanceSums& sums) {
+    d.averaged = sums.count;
+    if (sums.count == 0) return;
+    d.mean = std::min(sums.distances / static_cast<double>(sums.count), d.maximum);
+    d.rms = std::min(sums.rms(), d.maximum);
 }
 
 void set_maximum(DirectedDeviation& d, const Farthest& farthest, Index face) {
@@ -274,7 +347,33 @@ void measure_vertices(DirectedDeviation& d, const std::vector<Vec3>& vertices, c
         distances[i] = found[i].distance;
         set_maximum(d, {vertices[i], found[i].point, found[i].distance}, none);
     }
-    set_means(d, distances);
+    set_means(d, sums_of(distances));
+}
+
+/// The means are of as many samples as they need; the maximum is the farthest of all, and of the vertices.
+void measure_samples(DirectedDeviation& d, const Surface& from, const Walk& walk, Samples& samples,
+                     const DeviationSettings& settings) {
+    const auto raise = [&](const Farthest& farthest) {
+        const bool of_face = farthest.sample != SIZE_MAX;
+        set_maximum(d, farthest, of_face ? from.face(samples.points[farthest.sample].triangle) : none);
+    };
+    ShareOfSteps steps({8, 4});
+    const auto measured = [&](Portion portion) {
+        raise(walk.measure(samples, portion));
+        return sums_of(samples.distances);
+    };
+    DistanceSums sums;
+    if (settings.mean_error > 0) sums = measured(Portion::ninth);
+    const double error = sums.error();
+    if (!(error <= settings.mean_error)) {
+        const bool third_will_do = error <= settings.mean_error * 2; // strata get finer, too
+        sums = measured(third_will_do ? Portion::third : Portion::all);
+        if (third_will_do && !(sums.error() <= settings.mean_error)) sums = measured(Portion::all);
+    }
+    steps.next();
+    raise(walk.farthest_vertex(d.maximum));
+    if (sums.count < samples.points.size()) raise(walk.farthest_sample(samples, d.maximum));
+    set_means(d, sums);
 }
 
 /// order: the triangles, each near the one before.
@@ -292,21 +391,15 @@ DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order
         if (settings.certify) d.bound = HUGE_VAL;
         return d;
     }
-    ShareOfSteps steps({1, 8, 4, settings.certify ? 26.0 : 0.0});
-    const auto samples = sample_area(from, settings.samples, settings.seed);
-    d.samples = samples.size();
+    ShareOfSteps steps({1, 12, settings.certify ? 26.0 : 0.0});
+    Samples samples(from, settings);
+    d.samples = samples.points.size();
     steps.next();
-    if (samples.empty()) {
+    if (samples.points.empty())
         measure_vertices(d, walk.vertices(), to);
-    } else {
-        std::vector<double> distances;
-        const Farthest sample = walk.measure(samples, distances);
-        if (sample.sample != SIZE_MAX) set_maximum(d, sample, from.face(samples[sample.sample].triangle));
-        steps.next();
-        set_maximum(d, walk.farthest_vertex(d.maximum), none);
-        steps.next();
-        set_means(d, distances);
-    }
+    else
+        measure_samples(d, from, walk, samples, settings);
+    steps.next();
     if (settings.certify) bound_deviation(d, from, to, settings);
     return d;
 }

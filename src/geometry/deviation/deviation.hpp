@@ -11,6 +11,10 @@ namespace facetmill {
 struct DeviationSettings {
     std::size_t samples =
         100000; ///< each way, spread evenly over the area; besides, every vertex is a sample
+    /// The means are of a ninth of the samples, or a third, where the standard error of the RMS, estimated
+    /// from samples side by side, is then at most this part of it; else of all. The maximum is of all even
+    /// then, but for those of triangles where eight or more are averaged and stay below half of it.
+    double mean_error = 0.005;
     std::uint64_t seed = 1;
     bool certify = false; ///< also compute DirectedDeviation::bound
     /// Stop when the bound exceeds the maximum by no more than this part of it, and a millionth of the
@@ -24,10 +28,12 @@ struct DeviationSettings {
 /// From one surface to the other: the distance of each sample to the closest point there; 0 where its
 /// coordinates, rounded as they are, cannot tell it from that (16 units of the last place).
 struct DirectedDeviation {
-    std::size_t samples = 0;  ///< over the area; mean and rms are over these, without any over the vertices
+    std::size_t samples = 0;  ///< over the area
+    std::size_t averaged = 0; ///< of these, those that rms and mean are of; without any, vertices
     std::size_t vertices = 0; ///< that triangles use; where there are samples they enter the maximum only
-    double maximum = 0, rms = 0, mean = 0; ///< the means of distances right to 1/256, most to a millionth
-    Vec3 from, to;                         ///< the farthest sample and the point closest to it
+    /// The means are of distances right to 1/256, or to 1/16384 of the maximum; most to a millionth.
+    double maximum = 0, rms = 0, mean = 0;
+    Vec3 from, to;     ///< the farthest sample and the point closest to it
     Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex
     /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`.
     std::optional<double> bound;

@@ -34,7 +34,7 @@ TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
 }
 
 TEST_CASE("a surface with a part missing is far one way only", "[geometry]") {
-    const auto d = deviation(shapes::grid(2, 1), shapes::grid(1, 1), {.certify = true});
+    const auto d = deviation(shapes::grid(2, 1), shapes::grid(1, 1), {.mean_error = 0, .certify = true});
     CHECK(d.forward.maximum == 1); // at a vertex: those are samples as well
     CHECK(d.forward.from.x == 2);
     CHECK(d.forward.to.x == 1);
@@ -224,18 +224,19 @@ TEST_CASE("a deviation is what each point by itself says, by any number of threa
     for (const auto& [a, b] : pairs) {
         const Surface x = surface_of(a), y = surface_of(b);
         constexpr std::size_t samples = 3000;
-        const auto d = deviation(x, y, {.samples = samples});
+        const auto d = deviation(x, y, {.samples = samples, .mean_error = 0});
         for (const auto& [way, plain] :
              {std::pair(d.forward, plainly(x, y, samples)), std::pair(d.backward, plainly(y, x, samples))}) {
             CHECK(way.maximum == plain.maximum);
             CHECK(way.rms == Approx(plain.rms).epsilon(1e-4));
             CHECK(way.mean == Approx(plain.mean).epsilon(1e-4));
             CHECK(way.samples == samples);
+            CHECK(way.averaged == samples);
             CHECK(length(way.from - way.to) == Approx(way.maximum));
         }
         for (const int count : {1, 3}) {
             set_threads(count);
-            const auto again = deviation(x, y, {.samples = samples});
+            const auto again = deviation(x, y, {.samples = samples, .mean_error = 0});
             CHECK(again.rms() == d.rms());
             CHECK(again.forward.mean == d.forward.mean);
             CHECK(again.backward.mean == d.backward.mean);
@@ -244,6 +245,53 @@ TEST_CASE("a deviation is what each point by itself says, by any number of threa
         }
         set_threads(0);
     }
+}
+
+TEST_CASE("means of some of the samples are those of all, and the maximum is that of all", "[geometry]") {
+    const std::pair<Mesh, Mesh> pairs[] = {
+        {shapes::icosphere(4), shapes::icosphere(2)},
+        {shapes::icosphere(3), shapes::icosphere(5)},
+        {test::noisy_icosphere(4, 0.1, 1), test::noisy_icosphere(3, 0.1, 2)},
+        {test::noisy_icosphere(6, 0.02, 1), test::noisy_icosphere(5, 0.02, 2)},
+        {test::noisy_torus(60, 32, 0.01, 5), test::noisy_torus(30, 16, 0.01, 5)},
+        {test::noisy_torus(30, 16, 0.03, 5), shapes::cube()},
+        {with_stray(shapes::icosphere(4), 1e4), shapes::icosphere(3)},
+        {test::random_triangles(300, 0.2, 1), test::random_triangles(40, 0.9, 2)}};
+    std::size_t fewer = 0;
+    for (const auto& [a, b] : pairs) {
+        const Surface x = surface_of(a), y = surface_of(b);
+        const auto d = deviation(x, y);
+        for (const auto& [way, all] :
+             {std::pair(d.forward, plainly(x, y, 100000)), std::pair(d.backward, plainly(y, x, 100000))}) {
+            CHECK(way.maximum >= all.maximum);
+            CHECK(way.rms == Approx(all.rms).epsilon(0.01));
+            CHECK(way.mean == Approx(all.mean).epsilon(0.01));
+            CHECK(way.samples == 100000);
+            CHECK(way.averaged <= way.samples);
+            fewer += way.averaged < way.samples;
+        }
+        for (const int count : {1, 3}) {
+            set_threads(count);
+            const auto again = deviation(x, y);
+            CHECK(again.rms() == d.rms());
+            CHECK(again.maximum() == d.maximum());
+            CHECK(again.backward.to == d.backward.to);
+        }
+        set_threads(0);
+    }
+    CHECK(fewer >= 8);
+}
+
+TEST_CASE("where deviation is rare all samples are averaged", "[geometry]") {
+    Mesh dented = shapes::grid(60, 60);
+    dented.positions[30 * 61 + 30].z += 0.05;
+    const auto d = deviation(dented, shapes::grid(60, 60));
+    CHECK(d.forward.averaged == 100000);
+    CHECK(d.forward.maximum == Approx(0.05));
+    Mesh touched = shapes::grid(60, 60); // by less than a sample in nine
+    touched.positions.insert(touched.positions.end(), {{70, 0, 0.5}, {70.1, 0, 0.5}, {70, 0.1, 0.5}});
+    for (Index k = 3; k > 0; --k) touched.corners.push_back(static_cast<Index>(touched.positions.size()) - k);
+    CHECK(deviation(touched, shapes::grid(60, 60)).forward.averaged == 100000);
 }
 
 TEST_CASE("figures keep their digits at any size", "[geometry]") {
