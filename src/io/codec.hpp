@@ -64,7 +64,7 @@ struct QuantizeSettings {
     int weight_bits = 8; ///< 8: a byte, more: two bytes
 };
 
-/// EXT_meshopt_compression or KHR_meshopt_compression, with the streams that both have (version 0).
+/// EXT_meshopt_compression (streams of version 0) or KHR_meshopt_compression (of version 1).
 struct MeshoptSettings {
     enum class Extension { ext, khr };
 

@@ -53,7 +53,8 @@ TEST_CASE("a broken PLY is refused with its place", "[io]") {
         {ply_head + "0 0 0\n1 0 0\n0 1 0\n300 0 1 2\n",
          "malformed [E-PLY] a.ply:13: a list of 300 values, which the rest of the file cannot hold"},
         {ply_head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
-         "malformed [E-NAN] vertex 1 of part 'a' in 'a.ply' is (1, nan, 0), expected finite numbers"},
+         "malformed [E-NAN] vertex 1 of part 'a' in 'a.ply' is (1, nan, 0), expected finite numbers | "
+         "correct that vertex, or export the file again"},
     };
     for (const auto& [text, message] : cases) CHECK(reading("a.ply", text) == message);
     std::string binary =

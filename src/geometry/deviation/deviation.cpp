@@ -357,21 +357,22 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const Walk& walk
         const bool of_face = farthest.sample != SIZE_MAX;
         set_maximum(d, farthest, of_face ? from.face(samples.points[farthest.sample].triangle) : none);
     };
-    ShareOfSteps steps({8, 4});
-    const auto measured = [&](Portion portion) {
-        raise(walk.measure(samples, portion));
-        return sums_of(samples.distances);
-    };
+    ShareOfSteps steps({1, 2, 6, 2, 2});
     DistanceSums sums;
-    if (settings.mean_error > 0) sums = measured(Portion::ninth);
-    const double error = sums.error();
-    if (!(error <= settings.mean_error)) {
-        const bool third_will_do = error <= settings.mean_error * 2; // strata get finer, too
-        sums = measured(third_will_do ? Portion::third : Portion::all);
-        if (third_will_do && !(sums.error() <= settings.mean_error)) sums = measured(Portion::all);
-    }
-    steps.next();
+    const auto measure = [&](bool needed, Portion portion) {
+        if (needed) {
+            raise(walk.measure(samples, portion));
+            sums = sums_of(samples.distances);
+        }
+        steps.next();
+        return sums.error() <= settings.mean_error;
+    };
+    const bool ninth_will_do = measure(settings.mean_error > 0, Portion::ninth);
+    const bool third_may_do = sums.error() <= settings.mean_error * 2; // strata get finer, too
+    const bool third_will_do = measure(!ninth_will_do && third_may_do, Portion::third);
+    measure(!third_will_do, Portion::all);
     raise(walk.farthest_vertex(d.maximum));
+    steps.next();
     if (sums.count < samples.points.size()) raise(walk.farthest_sample(samples, d.maximum));
     set_means(d, sums);
 }
