@@ -1,4 +1,5 @@
 #include "io/gltf/draco/draco.hpp"
+#include "io/gltf/draco/dequantise.hpp"
 #include "io/gltf/draco/quantise.hpp"
 
 #include "io/gltf/gltf.hpp"
@@ -77,8 +78,14 @@ DracoColumn column_of(const ::draco::Mesh& mesh, const ::draco::PointAttribute& 
     column.components = attribute.num_components();
     column.normalised = attribute.normalized();
     column.data = empty_for(attribute.data_type());
-    const std::size_t points = mesh.num_points(), width = attribute.num_components();
+    const std::size_t points = mesh.num_points();
     if (points > 0 && attribute.size() == 0) fail("an attribute has no values");
+    const auto computed = dequantised(attribute);
+    if (computed) {
+        column.components = computed->components;
+        column.data = std::vector<float>{};
+    }
+    const auto width = static_cast<std::size_t>(column.components);
     std::visit(
         [&](auto& numbers) {
             numbers.resize(points * width);
@@ -86,7 +93,9 @@ DracoColumn column_of(const ::draco::Mesh& mesh, const ::draco::PointAttribute& 
                 const auto value = attribute.mapped_index(::draco::PointIndex(static_cast<std::uint32_t>(i)));
                 if (value.value() >= attribute.size())
                     fail("an attribute has fewer values than the mesh has points");
-                if (!attribute.ConvertValue(value, static_cast<std::int8_t>(width), &numbers[i * width]))
+                if (computed)
+                    std::copy_n(&computed->numbers[value.value() * width], width, &numbers[i * width]);
+                else if (!attribute.ConvertValue(value, static_cast<std::int8_t>(width), &numbers[i * width]))
                     fail("an attribute's value does not fit its type");
             });
         },
@@ -144,6 +153,14 @@ std::size_t check_counts(::draco::DecoderBuffer buffer) {
     return (std::size_t{1} << 20) + 64 * std::size_t{faces} + point_bytes * points + 256 * bytes;
 }
 
+std::unique_ptr<::draco::Mesh> decode(::draco::DecoderBuffer buffer, bool quantised) {
+    ::draco::Decoder decoder;
+    if (quantised) keep_quantised(decoder);
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok()) fail(decoded.status().error_msg());
+    return std::move(decoded).value();
+}
+
 std::unique_ptr<::draco::Mesh> decode(Span bytes) {
     ::draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -151,10 +168,8 @@ std::unique_ptr<::draco::Mesh> decode(Span bytes) {
     if (!type.ok()) fail(type.status().error_msg());
     if (type.value() != ::draco::TRIANGULAR_MESH) fail("it is a point cloud, and a mesh was expected");
     const AllocationCap cap(check_counts(buffer));
-    ::draco::Decoder decoder;
-    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) fail(decoded.status().error_msg());
-    return std::move(decoded).value();
+    auto mesh = decode(buffer, true);
+    return has_lost_types(*mesh) ? decode(buffer, false) : std::move(mesh);
 }
 
 } // namespace
