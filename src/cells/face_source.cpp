@@ -137,6 +137,7 @@ std::vector<io::ply::Property> common_properties(const std::vector<std::unique_p
 std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, const io::ReadSettings& settings,
                                       const std::filesystem::path& scratch, FaceSource::Contents contents) {
     std::vector<std::unique_ptr<RowReader>> readers;
+    readers.reserve(inputs.size());
     for (const io::Input& input : inputs) readers.push_back(reader_of(input, settings));
     const auto extra = common_properties(readers, settings, contents.dropped);
     RowWriter writer(scratch, extra);
