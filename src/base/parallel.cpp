@@ -4,7 +4,9 @@
 #include "base/progress.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <memory>
+#include <tbb/cache_aligned_allocator.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -21,13 +23,17 @@ std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global
 int count = 0;
 
 /// TBB begins with requests for memory under locks that it takes again to tell that there was none, and so
-/// would wait for itself for ever (oneTBB 2022). It begins here, where there is room, and does not end.
+/// would wait for itself for ever (oneTBB 2022). So its own allocator is asked before, without them, for
+/// pieces of the sizes that it takes, and the system for more than all of them; then it begins, and does not
+/// end.
 void begin_tbb() {
     static tbb::task_arena* kept = nullptr;
     if (kept) return;
-    constexpr std::size_t room = std::size_t{1} << 20; // more than it takes
-    void* volatile place = ::operator new(room);       // volatile: it is not left out
-    ::operator delete(place);
+    tbb::cache_aligned_allocator<std::byte> memory;
+    for (std::size_t bytes = 64; bytes <= std::size_t{1} << 20; bytes *= 2)
+        memory.deallocate(memory.allocate(bytes), bytes);
+    void* volatile room = ::operator new (std::size_t{8} << 20); // volatile: it is not left out
+    ::operator delete(room);
     kept = new tbb::task_arena(1);
     kept->initialize();
 }
