@@ -103,6 +103,7 @@ class Cells(Case):
         self.assertIn("E-ARGUMENT", self.mill("pipe", "--memory", "much", "load", "large.ply", "!", "write", "o.ply",
                                               expect=2).stderr)
 
+    @unittest.skipIf(SLOW, "sanitizers take memory of their own")
     def test_the_limit_holds_where_the_kernel_enforces_it(self):
         scan = self.large()
         group = memory_group(self, 50 * MEGABYTE)
