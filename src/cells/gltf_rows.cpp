@@ -27,18 +27,6 @@ gltf::Chunks chunks_of(const io::Input& input) {
     return chunks;
 }
 
-/// What body gives; its errors are placed in the file.
-template <class Body>
-auto in_file(const io::Input& input, Body&& body) {
-    try {
-        return body();
-    } catch (Error& e) {
-        throw e.at(file_mark(input.name()));
-    } catch (const Json::exception& e) {
-        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), "", file_mark(input.name()));
-    }
-}
-
 std::optional<std::string> why_accessor_not(const Json& json, const gltf::Place& reference) {
     const gltf::Source source(json, {});
     const gltf::Accessor a = gltf::accessor(source, reference);
@@ -90,7 +78,7 @@ class GltfReader final : public RowReader {
           chunks_(chunks_of(input)), json_(gltf::parse_document(chunks_.json)) {}
 
     std::string read(RowWriter& out, bool) override {
-        return in_file(input_, [&] {
+        return gltf::in_file(input_, [&] {
             const gltf::Placement* last = nullptr;
             std::set<std::string> attributes;
             each_primitive(json_, [&](const gltf::Placement& placement, const gltf::Place& primitive) {
@@ -245,7 +233,7 @@ bool is_gltf(const io::Input& input) {
 }
 
 std::optional<std::string> why_gltf_not_streamed(const io::Input& input) {
-    return in_file(input, [&]() -> std::optional<std::string> {
+    return gltf::in_file(input, [&]() -> std::optional<std::string> {
         const Json json = gltf::parse_document(chunks_of(input).json);
         for (const char* name : {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
                                  "KHR_meshopt_compression", "KHR_draco_mesh_compression"})
@@ -263,7 +251,7 @@ std::optional<std::string> why_gltf_not_streamed(const io::Input& input) {
 }
 
 std::uint64_t gltf_faces(const io::Input& input) {
-    return in_file(input, [&] {
+    return gltf::in_file(input, [&] {
         const Json json = gltf::parse_document(chunks_of(input).json);
         std::uint64_t faces = 0;
         each_primitive(json, [&](const gltf::Placement&, const gltf::Place& primitive) {

@@ -209,23 +209,11 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     return scene;
 }
 
-/// What body gives; its errors are placed in the file.
-template <class Body>
-auto located(const Input& input, Body&& body) {
-    try {
-        return body();
-    } catch (Error& e) {
-        throw e.at(file_mark(input.name()));
-    } catch (const Json::exception& e) {
-        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), "", file_mark(input.name()));
-    }
-}
-
 } // namespace
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     const std::size_t before = log.warnings.size();
-    return located(input, [&] {
+    return in_file(input, [&] {
         Scene scene = read_document(input, settings, log);
         for (std::size_t i = before; i < log.warnings.size(); ++i)
             if (!log.warnings[i].where.known()) log.warnings[i].where = file_mark(input.name());
@@ -250,7 +238,7 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
 } // namespace
 
 void peek(const Input& input, FileHeader& header) {
-    located(input, [&] {
+    in_file(input, [&] {
         const Json json = parse_document(chunks_of(input).json);
         check_asset(json);
         for (const auto& placement : placements(json, node_frames(json)))

@@ -14,6 +14,18 @@ namespace facetmill::io::gltf {
 /// What to do with glTF of before 2017.
 inline constexpr const char* hint_for_version_1 = "gltf-pipeline writes glTF 1.0 as 2.0";
 
+/// What body gives; its errors are placed in the file.
+template <class Body>
+auto in_file(const Input& input, Body&& body) {
+    try {
+        return body();
+    } catch (Error& e) {
+        throw e.at(file_mark(input.name()));
+    } catch (const Json::exception& e) {
+        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), "", file_mark(input.name()));
+    }
+}
+
 /// True when the bytes begin with the GLB magic number.
 bool is_glb(Span bytes);
 
