@@ -119,36 +119,20 @@ class Walk {
     /// The farthest vertex, when it is beyond `least`. One that turns out nearer than one before it need not
     /// be searched to the end.
     Farthest farthest_vertex(double least) const {
-        Share::loop_tells();
-        return parallel_reduce(
-            order_.size(), Farthest{},
-            [&](std::size_t begin, std::size_t end) {
-                Candidates waiting{*this, GroupDistances(to_), {{}, {}, least}};
-                for (std::size_t i = begin; i < end; ++i)
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const Index v = from_.corners[3 * std::size_t{order_[i]} + k];
-                        if (first_uses_[v] == order_[i]) waiting.add(from_.positions[v], SIZE_MAX);
-                    }
-                waiting.finish();
-                return waiting.best;
-            },
-            farther_of, 4096);
+        return farthest(least, 4096, [&](Index t, Candidates& waiting) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index v = from_.corners[3 * std::size_t{t} + k];
+                if (first_uses_[v] == t) waiting.add(from_.positions[v], SIZE_MAX);
+            }
+        });
     }
 
     /// The farthest of the samples that have not been measured, likewise; but for those of triangles where
     /// the others stay well below it.
     Farthest farthest_sample(const Samples& samples, double least) const {
-        Share::loop_tells();
-        return parallel_reduce(
-            order_.size(), Farthest{},
-            [&](std::size_t begin, std::size_t end) {
-                Candidates waiting{*this, GroupDistances(to_), {{}, {}, least}};
-                for (std::size_t i = begin; i < end; ++i)
-                    if (samples.may_exceed(least, order_[i])) waiting.add_unmeasured(samples, order_[i]);
-                waiting.finish();
-                return waiting.best;
-            },
-            farther_of, samples_chunk());
+        return farthest(least, samples_chunk(), [&](Index t, Candidates& waiting) {
+            if (samples.may_exceed(least, t)) waiting.add_unmeasured(samples, t);
+        });
     }
 
     /// Measures the samples of a portion, but for those that are; returns the farthest of them.
@@ -168,6 +152,7 @@ class Walk {
     }
 
   private:
+    struct Candidates;
     std::size_t samples_chunk() const { return std::clamp<std::size_t>(order_.size() / 64, 1, 4096); }
 
     /// Raises `best` if p is farther. The coordinates of samples are rounded, those of vertices are not.
@@ -208,6 +193,21 @@ class Walk {
             samples.clear();
         }
     };
+
+    /// The farthest of what add(triangle, candidates) adds for each triangle, in chunks of so many.
+    template <class Add>
+    Farthest farthest(double least, std::size_t chunk, const Add& add) const {
+        Share::loop_tells();
+        return parallel_reduce(
+            order_.size(), Farthest{},
+            [&](std::size_t begin, std::size_t end) {
+                Candidates waiting{*this, GroupDistances(to_), {{}, {}, least}};
+                for (std::size_t i = begin; i < end; ++i) add(order_[i], waiting);
+                waiting.finish();
+                return waiting.best;
+            },
+            farther_of, chunk);
+    }
 
     /// Samples that wait to be measured together. Only those that may be the farthest are looked up.
     struct Groups {
