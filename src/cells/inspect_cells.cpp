@@ -63,12 +63,7 @@ class CellInspection {
         Properties& p = found_;
         p.vertices = p.wedges = static_cast<std::int64_t>(partition_.vertices());
         p.faces = p.triangles = static_cast<std::int64_t>(partition_.faces());
-        p.edges = sums_.edges;
-        p.boundary_edges = sums_.boundary_edges;
-        p.closed = sums_.uncancelled_edges == 0;
-        p.edge_manifold = sums_.crowded_edges == 0;
-        p.vertex_manifold = sums_.non_manifold_vertices == 0;
-        p.oriented = sums_.disagreeing_edges == 0;
+        set_connectivity(p, sums_);
         p.components = inside_sets_ + static_cast<std::int64_t>(sets_.count());
         p.euler = p.vertices - p.edges + p.faces;
         if (p.closed) p.volume = (transform_.determinant() < 0 ? -volume_ : volume_) / 6;

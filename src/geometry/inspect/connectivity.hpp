@@ -20,6 +20,10 @@ struct Connectivity {
         0; ///< of an all-triangle mesh: triangles of three vertices seen before
 };
 
+struct Properties;
+/// The properties that these numbers are or decide: edges, boundary edges, closed, manifold, oriented.
+void set_connectivity(Properties& p, const Connectivity& c);
+
 /// Where a vertex stands that a mesh shares with others, as the parts of a larger one are counted one after
 /// another.
 enum class Turn : std::uint8_t {

@@ -114,14 +114,9 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.triangles = sums.triangles;
     p.degenerate_faces = sums.degenerate;
     p.area = sums.area;
-    p.edges = connectivity.edges;
-    p.boundary_edges = connectivity.boundary_edges;
+    set_connectivity(p, connectivity);
     p.boundary_loops = connectivity.boundary_loops;
     p.isolated_vertices = connectivity.isolated_vertices;
-    p.closed = connectivity.uncancelled_edges == 0;
-    p.edge_manifold = connectivity.crowded_edges == 0;
-    p.vertex_manifold = connectivity.non_manifold_vertices == 0;
-    p.oriented = connectivity.disagreeing_edges == 0;
     // Triangles of three different vertices are compared where they meet; all else by the hash of its
     // vertices.
     p.duplicate_faces = mesh.all_triangles() && sums.repeating == 0
@@ -236,6 +231,15 @@ std::vector<double> lengths_of(const InspectSettings& settings) {
 }
 
 } // namespace
+
+void set_connectivity(Properties& p, const Connectivity& c) {
+    p.edges = c.edges;
+    p.boundary_edges = c.boundary_edges;
+    p.closed = c.uncancelled_edges == 0;
+    p.edge_manifold = c.crowded_edges == 0;
+    p.vertex_manifold = c.non_manifold_vertices == 0;
+    p.oriented = c.disagreeing_edges == 0;
+}
 
 Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
     ShareOfSteps steps(lengths_of(settings));
