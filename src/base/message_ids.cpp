@@ -16,6 +16,10 @@ std::span<const MessageId> message_ids() {
          {Kind::usage},
          "The command line has an argument that the command does not take, or lacks one that it needs.",
          "`facetmill COMMAND --help` lists the arguments."},
+        {"E-ASSET-ROOT",
+         {Kind::missing},
+         "The folder of `--asset-root`, or of `load: {asset_root: ...}`, is not there, or is a file.",
+         "Name the folder that holds all files that the mesh file refers to."},
         {"E-ATTRIBUTE",
          {Kind::stage},
          "A part has no attribute of the name and kind that an option asks for.",
@@ -410,7 +414,10 @@ std::span<const MessageId> message_ids() {
         {"E-URI",
          {Kind::malformed},
          "A glTF refers to a file outside its directory.",
-         "Copy the file there; absolute paths and `..` are not followed."},
+         "Copy the file there, or name a folder that holds all files: `--asset-root DIR`, or `load: {path: "
+         "..., "
+         "asset_root: DIR}`. Absolute paths, URLs, and links that lead out of the folder are never "
+         "followed."},
         {"E-VALUE", {Kind::usage}, "A stage does not take a bare value.", "Give its options by name."},
         {"E-VARIABLE",
          {Kind::usage},
@@ -531,7 +538,9 @@ std::span<const MessageId> message_ids() {
          {},
          "An image or texture that a file refers to is missing, outside the file's directory, or of an "
          "unsupported kind.",
-         "Put the image beside the file, as PNG or JPEG."},
+         "Put the image beside the file, as PNG or JPEG. `../wood.png` is read below a folder that "
+         "`--asset-root DIR`, "
+         "or `load: {path: ..., asset_root: DIR}`, names."},
         {"W-INCOMPLETE",
          {},
          "A glTF primitive has extra indices after its last triangle.",
@@ -585,7 +594,9 @@ std::span<const MessageId> message_ids() {
          {},
          "A material library of an OBJ file is missing, in another directory, or contains statements that "
          "glTF cannot represent.",
-         "Put the library beside the OBJ file; the message names the statements that are not kept."},
+         "Put the library beside the OBJ file, or name a folder that holds both: `--asset-root DIR`; the "
+         "message "
+         "names the statements that are not kept."},
         {"W-NAN",
          {},
          "Values of an attribute are not finite numbers and are set to 0.",

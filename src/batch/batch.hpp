@@ -65,7 +65,8 @@ struct Work {
     Asset asset;
     std::vector<std::filesystem::path> inputs, outputs; ///< as far as they are known before it runs
     std::string digest; ///< of all options and what else a result depends on, besides the inputs' content
-    std::uint64_t memory = 0; ///< an estimate, in bytes
+    std::uint64_t memory = 0;                         ///< an estimate, in bytes
+    std::vector<std::filesystem::path> asset_roots{}; ///< folders below which the inputs may name files
 };
 
 struct Prepared {

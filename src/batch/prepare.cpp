@@ -28,6 +28,13 @@ std::string content_of(const std::string& text) {
         pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{"", text}), ignored));
 }
 
+std::vector<std::string> asset_roots_in(const pipeline::Plan& plan) {
+    std::vector<std::string> folders;
+    for (const auto& folder : pipeline::asset_roots_of(plan.steps, plan.places))
+        folders.push_back(folder.string());
+    return folders;
+}
+
 /// What a result depends on besides the content of inputs: this program, the pipeline, what the plan resolves
 /// to. The pipeline is in it since values that depend on the names of parts have no text in a plan.
 std::string options_digest(const std::string& pipeline, const pipeline::Plan& plan,
@@ -36,6 +43,7 @@ std::string options_digest(const std::string& pipeline, const pipeline::Plan& pl
                       {"pipeline", pipeline},
                       {"plan", pipeline::describe_json(plan)},
                       {"allowed", plan.allowed},
+                      {"asset_roots", asset_roots_in(plan)},
                       {"strict", settings.strict}};
     return digest_of(all.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -176,6 +184,7 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
         Work work{
             asset, pipeline::planned_inputs(plan, headers), pipeline::planned_outputs(plan, headers), {}, 0};
         work.digest = options_digest(pipeline, plan, settings);
+        work.asset_roots = pipeline::asset_roots_of(plan.steps, plan.places);
         work.memory = memory_for(work.inputs);
         out.works.push_back(std::move(work));
     }

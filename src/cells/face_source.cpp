@@ -192,7 +192,7 @@ std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>&
             throw Error(ErrorKind::usage, "E-CELLS",
                         fmt::format("'{}' cannot be processed in cells: {}", path.string(), *why),
                         "write it as binary PLY or STL first, or use more memory");
-        inputs.push_back(open_mapped(path));
+        inputs.push_back(open_mapped(path).with_asset_roots(settings.asset_roots));
     }
     FaceSource::Contents contents;
     contents.name = paths.front().stem().string();

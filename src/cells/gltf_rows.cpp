@@ -148,9 +148,7 @@ class GltfReader final : public RowReader {
         std::uint64_t size = 0;
         std::filesystem::path path = input_.path();
         if (!uri.empty()) {
-            const auto relative = gltf::relative_path(uri);
-            if (!relative) view.fail(fmt::format("the buffer '{}' is not beside the document", uri), "E-URI");
-            path = input_.path_beside(*relative);
+            path = gltf::buffer_path(gltf::item(json_, "buffers", number), uri, input_);
             buffers_.insert(path);
             std::error_code error;
             size = std::filesystem::file_size(path, error);

@@ -184,6 +184,7 @@ AllowedFiles allowed_for(const std::vector<batch::Work>& works, const batch::Set
     allow_output(allowed, settings.output_dir / "x");
     for (const auto& work : works) {
         for (const auto& input : work.inputs) allow_input(allowed, input);
+        allowed.read.insert(allowed.read.end(), work.asset_roots.begin(), work.asset_roots.end());
         for (const auto& output : work.outputs) allow_output(allowed, output);
     }
     for (const auto& output : settings.others) allow_output(allowed, output);

@@ -16,6 +16,9 @@ struct SandboxOptions {
 /// --no-sandbox.
 void add_sandbox_option(Arguments& arguments, SandboxOptions& options);
 
+/// --asset-root, which may be repeated.
+void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders);
+
 /// Adds an input: itself, and its folder, where its neighbours are.
 void allow_input(AllowedFiles& allowed, const std::filesystem::path& input);
 /// Adds an output: its folder, for its temporary beside it; a stream itself.

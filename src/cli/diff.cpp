@@ -101,6 +101,7 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
         allowed.read = {options.a, options.b};
     else
         for (const auto& file : {options.a, options.b}) allow_input(allowed, file);
+    allowed.read.insert(allowed.read.end(), options.asset_roots.begin(), options.asset_roots.end());
     check_reports(options, line);
     for (const auto& report : options.reports) {
         allow_output(allowed, report);
@@ -162,6 +163,7 @@ Command diff_command() {
             arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
             arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                 .between(1, 4096);
+            add_asset_root_option(arguments, options->asset_roots);
             add_sandbox_option(arguments, options->sandbox);
             add_message_options(arguments, console);
             return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };

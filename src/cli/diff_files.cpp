@@ -50,10 +50,11 @@ std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& tex
 }
 
 /// Reads a file; what its reader could not keep is noted, so that it is not taken for the same.
-Scene read(const std::string& name, bool is_a, report::Comparison& notes, const Console& console) {
+Scene read(const std::string& name, bool is_a, const DiffOptions& options, report::Comparison& notes,
+           const Console& console) {
     io::ReadLog log;
     const io::Input input = io::Input::open(name);
-    Scene scene = io::read_scene(input, {}, log);
+    Scene scene = io::read_scene(input, read_settings(options), log);
     (is_a ? notes.size_a : notes.size_b) = size_of(name, input.stored(), log);
     for (const auto& warning : log.warnings) {
         console.diagnostic(warning);
@@ -77,15 +78,21 @@ bool is_named_by_file(const Scene& scene, const std::string& file) {
 
 } // namespace
 
+io::ReadSettings read_settings(const DiffOptions& options) {
+    io::ReadSettings settings;
+    settings.asset_roots.assign(options.asset_roots.begin(), options.asset_roots.end());
+    return settings;
+}
+
 ComparedFiles compared_files(const DiffOptions& options, const std::string& name_a, const std::string& name_b,
                              const CommandLine& line, const Console& console) {
     report::Comparison notes;
     ComparedFiles out;
     Scene &a = out.a, &b = out.b;
     ShareOfSteps steps({2, 2, options.settings.deviation.certify ? 60.0 : 20.0});
-    a = read(name_a, true, notes, console);
+    a = read(name_a, true, options, notes, console);
     steps.next();
-    b = read(name_b, false, notes, console);
+    b = read(name_b, false, options, notes, console);
     steps.next();
     state(a, options);
     state(b, options);

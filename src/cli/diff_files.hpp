@@ -4,6 +4,7 @@
 #include "cli/command.hpp"
 #include "cli/confine.hpp"
 #include "diff/comparison.hpp"
+#include "io/codec.hpp"
 
 #include <filesystem>
 
@@ -16,10 +17,14 @@ struct DiffOptions {
     std::size_t samples = SIZE_MAX;   ///< of the deviation, which averages them all then; or not given
     std::string unit, up;             ///< of files that state none
     std::vector<std::string> reports; ///< pages and Markdown files to write
+    std::vector<std::string> asset_roots;
     bool json = false, all = false;
     int threads = 0;
     SandboxOptions sandbox;
 };
+
+/// How both are read.
+io::ReadSettings read_settings(const DiffOptions& options);
 
 /// A pair that was read and compared, the second scene in the convention of the first.
 struct ComparedFiles {

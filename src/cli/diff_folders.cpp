@@ -29,10 +29,11 @@ std::string page_of(const std::string& index, const std::string& path) {
     return (folder_of_pages(index).filename() / (path + ".html")).generic_string();
 }
 
-void tell_one_side(const std::filesystem::path& file, bool is_a, bool with_picture, FolderPair& pair) {
+void tell_one_side(const std::filesystem::path& file, bool is_a, bool with_picture,
+                   const io::ReadSettings& settings, FolderPair& pair) {
     io::ReadLog log;
     const io::Input input = io::Input::open(file);
-    const Scene scene = io::read_scene(input, {}, log);
+    const Scene scene = io::read_scene(input, settings, log);
     (is_a ? pair.faces_a : pair.faces_b) = scene.face_count();
     (is_a ? pair.bytes_a : pair.bytes_b) = input.stored().size();
     if (with_picture) (is_a ? pair.picture_a : pair.picture_b) = report::small_picture(scene);
@@ -84,7 +85,7 @@ class FolderDiff {
         pair.outcome = in_a ? FolderPair::Outcome::removed : FolderPair::Outcome::added;
         pair.exit_code = static_cast<int>(ErrorKind::check);
         pair.verdict = in_a ? "only in the first folder" : "only in the second folder";
-        tell_one_side(file, in_a, !index_.empty(), pair);
+        tell_one_side(file, in_a, !index_.empty(), read_settings(options_), pair);
     }
 
     const DiffOptions& options_;

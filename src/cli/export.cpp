@@ -55,6 +55,10 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
         arguments.emplace_back("--allow");
         arguments.push_back(id);
     }
+    for (const auto& folder : options.common.asset_roots) {
+        arguments.emplace_back("--asset-root");
+        arguments.push_back(folder);
+    }
     const std::string threads = std::to_string(options.common.threads);
     for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.string(),
                                         std::string("--threads"), threads, std::string("--quiet")})

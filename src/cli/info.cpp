@@ -40,6 +40,7 @@ struct InfoOptions {
     std::string format, picture;
     bool json = false, self_intersections = false;
     int threads = 0;
+    std::vector<std::string> asset_roots;
     SandboxOptions sandbox;
 };
 
@@ -184,13 +185,19 @@ Picture info_picture(const Scene& scene, const Console& console) {
     return picture_of(posed ? *posed : scene, settings);
 }
 
+io::ReadSettings read_settings(const InfoOptions& options) {
+    io::ReadSettings settings;
+    settings.asset_roots.assign(options.asset_roots.begin(), options.asset_roots.end());
+    return settings;
+}
+
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
                  std::vector<Picture>& pictures) {
     ShareOfSteps steps({3, options.picture.empty() ? 0.0 : 6.0, options.self_intersections ? 24.0 : 6.0, 2});
     const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
     io::ReadLog log;
     FileInfo info;
-    info.scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
+    info.scene = io::read_scene(io::Input::open(mesh), read_settings(options), log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
     steps.next();
     if (!options.picture.empty()) pictures.push_back(info_picture(info.scene, console));
@@ -209,6 +216,7 @@ int info(const InfoOptions& options, const Console& console, const CommandLine& 
                     "for example --picture part.png", line.value(options.picture));
     AllowedFiles allowed;
     for (const auto& mesh : options.meshes) allow_input(allowed, mesh);
+    allowed.read.insert(allowed.read.end(), options.asset_roots.begin(), options.asset_roots.end());
     if (!options.picture.empty()) allow_output(allowed, options.picture);
     confine(allowed, options.sandbox, console);
     set_threads(options.threads);
@@ -250,6 +258,7 @@ Command info_command() {
                     .one_of(io::names_of_readers());
                 arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                     .between(1, 4096);
+                add_asset_root_option(arguments, options->asset_roots);
                 add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {

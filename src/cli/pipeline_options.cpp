@@ -42,6 +42,7 @@ void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-p,--preset", &options.presets,
                   "A YAML file of params (keep: 10%), with paths relative to it. -D overrides it.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
+    add_asset_root_option(arguments, options.asset_roots);
 }
 
 void add_value_options(Arguments& arguments, PipelineOptions& options) {
@@ -181,6 +182,7 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     settings.sets = split_pairs(options.sets, "--set", line, problems);
     settings.update_baselines = options.update_baseline;
     settings.places.output_base = options.output_dir;
+    settings.places.asset_roots.assign(options.asset_roots.begin(), options.asset_roots.end());
     auto strict = options.strict;
     std::erase(strict, "*"); // --strict alone
     check_ids(strict, "--strict", line, problems);
@@ -238,6 +240,8 @@ std::string command_for(const std::string& pipeline, const pipeline::PlanSetting
         line += fmt::format(" -D {}", for_shell(fmt::format("{}={}", name, value)));
     for (const auto& [option, value] : settings.sets)
         line += fmt::format(" --set {}", for_shell(fmt::format("{}={}", option, value)));
+    for (const auto& folder : settings.places.asset_roots)
+        line += fmt::format(" --asset-root {}", for_shell(folder.string()));
     return line;
 }
 

@@ -13,6 +13,7 @@ struct PipelineOptions {
     std::vector<std::string> defines, sets; ///< "name=value", as given
     std::vector<std::string> presets;       ///< files of params, a later one before an earlier one
     std::vector<std::string> reports, strict, allowed;
+    std::vector<std::string> asset_roots;
     std::string output_dir, depfile, depfile_target, timings;
     int threads = 0;
     bool check_invariants = false, update_baseline = false;
@@ -24,7 +25,7 @@ struct PipelineOptions {
     SandboxOptions sandbox;
 };
 
-/// -D, --preset and --set.
+/// -D, --preset, --set and --asset-root.
 void add_param_options(Arguments& arguments, PipelineOptions& options);
 /// ... and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);

@@ -105,6 +105,7 @@ Command render_command() {
             arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.");
             arguments.add("-j,--threads", &options->run.threads, "The number of threads. Default: all cores.")
                 .between(1, 4096);
+            add_asset_root_option(arguments, options->run.asset_roots);
             add_sandbox_option(arguments, options->run.sandbox);
             add_message_options(arguments, console);
             return [=, &arguments, &console](const Invocation& invocation) {

@@ -164,6 +164,20 @@ Input Input::staged_as(const std::filesystem::path& target, std::shared_ptr<cons
     return other;
 }
 
+Input Input::with_asset_roots(const std::vector<std::filesystem::path>& folders) const {
+    Input other = *this;
+    for (const auto& folder : folders) {
+        std::error_code failed;
+        const bool is_folder = std::filesystem::is_directory(folder, failed);
+        if (is_folder) other.asset_roots_.push_back(std::filesystem::canonical(folder, failed));
+        if (!is_folder || failed)
+            throw Error(ErrorKind::missing, "E-ASSET-ROOT",
+                        fmt::format("the asset root '{}' is not a folder", folder.string()),
+                        "name the folder that holds all files that the mesh file refers to");
+    }
+    return other;
+}
+
 std::filesystem::path Input::path_beside(const std::filesystem::path& relative) const {
     std::filesystem::path path = path_.parent_path() / relative;
     if (instead_)

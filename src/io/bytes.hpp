@@ -39,6 +39,10 @@ class Input {
     Input beside(const std::filesystem::path& relative) const;
     /// ... and the path to open for it.
     std::filesystem::path path_beside(const std::filesystem::path& relative) const;
+    /// The same file, whose neighbours may lie below these folders, too: links in the paths are resolved.
+    /// Throws missing (E-ASSET-ROOT) for what is no folder.
+    Input with_asset_roots(const std::vector<std::filesystem::path>& folders) const;
+    const std::vector<std::filesystem::path>& asset_roots() const { return asset_roots_; }
 
     const std::string& name() const { return name_; }           ///< for messages and the report
     const std::filesystem::path& path() const { return path_; } ///< empty for streams
@@ -69,6 +73,7 @@ class Input {
     std::optional<Stamp> mapped_; ///< none: the bytes are a copy
     std::shared_ptr<const void> owner_, stored_owner_;
     std::shared_ptr<const Instead> instead_;
+    std::vector<std::filesystem::path> asset_roots_;
     Span bytes_, stored_;
 };
 

@@ -177,7 +177,7 @@ const std::vector<Capability>& capabilities() {
 }
 
 FileHeader file_header(const Input& file, const ReadSettings& settings, const Codec* forced) {
-    const Input input = readable(file);
+    const Input input = readable(file).with_asset_roots(settings.asset_roots);
     ReadLog log; // its warnings come again when the file is read
     const Codec& codec = reader_for(input, log, forced);
     FileHeader header{codec.name, codec.unit, settings.up.value_or(codec.up)};
@@ -189,7 +189,7 @@ FileHeader file_header(const Input& file, const ReadSettings& settings, const Co
 }
 
 Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
-    const Input input = readable(file);
+    const Input input = readable(file).with_asset_roots(settings.asset_roots);
     const Codec& codec = reader_for(input, log, forced);
     constexpr double memory_per_byte = 4; // as measured on large meshes: 3 to 5 in all formats
     require_memory(memory_per_byte * static_cast<double>(input.bytes().size()),

@@ -48,6 +48,8 @@ struct ReadSettings {
     std::size_t max_vertices = std::size_t{1} << 31;
     bool lines = false;            ///< read lines, too, where the format has them
     bool expand_instances = false; ///< glTF: each instance of EXT_mesh_gpu_instancing is a part
+    /// Folders below which the neighbours of a file may lie, besides its own.
+    std::vector<std::filesystem::path> asset_roots{};
 };
 
 struct DracoSettings {

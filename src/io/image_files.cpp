@@ -1,6 +1,7 @@
 #include "io/image_files.hpp"
 
 #include "base/hash.hpp"
+#include "base/markup.hpp"
 #include "base/memory.hpp"
 #include "base/spelling.hpp"
 
@@ -40,42 +41,78 @@ std::optional<ImageColours> jpeg_colours(Span bytes) {
 
 } // namespace
 
-std::optional<fs::path> path_below(const Input& input, const fs::path& relative) {
-    // Absolute first: weakly_canonical leaves a relative path as it is when nothing of it exists yet.
-    std::error_code failed;
-    const fs::path directory = fs::absolute(input.path().empty() ? "." : input.path(), failed);
-    if (failed) return std::nullopt;
-    const fs::path base =
-        fs::weakly_canonical(input.path().empty() ? directory : directory.parent_path(), failed);
-    if (failed) return std::nullopt;
-    const fs::path real = fs::weakly_canonical(base / relative, failed);
-    if (failed) return std::nullopt;
-    const auto mismatch = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
-    if (mismatch.first != base.end()) return std::nullopt;
-    return input.path_beside(relative);
+namespace {
+
+bool leaves_folder(const fs::path& relative) { return !relative.empty() && *relative.begin() == ".."; }
+
+bool is_below(const fs::path& folder, const fs::path& file) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-std::optional<fs::path> path_inside(std::string name) {
+/// With its links and .. resolved, whether it is there or not. Absolute first: weakly_canonical leaves a
+/// relative path as it is when nothing of it exists yet.
+fs::path resolved(const fs::path& path, std::error_code& failed) {
+    const fs::path absolute = fs::absolute(path, failed);
+    return failed ? fs::path() : fs::weakly_canonical(absolute, failed);
+}
+
+/// Without "..", where that names the same file: where no folder before one is a link.
+fs::path plain(const fs::path& path, const fs::path& real) {
+    std::error_code failed;
+    const fs::path normal = path.lexically_normal();
+    return resolved(normal, failed) == real && !failed ? normal : path;
+}
+
+} // namespace
+
+std::optional<fs::path> path_below(const Input& input, const fs::path& relative) {
+    const std::vector<fs::path>& roots = input.asset_roots();
+    if (leaves_folder(relative) && roots.empty()) return std::nullopt;
+    std::error_code failed;
+    const fs::path folder = input.path().parent_path();
+    const fs::path base = resolved(folder.empty() ? "." : folder, failed);
+    if (failed) return std::nullopt;
+    const fs::path real = resolved(base / relative, failed);
+    const auto holds = [&](const fs::path& root) { return is_below(root, real); };
+    if (failed || !(holds(base) || std::any_of(roots.begin(), roots.end(), holds))) return std::nullopt;
+    const fs::path path = input.path_beside(relative);
+    return leaves_folder(relative) ? plain(path, real) : path;
+}
+
+std::string hint_for_asset_root(const Input& input, const std::optional<fs::path>& relative) {
+    if (!relative || !leaves_folder(*relative)) return {};
+    fs::path folder = input.path().parent_path();
+    for (const fs::path& step : *relative)
+        if (step == "..") folder /= step;
+    folder = folder.lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path(); // "assets/" -> "assets"
+    const std::string name = for_shell(folder.empty() ? "." : folder.string());
+    return fmt::format(
+        "--asset-root {0}, or load: {{path: ..., asset_root: {0}}}, allows the files below that folder",
+        name);
+}
+
+std::optional<fs::path> relative_path_of(std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     if (name.find('\0') != std::string::npos) return {};
     const fs::path path = fs::path(name).lexically_normal();
-    if (path.empty() || path.is_absolute() || *path.begin() == ".." || path == "." || !path.has_filename())
-        return {};
+    if (path.empty() || path.is_absolute() || path == "." || !path.has_filename()) return {};
     return path;
 }
 
 std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path>& relative,
                                 const std::string& name, const std::string& where, ReadLog& log) {
-    const auto refuse = [&](const std::string& why) -> std::optional<Bytes> {
-        log.warnings.push_back(
-            {Severity::warning, "W-IMAGE", fmt::format("{}: {}", where, why), file_mark(input.name()), ""});
+    const auto refuse = [&](const std::string& why, std::string hint = {}) -> std::optional<Bytes> {
+        log.warnings.push_back({Severity::warning, "W-IMAGE", fmt::format("{}: {}", where, why),
+                                file_mark(input.name()), std::move(hint)});
         return {};
     };
     const auto path = relative ? path_below(input, *relative) : std::nullopt;
     if (!path) {
         log.unrepeatable = true; // a link may lead elsewhere the next time
         return refuse(
-            fmt::format("\"{}\" is not a file in the directory of '{}' and is not read", name, input.name()));
+            fmt::format("\"{}\" is not a file in the directory of '{}' and is not read", name, input.name()),
+            hint_for_asset_root(input, relative));
     }
     std::error_code ignored;
     if (!fs::is_regular_file(*path, ignored)) {
@@ -136,10 +173,13 @@ ImageNames::ImageNames(std::string stem, const std::vector<std::string>& taken) 
 fs::path ImageNames::add(const fs::path& relative) {
     const std::string file = relative.filename().string();
     const std::string name = file.starts_with(stem_ + ".") ? file : stem_ + "." + file;
-    fs::path path = relative.parent_path() / name;
+    fs::path folder;
+    for (const fs::path& step : relative.parent_path())
+        if (step != "..") folder /= step;
+    fs::path path = folder / name;
     const fs::path plain = fs::path(name).stem(), extension = fs::path(name).extension();
     for (int n = 2; !taken_.insert(lower_case(path.generic_string())).second; ++n)
-        path = relative.parent_path() / fmt::format("{}.{}{}", plain.string(), n, extension.string());
+        path = folder / fmt::format("{}.{}{}", plain.string(), n, extension.string());
     return path;
 }
 

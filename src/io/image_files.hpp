@@ -1,6 +1,7 @@
 #pragma once
 // Images that a mesh file names: which of them are read, of what kind they are, and how they are named beside
-// what is written. The directory rule: only files in the directory of the file that is read, or below it.
+// what is written. The directory rule: only files in the directory of the file that is read, or below it, or
+// below one of its asset roots.
 
 #include "io/codec.hpp"
 
@@ -9,16 +10,19 @@
 
 namespace facetmill::io {
 
-/// The file beside the input, with links resolved: a link may not lead out of the directory either. None when
-/// it would.
+/// The path to open for a file that the input names, where the directory rule allows it; links are resolved,
+/// which may not lead elsewhere either. Else none.
 std::optional<std::filesystem::path> path_below(const Input& input, const std::filesystem::path& relative);
 
-/// The relative path below a directory that a text names, with slashes either way; none when it is empty,
-/// absolute, or leaves the directory.
-std::optional<std::filesystem::path> path_inside(std::string name);
+/// How to allow a file that the directory rule refuses; empty where nothing does (an absolute path, a URL).
+std::string hint_for_asset_root(const Input& input, const std::optional<std::filesystem::path>& relative);
+
+/// The relative path that a text names, with slashes either way; it may leave the directory ("../wood.png").
+/// None when it is empty or absolute.
+std::optional<std::filesystem::path> relative_path_of(std::string name);
 
 /// The bytes of an image beside the input, whose path is added to the log. When it cannot be read: none, and
-/// a warning (W-IMAGE) that begins with `where`. relative: none when the name breaks the directory rule.
+/// a warning (W-IMAGE) that begins with `where`. relative: none when the name is no relative path.
 std::optional<Bytes> read_image(const Input& input, const std::optional<std::filesystem::path>& relative,
                                 const std::string& name, const std::string& where, ReadLog& log);
 
@@ -37,7 +41,8 @@ std::optional<ImageColours> image_colours(Span bytes);
 std::string uri_of(const std::filesystem::path& relative);
 
 /// Names of the images beside an output: "textures/wood.png" beside lamp.gltf is "textures/lamp.wood.png", so
-/// that two outputs in one folder never have the same name for different images.
+/// that two outputs in one folder never have the same name for different images. So is
+/// "../textures/wood.png": nothing is written out of the output's folder.
 class ImageNames {
   public:
     /// taken: the names of the output's other files.

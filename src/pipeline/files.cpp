@@ -86,6 +86,19 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
     return files;
 }
 
+std::vector<fs::path> asset_roots_of(const Steps& steps, const Places& places) {
+    OnceEach<fs::path> folders;
+    for (const auto& folder : places.asset_roots) folders.add(folder);
+    for (const auto& step : steps) {
+        if (step.stage && step.stage->files && step.options)
+            for (const auto& folder : step.stage->files(step.options.get()).asset_roots)
+                if (!folder.text.empty()) folders.add(places.input(folder.text));
+        for (const auto& arm : step.arms)
+            for (const auto& folder : asset_roots_of(*arm.steps, places)) folders.add(folder);
+    }
+    return folders.all();
+}
+
 namespace {
 
 /// Files that are one.

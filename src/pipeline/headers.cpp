@@ -99,7 +99,7 @@ class Walk {
                 continue;
             }
             try {
-                const io::FileHeader header = step.stage->header(step.options.get(), file.path);
+                const io::FileHeader header = step.stage->header(step.options.get(), file.path, places_);
                 if (std::exchange(first, false)) unit = header.unit;
                 const auto same = [&](const InputHeader& h) { return h.path == file.path; };
                 if (std::none_of(headers.inputs.begin(), headers.inputs.end(), same))

@@ -121,6 +121,8 @@ Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problem
 /// The files of these steps in their order, as far as they are known (globs expanded); without those of a
 /// step that will be skipped.
 std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places);
+/// The folders below which what these steps load may name files, besides its own.
+std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Places& places);
 /// Adds E-DUPLICATE-OUTPUT and E-OVERWRITE: two writes to one path (also by case), an output
 /// that is an input, and E-DUPLICATE-INPUT: two readings of standard input.
 /// Whether there is none.

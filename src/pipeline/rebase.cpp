@@ -39,8 +39,11 @@ bool reads_path(const StageInfo& stage, const Option& option) {
     const auto options = stage.make_options();
     Problems ignored;
     if (!option.parse(option, Value::scalar("probe"), options.get(), ignored)) return false;
-    const auto inputs = stage.files(options.get()).inputs;
-    return std::find(inputs.begin(), inputs.end(), PathText{"probe"}) != inputs.end();
+    const StageFiles files = stage.files(options.get());
+    const auto has_probe = [](const std::vector<PathText>& paths) {
+        return std::find(paths.begin(), paths.end(), PathText{"probe"}) != paths.end();
+    };
+    return has_probe(files.inputs) || has_probe(files.asset_roots);
 }
 
 class Rebase {

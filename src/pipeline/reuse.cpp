@@ -146,6 +146,9 @@ std::string Reuse::key_of(const Step& step, const Flow& flow, double load_diagon
     texts.insert(texts.end(), step.only.patterns.begin(), step.only.patterns.end());
     if (step.stage->loads)
         for (const auto& file : files_to_load(step, places_)) texts.push_back(file.string());
+    if (step.stage->loads)
+        for (const auto& folder : asset_roots_of({step}, places_))
+            texts.push_back("asset_root " + fs::absolute(folder).lexically_normal().string());
     return cache::key_of(texts);
 }
 

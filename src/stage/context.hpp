@@ -24,6 +24,8 @@ struct PartFilter {
 struct Places {
     std::filesystem::path input_base;  ///< what a pipeline file reads is relative to it
     std::filesystem::path output_base; ///< --output-dir
+    /// --asset-root: folders below which what is loaded may name files, besides its own.
+    std::vector<std::filesystem::path> asset_roots = {};
     /// The file a stage reads: absolute, or relative to input_base; "-" stays.
     std::filesystem::path input(const std::string& text) const;
     std::filesystem::path output(const std::string& text) const;

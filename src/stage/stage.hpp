@@ -28,6 +28,7 @@ namespace facetmill {
 /// What a stage reads and writes, as far as its options tell; for plan, depfiles and collisions.
 struct StageFiles {
     std::vector<PathText> inputs, outputs;
+    std::vector<PathText> asset_roots{}; ///< folders below which the inputs may name files
     std::optional<PathText> materials{}; ///< also written when the scene has materials
     std::optional<PathText> images{};    ///< the output that images of the scene are copied beside
     std::function<bool(const io::NamedImage&)> copies{}; ///< which of them; empty: all
@@ -68,7 +69,7 @@ struct StageInfo {
     Function<StageFiles(const void* options)> files = {}; ///< may be empty
     /// What the header of a file says that this stage would add to the scene; throws as its run. May be
     /// empty.
-    Function<io::FileHeader(const void* options, const std::filesystem::path&)> header = {};
+    Function<io::FileHeader(const void* options, const std::filesystem::path&, const Places&)> header = {};
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
     Function<void(const void* options, const Value& given, Problems&)> verify = {};
     /// What these options ask the stage to take of the surface. May be empty.
@@ -97,7 +98,7 @@ template <class Options>
 struct StageHooks {
     StageFiles (*files)(const Options&) = nullptr;
     void (*verify)(const Options&, const Value&, Problems&) = nullptr;
-    io::FileHeader (*header)(const Options&, const std::filesystem::path&) = nullptr;
+    io::FileHeader (*header)(const Options&, const std::filesystem::path&, const Places&) = nullptr;
     MayLose (*may_lose)(const Options&) = nullptr;
     CrossingFacePolicy (*crossing_faces)(const Options&) = nullptr;
     void (*on_cells)(const Options&, CellFlow&, Context&) = nullptr;

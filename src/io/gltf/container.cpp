@@ -225,25 +225,19 @@ Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbo
 Bytes load_uri(const Place& buffer, const std::string& uri, std::size_t length, const Input& input,
                ReadLog& log) {
     if (is_data_uri(uri)) return resolve_with_tinygltf(buffer, uri, {{}, length});
-    const auto relative = relative_path(uri);
-    const auto path = relative ? path_below(input, *relative) : std::nullopt;
-    if (!path)
-        throw Error(
-            ErrorKind::malformed, "E-URI",
-            fmt::format("{}.uri: \"{}\" is not a file in the document's directory", buffer.path(), uri),
-            "only relative URIs to files beside or below the glTF are read");
+    const fs::path path = buffer_path(buffer, uri, input);
     std::error_code ignored;
-    if (!fs::is_regular_file(*path, ignored))
+    if (!fs::is_regular_file(path, ignored))
         throw Error(ErrorKind::missing, "E-FILE",
-                    fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path->string()));
-    const auto size = fs::file_size(*path, ignored);
+                    fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path.string()));
+    const auto size = fs::file_size(path, ignored);
     if (!ignored)
         require_memory(2.0 * static_cast<double>(std::min<std::uintmax_t>(size, length)),
-                       fmt::format("reading '{}'", path->string()), "use a machine with more memory");
-    Bytes bytes = resolve_with_tinygltf(buffer, uri, {*path, length});
+                       fmt::format("reading '{}'", path.string()), "use a machine with more memory");
+    Bytes bytes = resolve_with_tinygltf(buffer, uri, {path, length});
     // One that is longer than the buffer is not read to its end.
     const bool whole = !ignored && size == bytes.size();
-    log.files.push_back({*path, bytes.size(), whole ? sha256(bytes) : std::string()});
+    log.files.push_back({path, bytes.size(), whole ? sha256(bytes) : std::string()});
     return bytes;
 }
 
@@ -290,10 +284,14 @@ std::optional<fs::path> decoded_path(std::string_view uri) {
     return path;
 }
 
-std::optional<fs::path> relative_path(std::string_view uri) {
-    auto path = decoded_path(uri);
-    if (path && *path->begin() == "..") return std::nullopt;
-    return path;
+fs::path buffer_path(const Place& buffer, const std::string& uri, const Input& input) {
+    const auto relative = decoded_path(uri);
+    const auto path = relative ? path_below(input, *relative) : std::nullopt;
+    if (path) return *path;
+    const std::string hint = hint_for_asset_root(input, relative);
+    throw Error(ErrorKind::malformed, "E-URI",
+                fmt::format("{}.uri: \"{}\" is not a file in the document's directory", buffer.path(), uri),
+                hint.empty() ? "only relative URIs to files beside or below the glTF are read" : hint);
 }
 
 std::vector<fs::path> neighbours(const Json& document, const char* list) {
@@ -302,7 +300,7 @@ std::vector<fs::path> neighbours(const Json& document, const char* list) {
         const Place place = item(document, list, i);
         const auto uri = place.find("uri");
         if (!uri || is_data_uri(uri->text()) || is_fallback(place)) continue;
-        if (const auto path = relative_path(uri->text())) all.add(*path);
+        if (const auto path = decoded_path(uri->text())) all.add(*path);
     }
     return all.all();
 }
@@ -335,7 +333,7 @@ std::map<std::string, Bytes> load_images(const Json& document, const Input& inpu
     for (std::size_t i = 0; i < count_of(document, "images"); ++i) {
         const auto uri = item(document, "images", i).find("uri");
         if (!uri || is_data_uri(uri->text()) || files.count(uri->text())) continue;
-        auto bytes = read_image(input, relative_path(uri->text()), uri->text(), uri->path(), log);
+        auto bytes = read_image(input, decoded_path(uri->text()), uri->text(), uri->path(), log);
         if (bytes) files[uri->text()] = *std::move(bytes);
     }
     return files;

@@ -1,7 +1,7 @@
 #pragma once
 // The files of a glTF: the GLB container (a header of 12 bytes, a JSON chunk and perhaps a binary one, each
 // padded to 4 bytes), and the buffers and images that a document names by URI. The directory rule holds for
-// all of them: only files in the document's own directory or below, named by relative URIs.
+// all of them (io/image_files.hpp); they are named by relative URIs.
 
 #include "io/bytes.hpp"
 #include "io/codec.hpp"
@@ -46,11 +46,11 @@ bool is_data_uri(std::string_view uri);
 Bytes data_uri_bytes(std::string_view uri);
 /// The path that a relative URI names, percent-decoded and normalised; none when it is absolute or remote.
 std::optional<std::filesystem::path> decoded_path(std::string_view uri);
-/// The same; none also when it leaves the directory.
-std::optional<std::filesystem::path> relative_path(std::string_view uri);
+/// The file of a buffer. Throws malformed (E-URI) when it is absolute, remote, or breaks the directory rule.
+std::filesystem::path buffer_path(const Place& buffer, const std::string& uri, const Input& input);
 
-/// The files that the entries of "buffers" or "images" name, relative to the document, each once; without
-/// those that break the directory rule.
+/// The files that the entries of "buffers" or "images" name, relative to the document, each once; the
+/// directory rule is not asked.
 std::vector<std::filesystem::path> neighbours(const Json& document, const char* list);
 /// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only for
 /// readers without meshopt decoding stay empty. Throws malformed (E-URI for a URI that breaks the directory

@@ -40,7 +40,7 @@ Json& image_json(Patch& patch, const FileImage& image) { return patch.builder.js
 
 /// The name of the image's file, as a name of the image.
 void keep_name(Json& json, const std::string& uri) {
-    const auto path = relative_path(uri);
+    const auto path = decoded_path(uri);
     if (!json.contains("name") && path) json["name"] = path->stem().string();
 }
 
@@ -73,7 +73,7 @@ class Placer {
     void copy(const FileImage& image) {
         const auto [path, fresh] = copies_.try_emplace(sha256(*image.bytes));
         if (fresh) {
-            path->second = names_.add(relative_path(image.uri).value_or("image"));
+            path->second = names_.add(decoded_path(image.uri).value_or("image"));
             files_.push_back({path->second, *image.bytes});
         }
         image_json(patch_, image)["uri"] = uri_of(path->second);

@@ -163,7 +163,7 @@ std::string name_of_image(const Json& image, std::size_t index) {
         if (const auto name = image["name"].get<std::string>(); !name.empty()) return name;
     if (image.is_object() && image.contains("uri") && image["uri"].is_string())
         if (const auto uri = image["uri"].get<std::string>(); !is_data_uri(uri))
-            if (const auto path = relative_path(uri)) return path->filename().string();
+            if (const auto path = decoded_path(uri)) return path->filename().string();
     return fmt::format("images[{}]", index);
 }
 

@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void warn(ReadLog& log, const std::string& name, std::string message) {
-    log.warnings.push_back({Severity::warning, "W-MTL", std::move(message), file_mark(name), ""});
+void warn(ReadLog& log, const std::string& name, std::string message, std::string hint = {}) {
+    log.warnings.push_back(
+        {Severity::warning, "W-MTL", std::move(message), file_mark(name), std::move(hint)});
 }
 
 double fraction(double x) { return std::clamp(x, 0.0, 1.0); }
@@ -140,7 +141,7 @@ class LibraryReader {
         std::string path = map.file;
         std::replace(path.begin(), path.end(), '\\', '/');
         const auto relative =
-            fs::path(path).is_absolute() ? std::nullopt : path_inside((folder_ / path).string());
+            fs::path(path).is_absolute() ? std::nullopt : relative_path_of((folder_ / path).string());
         if (relative) map.relative = *relative;
         current_->maps[map_key(word)] = std::move(map);
     }
@@ -184,24 +185,27 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
     std::set<std::string> met;
     for (const auto& e : events) {
         if (e.kind != Event::Kind::library || !met.insert(e.text).second) continue;
-        const auto path = input.path().empty() ? std::nullopt : path_inside(e.text);
-        if (!path) {
-            warn(log, input.name(),
-                 fmt::format("the material file {} is not beside the mesh and is not read",
-                             in_quotes(e.text)));
+        const auto path = input.path().empty() ? std::nullopt : relative_path_of(e.text);
+        const auto file = path ? path_below(input, *path) : std::nullopt;
+        if (!file) {
+            log.unrepeatable |= path.has_value(); // a link may lead elsewhere the next time
+            warn(
+                log, input.name(),
+                fmt::format("the material file {} is not beside the mesh and is not read", in_quotes(e.text)),
+                hint_for_asset_root(input, path));
             continue;
         }
         try {
             const Input library = in_utf8(input.beside(*path));
-            log.files.push_back({library.path(), library.stored().size(), sha256(library.stored())});
+            log.files.push_back({*file, library.stored().size(), sha256(library.stored())});
             LibraryReader(library, path->parent_path(), all).read();
             log.unrepeatable |= !library.is_as_opened();
         } catch (const Error& error) {
             std::error_code ignored;
-            if (fs::exists(input.path_beside(*path), ignored))
+            if (fs::exists(*file, ignored))
                 log.unrepeatable = true; // it is refused, and may be readable the next time
             else
-                log.absent.push_back(input.path_beside(*path));
+                log.absent.push_back(*file);
             warn(log, input.name(),
                  fmt::format("materials keep their names only: {}", error.diagnostics().front().message));
         }

@@ -13,7 +13,7 @@ namespace facetmill::io::obj {
 /// A texture statement: an image, and how it is laid on. Texture points count from the bottom.
 struct Map {
     std::string file;                 ///< as spelled
-    std::filesystem::path relative{}; ///< to the OBJ file; empty when it is outside of its folder
+    std::filesystem::path relative{}; ///< to the OBJ file; empty when it is absolute
     std::array<double, 2> scale{1, 1}, offset{0, 0};
     bool clamp = false;
     double strength = 1; ///< -bm

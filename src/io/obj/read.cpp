@@ -461,8 +461,10 @@ bool uses_materials(const std::filesystem::path& path) {
     return found;
 }
 
-std::vector<NamedImage> images_of(const std::filesystem::path& path, const std::vector<Event>& libraries) {
-    const Input input = in_utf8(Input::open(path));
+std::vector<NamedImage> images_of(const std::filesystem::path& path,
+                                  const std::vector<std::filesystem::path>& asset_roots,
+                                  const std::vector<Event>& libraries) {
+    const Input input = in_utf8(Input::open(path).with_asset_roots(asset_roots));
     ReadLog ignored; // reading the file will tell
     MaterialMaker maker(input, read_libraries(input, libraries, ignored), ignored, true);
     std::vector<Material> materials;
@@ -479,8 +481,9 @@ void peek(const Input& input, FileHeader& header) {
         const std::string_view word = text.word_on_line();
         if (word != "mtllib") continue;
         std::string name(text.rest_of_line());
-        if (const auto path = input.path().empty() ? std::nullopt : path_inside(name)) {
-            header.files.push_back(input.path_beside(*path));
+        const auto relative = input.path().empty() ? std::nullopt : relative_path_of(name);
+        if (const auto path = relative ? path_below(input, *relative) : std::nullopt) {
+            header.files.push_back(*path);
             libraries.push_back({.kind = Event::Kind::library, .text = std::move(name)});
         }
     } while (text.next_line());
@@ -488,7 +491,9 @@ void peek(const Input& input, FileHeader& header) {
     if (input.path().empty()) return;
     header.has_materials = [path = input.path()] { return uses_materials(path); };
     if (!libraries.empty())
-        header.images = [path = input.path(), libraries] { return images_of(path, libraries); };
+        header.images = [path = input.path(), roots = input.asset_roots(), libraries] {
+            return images_of(path, roots, libraries);
+        };
 }
 
 const RegisterCodec codec({

@@ -462,7 +462,7 @@ std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
 
 /// None, with a warning, when it cannot be read or is of no kind that glTF has.
 std::optional<Bytes> texture_bytes(const Input& input, const std::string& texture, ReadLog& log) {
-    auto bytes = read_image(input, path_inside(texture), texture, "TextureFile", log);
+    auto bytes = read_image(input, relative_path_of(texture), texture, "TextureFile", log);
     const std::string type = bytes ? media_type(*bytes) : "";
     if (!bytes || type == "image/png" || type == "image/jpeg") return bytes;
     log.warnings.push_back(
@@ -476,7 +476,7 @@ std::optional<Material> material_of(MaterialDocument& document, const Input& inp
                                     const std::string& texture, ReadLog& log) {
     const auto bytes = texture_bytes(input, texture, log);
     if (!bytes) return {};
-    const auto relative = path_inside(texture);
+    const auto relative = relative_path_of(texture);
     return document.add({{"name", relative->stem().string()},
                          {"pbrMetallicRoughness",
                           {{"baseColorTexture", {{"index", document.texture(*relative, *bytes, false)}}},
@@ -597,8 +597,9 @@ bool has_texture_points(const Header& header) {
 }
 
 /// Where faces are numbered, all images: which numbers there are is known only when all is read.
-std::vector<NamedImage> images_of(const std::filesystem::path& path) {
-    const Input input = Input::open(path);
+std::vector<NamedImage> images_of(const std::filesystem::path& path,
+                                  const std::vector<std::filesystem::path>& asset_roots) {
+    const Input input = Input::open(path).with_asset_roots(asset_roots);
     const Header header = read_header(input);
     ReadLog ignored; // reading the file will tell
     MaterialDocument document(input.name());
@@ -630,12 +631,14 @@ const RegisterCodec codec({
         [](const Input& input, FileHeader& header) {
             const Header read = read_header(input);
             for (const auto& texture : read.textures)
-                if (const auto relative = path_inside(texture))
+                if (const auto relative = relative_path_of(texture))
                     if (const auto path = path_below(input, *relative)) header.files.push_back(*path);
             header.parts = {""};
             if (read.textures.empty() || !has_texture_points(read) || input.path().empty()) return;
-            header.images = [path = input.path()] { return images_of(path); };
-            header.has_materials = [path = input.path()] { return !images_of(path).empty(); };
+            header.images = [path = input.path(), roots = input.asset_roots()] {
+                return images_of(path, roots);
+            };
+            header.has_materials = [images = header.images] { return !images().empty(); };
         },
 });
 } // namespace

@@ -25,6 +25,7 @@ struct LoadOptions {
     std::optional<Length> lines;
     std::int64_t line_sides = 8;
     bool expand_instances = false;
+    std::vector<PathText> asset_root;
 };
 
 void declare(Declare<LoadOptions>& d) {
@@ -49,6 +50,10 @@ void declare(Declare<LoadOptions>& d) {
                    {{"keep", false, "one part, which stages see once (W-INSTANCING); glTF keeps them all"},
                     {"expand", true, "each is a part"}},
                    "What becomes of the instances of a glTF node (EXT_mesh_gpu_instancing).");
+    d.option(
+        "asset_root", &LoadOptions::asset_root,
+        "A folder, or a list of these: the file may name images, buffers and materials anywhere below it "
+        "(../textures/wood.png), not only beside or below itself.");
     d.option("lines", &LoadOptions::lines,
              "Turns the lines of an OBJ or glTF file into tubes of this thickness (the diameter), parts of "
              "their own; a percentage is of the diagonal of the file. Without it lines are skipped.")
@@ -85,13 +90,15 @@ void record_neighbour(Context& context, const io::ReadFile& file) {
     record_input(context, file.path.string(), io::Input::open(file.path).stored());
 }
 
-io::ReadSettings read_settings(const LoadOptions& o) {
+io::ReadSettings read_settings(const LoadOptions& o, const Places& places) {
     io::ReadSettings settings;
     settings.weld = o.weld;
     if (o.unit != Unit::unknown) settings.unit = o.unit;
     if (o.up != UpAxis::unknown) settings.up = o.up;
     settings.lines = o.lines.has_value();
     settings.expand_instances = o.expand_instances;
+    settings.asset_roots = places.asset_roots;
+    for (const PathText& folder : o.asset_root) settings.asset_roots.push_back(places.input(folder.text));
     return settings;
 }
 
@@ -102,7 +109,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     record_input(context, input.name(), input.stored());
     steps.next();
     io::ReadLog log;
-    Scene more = io::read_scene(input, read_settings(o), log, io::codec_named(o.format));
+    Scene more = io::read_scene(input, read_settings(o, context.places()), log, io::codec_named(o.format));
     steps.next();
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
@@ -152,7 +159,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     if (paths.empty())
         throw Error(ErrorKind::missing, "E-FILE", fmt::format("no file matches '{}'", o.path.front().text));
     std::shared_ptr<cells::FaceSource> source =
-        cells::open_faces(paths, read_settings(o), flow.means.scratch);
+        cells::open_faces(paths, read_settings(o, context.places()), flow.means.scratch);
     const cells::FaceSource::Contents& contents = source->contents();
     for (const auto& file : contents.files)
         record_input(context, file.input.name(), file.input.bytes().size(), file.sha256);
@@ -181,10 +188,10 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     context.run().load_diagonal = diagonal(flow.bounds());
 }
 
-StageFiles files(const LoadOptions& o) { return {o.path, {}}; }
+StageFiles files(const LoadOptions& o) { return {o.path, {}, o.asset_root}; }
 
-io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path) {
-    return io::file_header(io::Input::open(path), read_settings(o), io::codec_named(o.format));
+io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path, const Places& places) {
+    return io::file_header(io::Input::open(path), read_settings(o, places), io::codec_named(o.format));
 }
 
 const RegisterStage registered{make_stage<LoadOptions>(
@@ -192,7 +199,8 @@ const RegisterStage registered{make_stage<LoadOptions>(
      .about = help::load::about,
      .details = help::load::details,
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
-                  "load: [body.obj, \"wheel_*.obj\"]", "load: {path: wires.obj, lines: 1%}"},
+                  "load: [body.obj, \"wheel_*.obj\"]", "load: {path: wires.obj, lines: 1%}",
+                  "load: {path: models/lamp.gltf, asset_root: .}"},
      .loads = true},
     declare, run,
     StageHooks<LoadOptions>{.files = files,

@@ -224,12 +224,19 @@ TEST_CASE("glTF that must not be read is refused with the place", "[io]") {
     CHECK(refuse(head + R"("meshes":[{"primitives":[{"attributes":{"POSITION":7}}]}]})") ==
           "malformed [E-GLTF] test: meshes[0].primitives[0].attributes.POSITION: refers to accessor 7, but "
           "there are 0");
-    for (const char* uri : {"../a.bin", "/etc/passwd", "http://a.b/c.bin", "file:///a.bin", "%2e%2e/a.bin",
-                            "a/../../b.bin", ".."})
+    const std::string
+        inside = "only relative URIs to files beside or below the glTF are read",
+        below = "--asset-root .., or load: {path: ..., asset_root: ..}, allows the files below that "
+                "folder";
+    for (const auto& [uri, hint] : {std::pair("/etc/passwd", inside),
+                                    {"http://a.b/c.bin", inside},
+                                    {"file:///a.bin", inside},
+                                    {"../a.bin", below},
+                                    {"%2e%2e/a.bin", below},
+                                    {"a/../../b.bin", below}})
         CHECK(refuse(head + R"("buffers":[{"byteLength":4,"uri":")" + uri + R"("}]})") ==
               std::string("malformed [E-URI] test: buffers[0].uri: \"") + uri +
-                  "\" is not a file in the document's directory | only relative URIs to files beside or "
-                  "below the glTF are read");
+                  "\" is not a file in the document's directory | " + hint);
     CHECK(refuse(std::string(100000, '[')) ==
           "malformed [E-JSON] test: the JSON is nested deeper than 256 levels at byte 256");
 }
