@@ -16,14 +16,14 @@ void add_sandbox_option(Arguments& arguments, SandboxOptions& options) {
                   "Keeps access to all files and calls of the system. Default: only what the plan names.");
 }
 
+void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders) {
+    arguments.add("--asset-root", &folders,
+                  "A folder: mesh files may name images, buffers and materials anywhere below it\n"
+                  "(../textures/wood.png), not only beside or below themselves. May be repeated.");
+}
+
 void allow_input(AllowedFiles& allowed, const fs::path& input) {
     if (input == "-") return;
-    void add_asset_root_option(Arguments & arguments, std::vector<std::string> & folders) {
-        arguments.add("--asset-root", &folders,
-                      "A folder: mesh files may name images, buffers and materials anywhere below it\n"
-                      "(../textures/wood.png), not only beside or below themselves. May be repeated.");
-    }
-
     std::error_code ignored;
     if (fs::is_symlink(fs::symlink_status(input, ignored))) allowed.read.push_back(input); // to anywhere
     fs::path folder = input.parent_path();
@@ -88,10 +88,10 @@ void allow_plan(AllowedFiles& allowed, const pipeline::Plan& plan) {
         else
             allowed.read.push_back(file.path);
     }
-    for (const auto& report : plan.reports) allow_output(allowed, plan.places.output(report));
-    allow_steps(allowed, plan.steps, plan.places);
     for (const auto& folder : pipeline::asset_roots_of(plan.steps, plan.places))
         allowed.read.push_back(folder);
+    for (const auto& report : plan.reports) allow_output(allowed, plan.places.output(report));
+    allow_steps(allowed, plan.steps, plan.places);
 }
 
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console) {
