@@ -47,7 +47,7 @@ PUBLIC = {
     "geometry/render/texture.hpp": "textures that io decodes",
     "io/drawing/drawing_fields.hpp": "the declared fields of a drawing, which reports show",
     "io/gltf/accessor.hpp": "where numbers stand in buffers, for cells, which read them piece by piece",
-    "io/gltf/container.hpp": "the chunks of a GLB, for cells",
+    "io/gltf/container.hpp": "the chunks of a GLB and JSON with its places, for cells and tilesets",
     "io/gltf/nodes.hpp": "where meshes stand, for cells",
     "io/gltf/byte_kinds.hpp": "what the bytes of a file are spent on",
     "io/gltf/looks.hpp": "materials as pictures draw them",

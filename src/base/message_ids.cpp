@@ -391,6 +391,12 @@ std::span<const MessageId> message_ids() {
          {Kind::limit, Kind::stage, Kind::usage},
          "The tile size is 0, or there would be too many tiles.",
          "Choose a larger size."},
+        {"E-TILESET",
+         {Kind::malformed},
+         "A tileset of 3D Tiles has something that facetmill does not read: implicit tiling, a tileset in a "
+         "tileset, a required extension, or contents other than GLB.",
+         "Load the files of its tiles one by one; facetmill reads what it writes, and explicit tilesets of "
+         "GLB."},
         {"E-TRANSFORM",
          {Kind::usage, Kind::stage},
          "A transform is invalid: it flattens the parts, or has the wrong number of values.",

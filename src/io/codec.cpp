@@ -133,11 +133,15 @@ RegisterCodec::RegisterCodec(Codec codec) {
 const std::vector<Codec>& codecs() { return registry(); }
 
 const Codec* codec_for(const std::filesystem::path& path) {
-    const std::string extension = lower_case(without_packing(path).extension().string());
+    const std::string name = lower_case(without_packing(path).filename().string());
+    const std::string extension = std::filesystem::path(name).extension().string();
     if (extension.empty()) return nullptr;
     for (const auto& codec : codecs())
-        for (const auto& e : codec.extensions)
-            if (extension.compare(1, std::string::npos, e) == 0) return &codec;
+        for (const auto& e : codec.extensions) {
+            const bool two = e.find('.') != std::string::npos; // "tileset.json", which may be the whole name
+            if (two ? name == e || name.ends_with("." + e) : extension.compare(1, std::string::npos, e) == 0)
+                return &codec;
+        }
     return nullptr;
 }
 
@@ -172,6 +176,7 @@ const std::vector<Capability>& capabilities() {
         {"quantize", &Capabilities::quantize},
         {"meshopt", &Capabilities::meshopt},
         {"order", &Capabilities::order},
+        {"tiles", &Capabilities::tiles},
     };
     return all;
 }

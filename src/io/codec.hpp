@@ -75,6 +75,12 @@ struct MeshoptSettings {
     bool filters = true; ///< octahedral, quaternion and exponential coding of what is rounded anyway
 };
 
+/// A tree of tiles, from the whole in few triangles to all of them.
+struct TileSettings {
+    std::size_t faces = 20000; ///< that a tile has at the most, but where borders need more
+    bool given_bits = false;   ///< the bits of positions are not to be more than Draco or quantize say
+};
+
 /// The order of triangles and vertices of glTF, without Draco.
 enum class TriangleOrder {
     automatic, ///< for size under meshopt, else for drawing
@@ -106,6 +112,9 @@ struct WriteSettings {
     DracoSettings draco{};       ///< glTF
     QuantizeSettings quantize{}; ///< glTF, without Draco
     MeshoptSettings meshopt{};   ///< glTF, without Draco
+    TileSettings tiles{};        ///< 3D Tiles
+    /// glTF: all positions are whole numbers below 2^24, which the grids of Draco and quantize keep exactly.
+    bool whole_positions = false;
     TriangleOrder order = TriangleOrder::automatic; ///< glTF, without Draco
     bool mesh_manifold = false;                     ///< glTF: EXT_mesh_manifold
     bool lods = false;   ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
@@ -130,12 +139,20 @@ struct OutputFile {
     Bytes bytes;
 };
 
+/// What a tree of tiles came to.
+struct TilesWritten {
+    std::size_t tiles = 0, leaves = 0, levels = 0;
+    std::size_t largest = 0; ///< triangles of the largest tile
+    double error = 0;        ///< of the root, in metres
+};
+
 struct Written {
     std::vector<OutputFile> files;
     std::vector<Diagnostic> warnings;
     AttributeChanges changes;      ///< what the format cannot hold is dropped, and said
     std::size_t dropped_faces = 0; ///< that the scene has and the file has not, for the read-back
     VertexCacheUse cache{};        ///< of the meshes that were put in order
+    std::optional<TilesWritten> tiles{};
 };
 
 /// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill
@@ -158,6 +175,7 @@ struct Capabilities {
     bool quantize = false;       ///< WriteSettings::quantize
     bool meshopt = false;        ///< WriteSettings::meshopt
     bool order = false;          ///< WriteSettings::order
+    bool tiles = false;          ///< WriteSettings::tiles
     Draco draco = Draco::never;  ///< WriteSettings::draco
     std::string attributes{};    ///< which it holds, in words
     std::string companion{};     ///< the suffix of a file beside it that it cannot do without: ".bin"

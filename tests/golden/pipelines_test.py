@@ -134,6 +134,37 @@ class Ready(Case):
         self.assertEqual(sorted(self.files()), ["a.bin", "a.gltf"])
 
 
+class Tilesets(Case):
+    def tiled(self, threads, *more, expect=0):
+        out = self.dir / f"{threads}"
+        run = self.mill("pipe", "-j", threads, "-o", out, "--no-cache", "load", SCAN, "--unit", "mm", "--up", "z", "!",
+                        "write", "tileset.json", "--tiles.faces", 4000, *more, expect=expect)
+        return run, self.files(out) if out.is_dir() else {}
+
+    def test_the_same_files_from_any_number_of_threads_and_no_others(self):
+        run, files = self.tiled(1, "--draco")
+        self.assertEqual(files, self.tiled(3, "--draco")[1])
+        named = set()
+        tiles = [json.loads((self.dir / "1/tileset.json").read_text())["root"]]
+        while tiles:
+            tile = tiles.pop()
+            named.add(tile["content"]["uri"])
+            tiles += tile.get("children", [])
+        self.assertEqual(set(files), named | {"tileset.json"})
+        self.assertIn("tileset/r.glb (", run.stderr)
+        self.mill("pipe", "load", "1/tileset.json", "!", "validate", "--closed", "--edge_manifold", "--vertex_manifold")
+
+    def test_what_cannot_be_tiled_is_refused_by_name_and_leaves_nothing(self):
+        self.write("points.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n")
+        for stages, expected in ((("load", "points.off", "!", "write", "o/tileset.json"), "E-EMPTY"),
+                                 (("load", SCAN, "!", "write", "o/a.glb", "--tiles", "3d"), "a path that ends in .json"),
+                                 (("load", SCAN, "!", "write", "o/a.json", "--tiles", "2d"), "3d"),
+                                 (("load", SCAN, "!", "write", "-", "--tiles", "3d"), "a path that ends in .json"),
+                                 (("load", SCAN, "!", "write", "o/a.ply", "--format", "ply", "--tiles", "3d"), "3d-tiles")):
+            self.assertIn(expected, self.mill("pipe", *stages, expect=None).stderr)
+            self.assertFalse((self.dir / "o").exists())
+
+
 class Language(Case):
     def test_every_pipeline_passes_check(self):
         self.mill("check", *PIPELINES, *FIGURES)

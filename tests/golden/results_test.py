@@ -82,6 +82,7 @@ RUNS = [
     "generate sphere ! simplify --ratio 50% --ensure.deviation 10% ! ensure --deviation 10%",
     "load touching.obj ! simplify 50%",
     "load flipped.off ! split ! simplify 60%",
+    "generate icosphere --subdivisions 4 ! write tileset.json --tiles.faces 500 --draco",
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
     "generate cube --name a ! generate cube --name b ! transform --scale 0.01 --only b ! write d.glb --draco ! write e.glb --quantize",

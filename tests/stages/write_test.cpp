@@ -236,8 +236,8 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
     CHECK(problems_of("write", options({{"path", "a.glb"}, {"feature_angle", "30"}})) ==
           "E-CONFLICT write: 'feature_angle' goes with normals: smooth only | add normals: smooth");
     CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
-              .starts_with(
-                  "E-CONFLICT write: 'normals' goes with drc, glb, gltf, obj, off, ply, not with stl"));
+              .starts_with("E-CONFLICT write: 'normals' goes with 3d-tiles, drc, glb, gltf, obj, off, ply, "
+                           "not with stl"));
 }
 
 TEST_CASE("write refuses what it cannot mean", "[stages]") {

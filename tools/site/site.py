@@ -18,7 +18,7 @@ import yaml
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HERE = SOURCE / "tools/site"
 GUIDES = ["scan-to-web", "levels-of-detail", "printing", "checks", "units-and-axes", "asset-builds"]
-PAGES = ["pipelines", "figures", "glossary", "verdicts", "speed", "web-assets", "large-meshes", "reliability",
+PAGES = ["pipelines", "figures", "glossary", "verdicts", "speed", "web-assets", "large-meshes", "tiles", "reliability",
          "cluster", "architecture", "licences"]
 
 

@@ -419,6 +419,7 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
                             Json& primitive) {
     DracoInput input;
     set_draco_grid(mesh, input); // of the mesh, not the primitive: common borders fall on the same points
+    if (settings.whole_positions) set_whole_steps(input, settings.draco.position_bits);
     set_positions(mesh, table, input);
     input.triangles = table.indices;
     std::vector<const Column*> used;

@@ -17,6 +17,7 @@ struct EncodeSettings {
     bool manifold = false;                     ///< write EXT_mesh_manifold
     TriangleOrder order = TriangleOrder::keep; ///< not automatic
     bool keep_exact = false;                   ///< positions in doubles go to Builder::exact_positions, too
+    bool whole_positions = false;              ///< see WriteSettings
     bool keep_features = true;                 ///< metadata that primitives refer to is in the document
     bool points = false;                       ///< a mesh without faces is written as points, else not at all
     ColumnSettings columns;

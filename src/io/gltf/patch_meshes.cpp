@@ -70,6 +70,7 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     s.quantize = patch.settings.quantize;
     s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
     s.manifold = patch.settings.mesh_manifold;
+    s.whole_positions = patch.settings.whole_positions;
     s.order = patch.settings.order;
     if (s.order == TriangleOrder::automatic)
         s.order = patch.settings.meshopt.on ? TriangleOrder::size : TriangleOrder::draw;

@@ -178,9 +178,11 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     const Box& box = faces.empty() ? all : faces;
     const Vec3 e = box.extent();
     const double range = std::max({e.x, e.y, e.z});
-    const int bits = bits_of(mesh);
+    const bool whole = patch_.settings.whole_positions;
+    if (whole && range > 65535) return {}; // float32 has them, too
+    const int bits = whole ? (range > 255 ? 16 : 8) : bits_of(mesh);
     const auto steps = static_cast<double>((1 << bits) - 1);
-    const double step = range > 0 ? short_above(range / steps) : 1;
+    const double step = whole || range <= 0 ? 1 : short_above(range / steps);
     const PositionGrid grid{
         {short_near(box.min.x, step), short_near(box.min.y, step), short_near(box.min.z, step)}, step, bits};
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
@@ -205,10 +207,11 @@ std::size_t Store::position(std::size_t accessor, const std::optional<PositionGr
         return replace(accessor, on_grid(positions(accessor), *grid));
     }
     const Attribute a = numbers(accessor);
-    return replace(
-        accessor,
-        as_floats(a, quantize_.on ? exponent_of_range(a, quantize_.position_bits) : finest_exponent(a),
-                  true));
+    return replace(accessor, as_floats(a,
+                                       patch_.settings.whole_positions ? 0
+                                       : quantize_.on ? exponent_of_range(a, quantize_.position_bits)
+                                                      : finest_exponent(a),
+                                       true));
 }
 
 /// What is given sparsely stays so.

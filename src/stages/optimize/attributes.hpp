@@ -18,8 +18,4 @@ std::vector<std::string>
 drop_unused_attributes(Mesh& mesh,
                        const std::function<std::optional<io::MaterialNeeds>(Index material)>& needs);
 
-/// Makes one of the wedges of a vertex that have equal attributes; how many there are less. Faces keep their
-/// corners' order.
-std::size_t merge_equal_wedges(Mesh& mesh);
-
 } // namespace facetmill::optimize_stage

@@ -1,4 +1,5 @@
 #include "base/readable_numbers.hpp"
+#include "geometry/edit/equal_wedges.hpp"
 #include "io/gltf/tidy.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"

@@ -16,6 +16,7 @@ struct WriteReport {
     std::optional<Bits> draco, quantize;
     std::optional<OriginReport> origin;
     std::optional<io::VertexCacheUse> order;
+    std::optional<io::TilesWritten> tiles;
 };
 
 void declare_write_report(DeclareFields<WriteReport>& d);

@@ -13,7 +13,9 @@ compared with the scene: the number of faces, and how far positions moved (float
 quantize). Units and the up axis are converted to the convention of the format; formats without
 nodes get all parts in world space. Meshes written to glTF anew get their triangles and vertices in
 an order that is quick to draw (order), or in Draco's own. Attributes that the format cannot hold
-are listed under attribute_changes in the report. If the name ends in .gz or .zst, the file is
+are listed under attribute_changes in the report. A path that ends in tileset.json, or tiles: 3d, gives
+3D Tiles: the parts as one mesh, cut and simplified to a tree of GLB files in a folder beside it, whose
+tiles fit at every mix of levels; `geometricError` is the measured deviation. If the name ends in .gz or .zst, the file is
 compressed.)";
 
 } // namespace facetmill::help::write

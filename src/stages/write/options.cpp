@@ -93,6 +93,17 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
                 });
 }
 
+void declare_tiles(Declare<TilesOptions>& d) {
+    d.choice<TilesOptions::Kind>(
+         "format", &TilesOptions::format,
+         {{"3d", TilesOptions::Kind::three_d, "3D Tiles 1.1, each tile a GLB, refined by REPLACE"}},
+         "The kind of tiles.")
+        .primary();
+    d.option("faces", &TilesOptions::faces,
+             "Triangles that a tile has at the most, but where its borders need more (a count).")
+        .between(100, 10000000);
+}
+
 /// An option that only some formats know, and whether it asks for something.
 struct FormatOption {
     const char* name;
@@ -109,6 +120,7 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"quantize", o.quantize && o.quantize->on, &Can::quantize},
             {"meshopt", o.meshopt && o.meshopt->on, &Can::meshopt},
             {"order", o.order != io::TriangleOrder::automatic, &Can::order},
+            {"tiles", o.tiles.has_value(), &Can::tiles},
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
@@ -145,6 +157,10 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
         add_refusal(
             Refusal{"feature_angle", "'feature_angle' goes with normals: smooth only", "add normals: smooth"},
             "write", given, problems);
+}
+
+bool is_tileset_name(const std::string& path) {
+    return path.size() > 5 && lower_case(path).ends_with(".json");
 }
 
 /// The file's name without suffix, .gz and .zst.
@@ -204,6 +220,9 @@ void declare_write(Declare<WriteOptions>& d) {
             declare_quantize);
     d.group("meshopt", &WriteOptions::meshopt,
             "Writes glTF with EXT_meshopt_compression: true, or its settings.", declare_meshopt);
+    d.group("tiles", &WriteOptions::tiles,
+            "Writes a tileset: 3d, or its settings. A path that ends in tileset.json says so by itself.",
+            declare_tiles);
     d.choice<io::TriangleOrder>(
         "order", &WriteOptions::order,
         {{"auto", io::TriangleOrder::automatic,
@@ -243,6 +262,11 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
                      suggestion("", names));
+    else if (codec->can.tiles && !is_tileset_name(o.path.text))
+        problems.add(
+            path ? path->mark : mark, "E-FORMAT",
+            fmt::format("tiles go to a folder beside a tileset, which '{}' does not name", o.path.text),
+            "give a path that ends in .json, such as out/tileset.json");
     else if (!codec->can.companion.empty() && o.path.text == "-")
         problems.add(mark, "E-FORMAT",
                      fmt::format("a {} has a file beside it, which standard output cannot hold", codec->name),
@@ -252,7 +276,8 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
 }
 
 const io::Codec* codec_of(const WriteOptions& o) {
-    return o.format.empty() ? io::codec_for(o.path.text) : io::codec_named(o.format);
+    if (!o.format.empty()) return io::codec_named(o.format);
+    return o.tiles ? io::codec_named("3d-tiles") : io::codec_for(o.path.text);
 }
 
 io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
@@ -288,6 +313,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                       .uv_bits = static_cast<int>(quantize.uv),
                       .colour_bits = static_cast<int>(quantize.colour),
                       .weight_bits = static_cast<int>(quantize.weights)};
+    if (o.tiles) s.tiles.faces = static_cast<std::size_t>(o.tiles->faces);
     s.draco.on |= codec.can.draco == io::Capabilities::Draco::always;
     return s;
 }
@@ -307,7 +333,8 @@ StageFiles files_of_write(const WriteOptions& o) {
     // are.
     const bool embeds =
         o.textures == Textures::embed || (o.textures == Textures::automatic && !codec->can.copies_images);
-    if (codec->can.textures && !embeds) files.images = o.path;
+    if (codec->can.textures && !embeds)
+        files.images = codec->can.tiles ? beside("/" + path.filename().string()) : o.path;
     if (o.textures == Textures::reference)
         files.copies = [](const io::NamedImage& image) { return !image.is_file; };
     return files;

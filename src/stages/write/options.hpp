@@ -32,6 +32,13 @@ struct MeshoptOptions {
     io::MeshoptSettings::Extension extension = io::MeshoptSettings::Extension::ext;
 };
 
+struct TilesOptions {
+    enum class Kind { three_d };
+
+    Kind format = Kind::three_d;
+    std::int64_t faces = 20000;
+};
+
 /// Which parts with a map of normals get tangents.
 enum class Tangents { keep, missing, all };
 
@@ -51,6 +58,7 @@ struct WriteOptions {
     std::optional<DracoOptions> draco;
     std::optional<QuantizeOptions> quantize;
     std::optional<MeshoptOptions> meshopt;
+    std::optional<TilesOptions> tiles;
     io::Textures textures = io::Textures::automatic;
     io::TriangleOrder order = io::TriangleOrder::automatic;
 };
@@ -61,7 +69,7 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
 /// The file and, of a .gltf, the buffer beside it.
 StageFiles files_of_write(const WriteOptions& o);
 
-/// The format that is named, or the suffix's; null when there is none.
+/// The format that is named, or asked for by tiles, or the suffix's; null when there is none.
 const io::Codec* codec_of(const WriteOptions& o);
 /// What the codec is told; bits of position are the usual ones when they are not given.
 io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,

@@ -58,6 +58,15 @@ void declare_order(DeclareFields<io::VertexCacheUse>& d) {
     d.field("atvr", per(&Use::after, &Use::vertices), "The same, as written; 1 at best.");
 }
 
+void declare_tiles_written(DeclareFields<io::TilesWritten>& d) {
+    using Tiles = io::TilesWritten;
+    d.field("tiles", &Tiles::tiles, "Tiles, each a file.");
+    d.field("leaves", &Tiles::leaves, "Those without tiles below: together they have every triangle.");
+    d.field("levels", &Tiles::levels, "Tiles on the longest way from the root to a leaf.");
+    d.field("largest", &Tiles::largest, "Triangles of the largest tile.");
+    d.field("error", &Tiles::error, "The geometric error of the root, in metres.");
+}
+
 /// Throws stage (E-EMPTY) unless the scene is a point cloud that the format holds as it is asked for.
 void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
@@ -104,6 +113,8 @@ void declare_write_report(DeclareFields<WriteReport>& d) {
     d.object("order", &WriteReport::order, "How the order of triangles suits a cache of vertices.",
              declare_order)
         .only_when("triangles were put in another order");
+    d.object("tiles", &WriteReport::tiles, "The tree of tiles.", declare_tiles_written)
+        .only_when("a tileset was written");
 }
 
 namespace {
@@ -136,6 +147,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     steps.next();
     const io::Written written = codec->write(out, settings);
     if (written.cache.triangles > 0) report.order = written.cache;
+    report.tiles = written.tiles;
     steps.next();
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
@@ -162,7 +174,8 @@ const RegisterStage registered = make_stage<WriteOptions>(
      .details = help::write::details,
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
                   "write: {path: part.glb, quantize: true}", "write: {path: print.stl, unit: mm, up: z}",
-                  "write: {path: web.glb, normals: smooth, feature_angle: 40deg}"},
+                  "write: {path: web.glb, normals: smooth, feature_angle: 40deg}",
+                  "write: {path: out/tileset.json, tiles: 3d, draco: true}"},
      .tells = true,
      .crossing_faces = CrossingFacePolicy::name,
      .roles = {.writes_in_unit = "unit"}},

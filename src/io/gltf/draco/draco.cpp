@@ -404,6 +404,10 @@ void set_draco_grid(const Mesh& mesh, DracoInput& input) {
     input.range = storable_above(input.extent > 0 ? range : 1);
 }
 
+void set_whole_steps(DracoInput& input, int bits) {
+    input.range = input.extent = static_cast<float>((std::int64_t{1} << bits) - 1);
+}
+
 std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
                                    const std::vector<Index>& point_vertex) {
     std::vector<bool> degenerate(triangles.size() / 3);

@@ -48,6 +48,9 @@ struct DracoInput {
 /// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to what the library stores.
 void set_draco_grid(const Mesh& mesh, DracoInput& input);
 
+/// Makes the steps of the grid 1, for whole numbers that reach no farther than 2^bits - 1 from its origin.
+void set_whole_steps(DracoInput& input, int bits);
+
 /// The faces that name a vertex twice, which Edgebreaker cannot hold; three corners each.
 std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
                                    const std::vector<Index>& point_vertex);

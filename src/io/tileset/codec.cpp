@@ -1,0 +1,48 @@
+#include "io/gltf/container.hpp"
+#include "io/tileset/tileset.hpp"
+
+namespace facetmill::io::tileset {
+
+namespace {
+
+/// An object with what a tileset needs and no glTF has, near its beginning.
+int sniff(Span bytes) {
+    constexpr std::size_t near = 65536;
+    const std::string_view text = as_text(bytes).substr(0, near);
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || text[first] != '{') return 0;
+    const auto has = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
+    return has("\"geometricError\"") && has("\"root\"") && !has("\"bufferViews\"") ? 2 : 0;
+}
+
+/// The tiles beside it.
+void peek(const Input& input, FileHeader& header) {
+    const Json json = gltf::parse_document(as_text(input.bytes()));
+    for (const auto& uri : uris_of(json))
+        if (const auto path = gltf::relative_path(uri)) header.files.push_back(input.path_beside(*path));
+    header.has_materials = [] { return true; };
+}
+
+const RegisterCodec registered({
+    .name = "3d-tiles",
+    .about = "3D Tiles 1.1: a tree of tiles in GLB, for viewers that stream",
+    .extensions = {"tileset.json"},
+    .unit = Unit::m,
+    .up = UpAxis::z,
+    .can = {.textures = true,
+            .quantize = true,
+            .meshopt = true,
+            .order = true,
+            .tiles = true,
+            .draco = Capabilities::Draco::on_request,
+            .attributes = "all at vertices, with materials and textures",
+            .copies_images = true},
+    .sniff = sniff,
+    .read = read,
+    .write = write,
+    .peek = peek,
+});
+
+} // namespace
+
+} // namespace facetmill::io::tileset

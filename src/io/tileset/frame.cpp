@@ -1,0 +1,72 @@
+#include "io/tileset/frame.hpp"
+
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace facetmill::io {
+
+namespace {
+
+/// The largest power of two that is at most x; the smallest of all where x is 0.
+double power_below(double x) { return std::ldexp(1.0, x > 0 ? std::max(std::ilogb(x), -1000) : -1000); }
+
+double longest_side(const Box& box) {
+    const Vec3 e = box.extent();
+    return std::max({e.x, e.y, e.z});
+}
+
+/// The centre in multiples of a sixteenth of the diagonal or less, and of at least `least`, a power of two.
+Vec3 near_centre(const Box& box, double least) {
+    const double step = std::max(least, power_below(box.diagonal() / 8));
+    Vec3 p = box.centre();
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] / step) * step + 0.0;
+    return p;
+}
+
+std::size_t count_places(std::vector<Vec3> positions) {
+    Mesh points;
+    points.positions = std::move(positions);
+    weld_exact(points);
+    return points.vertex_count();
+}
+
+} // namespace
+
+TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings) {
+    constexpr int float_bits = 24;
+    const Box box = box_of(positions);
+    TilesetFrame frame{near_centre(box, 0), 1};
+    double reach = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        reach = std::max({reach, box.max[axis] - frame.origin[axis], frame.origin[axis] - box.min[axis]});
+    const double finest = 2 * power_below(reach) / (std::int64_t{1} << float_bits);
+    frame.step = finest;
+    if (!settings.draco.on && !settings.quantize.on) return frame;
+    const int bits = settings.draco.on ? settings.draco.position_bits : settings.quantize.position_bits;
+    const double steps = static_cast<double>((std::int64_t{1} << bits) - 1);
+    frame.step = std::max(finest, power_below(longest_side(box) / steps));
+    if (settings.tiles.given_bits) return frame;
+    const auto places = [&](double step) {
+        std::vector<Vec3> moved = positions;
+        put_into_frame(moved, {frame.origin, step});
+        return count_places(std::move(moved));
+    };
+    const std::size_t all = places(finest);
+    while (frame.step > finest && places(frame.step) < all) frame.step /= 2;
+    return frame;
+}
+
+void put_into_frame(std::vector<Vec3>& positions, const TilesetFrame& frame) {
+    parallel_for(positions.size(), [&](std::size_t v) {
+        const Vec3 p = positions[v] - frame.origin;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            positions[v][axis] = std::round(p[axis] / frame.step) * frame.step + 0.0;
+    });
+}
+
+Vec3 tile_origin(const Box& box, const TilesetFrame& frame) { return near_centre(box, frame.step); }
+
+} // namespace facetmill::io

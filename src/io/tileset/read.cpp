@@ -1,0 +1,169 @@
+#include "base/hash.hpp"
+#include "base/progress.hpp"
+#include "geometry/edit/equal_wedges.hpp"
+#include "io/convert.hpp"
+#include "io/gltf/container.hpp"
+#include "io/gltf/gltf.hpp"
+#include "io/tileset/tileset.hpp"
+#include "mesh/transform.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace facetmill::io::tileset {
+
+namespace {
+
+using gltf::Place;
+
+[[noreturn]] void not_read(const Place& place, const char* what) {
+    place.fail(fmt::format("{} are not read", what), "E-TILESET",
+               "tilesets of GLB files with explicit tiling are: load the files one by one");
+}
+
+Transform transform_of(const Place& tile) {
+    Transform t;
+    const auto matrix = tile.find("transform");
+    if (!matrix) return t;
+    if (matrix->size() != 16) matrix->fail(fmt::format("expected 16 numbers, found {}", matrix->size()));
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 3; ++row) t.m[row][column] = matrix->at(4 * column + row).real();
+    return t;
+}
+
+/// A file that a tile shows, and where it stands in the tileset.
+struct Content {
+    std::string uri, place;
+    Transform transform;
+};
+
+/// What is shown when every tile is refined.
+class Contents {
+  public:
+    explicit Contents(const Json& json) {
+        const Place tileset(json, "");
+        if (const auto required = tileset.find("extensionsRequired"); required && required->size() > 0)
+            not_read(*required, "tilesets that require extensions");
+        visit(tileset.at("root"), {}, true);
+    }
+    std::vector<Content> all;
+
+  private:
+    /// Nesting is as deep as that of the JSON, which is limited.
+    void visit(const Place& tile, const Transform& above, bool replaces) {
+        if (const auto implicit = tile.find("implicitTiling")) not_read(*implicit, "implicit tilings");
+        const Transform here = above * transform_of(tile);
+        const std::string refine = tile.text_or("refine", replaces ? "REPLACE" : "ADD");
+        if (refine != "REPLACE" && refine != "ADD")
+            tile.at("refine").fail("expected REPLACE or ADD", "E-TILESET");
+        const auto children = tile.find("children");
+        if (!children || children->size() == 0 || refine == "ADD") {
+            if (const auto content = tile.find("content")) add(*content, here);
+            const auto several = tile.find("contents");
+            for (std::size_t i = 0; several && i < several->size(); ++i) add(several->at(i), here);
+        }
+        for (std::size_t i = 0; children && i < children->size(); ++i)
+            visit(children->at(i), here, refine == "REPLACE");
+    }
+
+    void add(const Place& content, const Transform& here) {
+        const Place uri = content.at("uri");
+        all.push_back({uri.text(), uri.path(), here});
+    }
+};
+
+/// Materials of several files that are the same in what they look like are one.
+class MaterialsOfTiles {
+  public:
+    explicit MaterialsOfTiles(Scene& all) : all_(all) {}
+
+    /// Adds those of a tile that are new; its primitives name those of all.
+    void take(Scene& tile) {
+        std::vector<Index> number;
+        std::optional<int> document;
+        for (Material& m : tile.materials) {
+            const std::string key = m.name + material_contents(tile, m).dump();
+            const auto [at, is_new] = known_.emplace(key, static_cast<Index>(all_.materials.size()));
+            number.push_back(at->second);
+            if (!is_new) continue;
+            if (m.document >= 0 && !document) {
+                document = static_cast<int>(all_.documents.size());
+                all_.documents.push_back(tile.documents[static_cast<std::size_t>(m.document)]);
+            }
+            if (document) m.document = *document;
+            all_.materials.push_back(m);
+        }
+        for (Part& part : tile.parts)
+            for (Primitive& p : part.mesh.primitives)
+                if (p.material != none) p.material = number.at(p.material);
+    }
+
+  private:
+    Scene& all_;
+    std::map<std::string, Index> known_;
+};
+
+Scene read_tile(const Input& input, const Content& content, const ReadSettings& settings, ReadLog& log) {
+    const auto path = gltf::relative_path(content.uri);
+    if (!path)
+        throw Error(ErrorKind::malformed, "E-URI",
+                    fmt::format("{}: \"{}\" is not a file in the tileset's folder or below", content.place,
+                                content.uri));
+    const Input file = input.beside(*path);
+    if (!gltf::is_glb(file.bytes()))
+        throw Error(ErrorKind::malformed, "E-TILESET",
+                    fmt::format("{}: '{}' is no GLB, and other contents of tiles are not read", content.place,
+                                content.uri),
+                    "load the files one by one");
+    log.files.push_back({file.path(), file.stored().size(), sha256(file.stored())});
+    ReadSettings inner = settings;
+    inner.unit.reset();
+    inner.up.reset();
+    return codec_named("glb")->read(file, inner, log);
+}
+
+} // namespace
+
+std::vector<std::string> uris_of(const Json& json) {
+    std::vector<std::string> uris;
+    for (const Content& content : Contents(json).all) uris.push_back(content.uri);
+    return uris;
+}
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    return gltf::in_file(input, [&] {
+        const Json json = gltf::parse_document(as_text(input.bytes()));
+        const std::vector<Content> contents = Contents(json).all;
+        Scene scene;
+        scene.unit = settings.unit.value_or(Unit::m);
+        scene.up = settings.up.value_or(UpAxis::z);
+        MaterialsOfTiles materials(scene);
+        Part all;
+        ShareOfSteps steps(std::vector<double>(contents.size() + 1, 1));
+        for (const Content& content : contents) {
+            Scene tile = read_tile(input, content, settings, log);
+            materials.take(tile);
+            const Transform to_tileset = content.transform * turn_up(UpAxis::y, UpAxis::z);
+            for (Part& part : tile.parts) {
+                apply(part.mesh, to_tileset * part.transform);
+                append(all.mesh, part.mesh);
+            }
+            if (all.mesh.wedge_count() > settings.max_vertices)
+                throw Error(ErrorKind::limit, "E-LIMIT",
+                            fmt::format("its tiles have more than {} vertices", settings.max_vertices));
+            steps.next();
+        }
+        if (all.mesh.face_count() == 0)
+            throw Error(ErrorKind::malformed, "E-EMPTY",
+                        fmt::format("'{}' has no tile with faces", input.name()));
+        if (settings.weld != Weld::off) {
+            weld_exact(all.mesh);
+            merge_equal_wedges(all.mesh);
+        }
+        scene.parts.push_back(std::move(all));
+        return scene;
+    });
+}
+
+} // namespace facetmill::io::tileset
