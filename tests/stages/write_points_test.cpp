@@ -4,6 +4,12 @@
 #include "support/bench.hpp"
 #include "support/failure.hpp"
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
 namespace write_points_test {
 
 using namespace facetmill;
@@ -34,6 +40,111 @@ TEST_CASE("point clouds are written with their colours, and read again", "[stage
     }
 }
 
+namespace {
+
+/// Points with a normal, a colour in bytes and a number each; every tenth stands where the one before does.
+Mesh cloud(std::size_t points) {
+    Mesh mesh;
+    std::vector<float> normals, numbers;
+    std::vector<std::uint8_t> colours;
+    std::uint32_t state = 7;
+    const auto next = [&] { return (state = state * 1664525U + 1013904223U) >> 16; };
+    for (std::size_t i = 0; i < points; ++i) {
+        if (i % 10 == 9)
+            mesh.positions.push_back(mesh.positions.back());
+        else
+            mesh.positions.push_back({next() / 65536.0, next() / 32768.0, next() / 1024.0});
+        for (const float x : {0.0F, 0.6F, i % 2 == 0 ? 0.8F : -0.8F}) normals.push_back(x);
+        for (int c = 0; c < 3; ++c) colours.push_back(static_cast<std::uint8_t>(next() % 256));
+        numbers.push_back(static_cast<float>(i));
+    }
+    mesh.attributes = {{"NORMAL", Domain::wedge, Role::normal, 3, false, normals},
+                       {"COLOR_0", Domain::wedge, Role::colour, 3, true, colours},
+                       {"_height", Domain::wedge, Role::generic, 1, false, numbers}};
+    return mesh;
+}
+
+/// The points as written and read, by their number, which is whole in a file with enough bits.
+std::map<std::size_t, std::size_t> by_number(const Mesh& mesh) {
+    std::map<std::size_t, std::size_t> all;
+    const Attribute* numbers = nullptr;
+    for (const Attribute& a : mesh.attributes)
+        if (a.components == 1) numbers = &a;
+    REQUIRE(numbers);
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+        all[static_cast<std::size_t>(std::lround(numbers->value(i, 0)))] = i;
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("Draco files hold point clouds, on a grid and in an order of their own", "[stages]") {
+    const std::size_t points = GENERATE(1, 2, 17, 3000);
+    Bench b;
+    const Mesh given = cloud(points);
+    b.scene.unit = Unit::m;
+    b.scene.parts.emplace_back().mesh = given;
+    Problems none;
+    b.run("write",
+          pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{
+                                   "t", "{path: a.drc, draco: {position_bits: 16, generic_bits: 16}}"}),
+                               none));
+    b.state.outputs.commit();
+    if (points == 3000) CHECK(std::filesystem::file_size(b.dir / "a.drc") < points * 14); // of 31 bytes
+    b.scene = {};
+    b.run("load", Value::scalar("a.drc"));
+    REQUIRE(b.scene.parts.size() == 1);
+    const Mesh& mesh = b.scene.parts[0].mesh;
+    CHECK(mesh.face_count() == 0);
+    REQUIRE(mesh.vertex_count() == points);
+    const Attribute *normals = mesh.find("NORMAL", Domain::wedge),
+                    *colours = mesh.find("COLOR_0", Domain::wedge);
+    REQUIRE(normals);
+    REQUIRE(colours);
+    const double step = 64.0 / 65535;
+    for (const auto& [number, i] : by_number(mesh)) {
+        REQUIRE(number < points);
+        CHECK(length(mesh.positions[i] - given.positions[number]) <= step);
+        for (std::size_t c = 0; c < 3; ++c) {
+            CHECK(normals->value(i, c) == Approx(given.attributes[0].value(number, c)).margin(1e-2));
+            CHECK(colours->value(i, c) == given.attributes[1].value(number, c));
+        }
+    }
+    CHECK(by_number(mesh).size() == points);
+}
+
+TEST_CASE("Draco's points are refused where their tree and their header disagree", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m;
+    b.scene.parts.emplace_back().mesh = cloud(17);
+    b.run("write", Value::scalar("a.drc"));
+    b.state.outputs.commit();
+    std::ifstream stream(b.dir / "a.drc", std::ios::binary);
+    const std::string good{std::istreambuf_iterator<char>(stream), {}};
+    const auto read = [](std::string bytes) {
+        return failure([&] {
+            io::ReadLog log;
+            const auto span = std::as_bytes(std::span(bytes));
+            io::read_scene(io::Input::of("a.drc", {span.begin(), span.end()}), {}, log);
+        });
+    };
+    const std::string count("\x11\0\0\0", 4);
+    const auto in_header = good.find(count), in_tree = good.find(count, in_header + 1);
+    REQUIRE(in_tree != std::string::npos);
+    for (const auto at : {in_header, in_tree}) {
+        std::string bad = good;
+        bad[at + 1] = 1;
+        CHECK(read(bad).find("points, and its header") != std::string::npos);
+    }
+    for (std::size_t at = 5; at < good.size(); ++at) // whatever is wrong: an error, or other points
+        for (const char value : {'\0', '\x7f', '\xff'}) {
+            std::string bad = good;
+            bad[at] = value;
+            const std::string said = read(bad);
+            CHECK((said == "nothing" || said.find("[E-") != std::string::npos));
+        }
+}
+
 TEST_CASE("formats of faces only refuse point clouds, and scenes without anything are refused", "[stages]") {
     const auto refusal = [](const Value& given) {
         Bench b;
@@ -41,7 +152,7 @@ TEST_CASE("formats of faces only refuse point clouds, and scenes without anythin
         b.scene.parts.emplace_back().mesh.positions = {{0, 0, 0}, {1, 0, 0}};
         return failure([&] { b.run("write", given); });
     };
-    const std::string hint = " | points go to glb, gltf, obj, off, ply, without compression";
+    const std::string hint = " | points go to drc, glb, gltf, obj, off, ply; compressed to drc only";
     for (const char* name : {"a.stl", "a.3mf"})
         CHECK(refusal(Value::scalar(name)) ==
               fmt::format(

@@ -71,17 +71,22 @@ void declare_tiles_written(DeclareFields<io::TilesWritten>& d) {
 void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
+    const bool always = codec.can.draco == io::Capabilities::Draco::always;
     const bool compressed =
-        (o.draco && o.draco->on) || (o.quantize && o.quantize->on) || (o.meshopt && o.meshopt->on);
+        (o.draco && o.draco->on && !always) || (o.quantize && o.quantize->on) || (o.meshopt && o.meshopt->on);
     if (any && codec.can.points && !compressed) return;
-    std::vector<std::string> formats;
-    for (const io::Codec& other : io::codecs())
-        if (other.write && other.can.points) formats.push_back(other.name);
+    std::vector<std::string> formats, compressing;
+    for (const io::Codec& other : io::codecs()) {
+        if (!other.write || !other.can.points) continue;
+        formats.push_back(other.name);
+        if (other.can.draco == io::Capabilities::Draco::always) compressing.push_back(other.name);
+    }
     throw Error(
         ErrorKind::stage, "E-EMPTY",
         fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
                     any ? "points and no faces" : "no faces"),
-        any ? fmt::format("points go to {}, without compression", fmt::join(formats, ", "))
+        any ? fmt::format("points go to {}; compressed to {} only", fmt::join(formats, ", "),
+                          fmt::join(compressing, ", "))
             : "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
         context.where());
 }

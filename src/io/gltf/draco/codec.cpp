@@ -57,7 +57,7 @@ Mesh to_mesh(DracoMesh decoded) {
     }
     if (mesh.positions.size() != decoded.points)
         throw Error(ErrorKind::malformed, "E-DRACO", "the Draco data has no positions of three numbers");
-    weld_exact(mesh); // points are attribute tuples, as in glTF
+    if (!mesh.corners.empty()) weld_exact(mesh); // points are attribute tuples, as in glTF
     return mesh;
 }
 
@@ -68,7 +68,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog&) {
     Part part;
     part.name = std::filesystem::path(input.name()).stem().string();
     try {
-        DracoMesh decoded = decode_draco(input.bytes());
+        DracoMesh decoded = decode_draco(input.bytes(), DracoContents::mesh_or_points);
         if (decoded.points > settings.max_vertices)
             throw Error(ErrorKind::limit, "E-LIMIT",
                         fmt::format("more than {} vertices", settings.max_vertices));
@@ -92,7 +92,7 @@ Mesh joined(const Scene& scene) {
             append(all, mesh);
     }
     if (!all.all_triangles()) all = triangles_of(all);
-    drop_unused(all);
+    if (all.face_count() > 0) drop_unused(all);
     return all;
 }
 
@@ -169,20 +169,21 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     if (!scene.materials.empty())
         written.changes.push_back(
             {"materials", Domain::face, AttributeChange::Kind::dropped, "Draco has no materials"});
-    if (mesh.face_count() == 0)
-        throw Error(ErrorKind::stage, "E-EMPTY", "a Draco file needs at least one face");
+    const std::string name = (settings.title.empty() ? "mesh" : settings.title) + ".drc";
+    if (mesh.face_count() == 0) {
+        written.files.push_back({name, encode_draco_points(input, settings.draco)});
+        return written;
+    }
     leave_degenerate(input, settings.draco, written);
-    DracoOutput output = encode_draco(input, settings.draco);
-    written.files.push_back(
-        {(settings.title.empty() ? "mesh" : settings.title) + ".drc", std::move(output.bytes)});
+    written.files.push_back({name, encode_draco(input, settings.draco).bytes});
     return written;
 }
 
 const RegisterCodec drc({
     .name = "drc",
-    .about = "Draco's compressed meshes",
+    .about = "Draco's compressed meshes and point clouds",
     .extensions = {"drc"},
-    .can = {.draco = Capabilities::Draco::always, .attributes = "all at vertices"},
+    .can = {.points = true, .draco = Capabilities::Draco::always, .attributes = "all at vertices"},
     .sniff = [](Span bytes) { return is_draco(bytes) ? 2 : 0; },
     .read = read,
     .write = write,

@@ -68,8 +68,9 @@ bool has_lost_types(const ::draco::PointCloud& mesh) {
         const ::draco::PointAttribute& attribute = *mesh.attribute(a);
         const bool is_kept = std::find(std::begin(kept_quantised), std::end(kept_quantised),
                                        attribute.attribute_type()) != std::end(kept_quantised);
-        if (is_kept && attribute.data_type() == ::draco::DT_INT32 && !attribute.GetAttributeTransformData())
-            return true;
+        const bool is_whole =
+            attribute.data_type() == ::draco::DT_INT32 || attribute.data_type() == ::draco::DT_UINT32;
+        if (is_kept && is_whole && !attribute.GetAttributeTransformData()) return true;
     }
     return false;
 }
@@ -77,7 +78,8 @@ bool has_lost_types(const ::draco::PointCloud& mesh) {
 std::optional<Dequantised> dequantised(const ::draco::PointAttribute& attribute) {
     const ::draco::AttributeTransformData* data = attribute.GetAttributeTransformData();
     if (!data) return {};
-    if (attribute.data_type() != ::draco::DT_INT32) fail();
+    if (attribute.data_type() != ::draco::DT_INT32 && attribute.data_type() != ::draco::DT_UINT32)
+        fail(); // the latter of points in a tree, of at most 30 bits
     if (data->transform_type() == ::draco::ATTRIBUTE_QUANTIZATION_TRANSFORM) return off_the_grid(attribute);
     if (data->transform_type() == ::draco::ATTRIBUTE_OCTAHEDRON_TRANSFORM)
         return off_the_octahedron(attribute);

@@ -71,7 +71,7 @@ AttributeData empty_for(::draco::DataType type) {
     }
 }
 
-DracoColumn column_of(const ::draco::Mesh& mesh, const ::draco::PointAttribute& attribute) {
+DracoColumn column_of(const ::draco::PointCloud& mesh, const ::draco::PointAttribute& attribute) {
     DracoColumn column;
     column.kind = kind_of(attribute.attribute_type());
     column.id = attribute.unique_id();
@@ -113,12 +113,44 @@ std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
     return count;
 }
 
+/// Refuses what the library's decoder of k-d trees takes without a look: attributes without components, and
+/// more points in the tree than the header has, which it would write beyond the end. The buffer is behind the
+/// number of points.
+void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
+    constexpr std::uint32_t most_numbers = 256; // of a point: memory grows with its square
+    const auto byte = [&] {
+        std::uint8_t value = 0;
+        if (!buffer.Decode(&value)) fail("it ends in its header");
+        return value;
+    };
+    if (buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 3))
+        fail("its points are in a k-d tree of an old version");
+    if (byte() != 1) fail("its points are in several k-d trees");
+    const std::uint32_t attributes = decode_count(buffer, true);
+    std::uint32_t numbers = 0;
+    for (std::uint32_t a = 0; a < attributes; ++a) {
+        byte(); // what the attribute is
+        byte(); // the type of its numbers
+        const std::uint8_t components = byte();
+        byte();                     // normalised
+        decode_count(buffer, true); // its id
+        if (components == 0) fail("an attribute has no components");
+        numbers += components;
+        if (numbers > most_numbers) fail("its points have more than 256 numbers each");
+    }
+    byte();                      // the level of compression
+    decode_count(buffer, false); // bits of a number
+    const std::uint32_t in_tree = decode_count(buffer, false);
+    if (attributes == 0 || in_tree != points)
+        fail(fmt::format("its tree has {} points, and its header {}", in_tree, points));
+}
+
 /// Reads the numbers of faces and points that the data promises, and refuses what its bytes cannot hold or
-/// memory cannot: the library takes the memory before it finds the faces. The data is that of a mesh. Returns
+/// memory cannot: the library takes the memory before it finds the faces. Returns
 /// how many bytes the library may ask for at once: other numbers in the data say how many bits of a texture's
 /// orientation there are, or how many symbols, and it takes and fills what they ask for, however few bytes
 /// are left.
-std::size_t check_counts(::draco::DecoderBuffer buffer) {
+std::size_t check_counts(::draco::DecoderBuffer buffer, bool is_mesh) {
     ::draco::DracoHeader header;
     const auto status = ::draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
     if (!status.ok()) fail(status.error_msg());
@@ -131,7 +163,11 @@ std::size_t check_counts(::draco::DecoderBuffer buffer) {
     const std::size_t bytes = static_cast<std::size_t>(buffer.remaining_size());
     const bool sequential = header.encoder_method == ::draco::MESH_SEQUENTIAL_ENCODING;
     std::uint32_t faces = 0, points = 0;
-    if (sequential) {
+    if (!is_mesh) {
+        points = decode_count(buffer, false);
+        if (header.encoder_method == ::draco::POINT_CLOUD_KD_TREE_ENCODING && points > 0)
+            check_tree(buffer, points);
+    } else if (sequential) {
         const bool variable = version >= DRACO_BITSTREAM_VERSION(2, 2);
         faces = decode_count(buffer, variable);
         points = decode_count(buffer, variable);
@@ -153,44 +189,60 @@ std::size_t check_counts(::draco::DecoderBuffer buffer) {
     return (std::size_t{1} << 20) + 64 * std::size_t{faces} + point_bytes * points + 256 * bytes;
 }
 
-std::unique_ptr<::draco::Mesh> decode(::draco::DecoderBuffer buffer, bool quantised) {
+/// A draco::Mesh where is_mesh says so.
+std::unique_ptr<::draco::PointCloud> decode(::draco::DecoderBuffer buffer, bool is_mesh, bool quantised) {
     ::draco::Decoder decoder;
     if (quantised) keep_quantised(decoder);
+    if (!is_mesh) {
+        auto decoded = decoder.DecodePointCloudFromBuffer(&buffer);
+        if (!decoded.ok()) fail(decoded.status().error_msg());
+        return std::move(decoded).value();
+    }
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) fail(decoded.status().error_msg());
     return std::move(decoded).value();
 }
 
-std::unique_ptr<::draco::Mesh> decode(Span bytes) {
+/// A draco::Mesh, or the points of a cloud where contents allows it.
+std::unique_ptr<::draco::PointCloud> decode(Span bytes, DracoContents contents) {
     ::draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto type = ::draco::Decoder::GetEncodedGeometryType(&buffer);
     if (!type.ok()) fail(type.status().error_msg());
-    if (type.value() != ::draco::TRIANGULAR_MESH) fail("it is a point cloud, and a mesh was expected");
-    const AllocationCap cap(check_counts(buffer));
-    auto mesh = decode(buffer, true);
-    return has_lost_types(*mesh) ? decode(buffer, false) : std::move(mesh);
+    const bool is_mesh = type.value() == ::draco::TRIANGULAR_MESH;
+    if (!is_mesh && contents == DracoContents::mesh) fail("it is a point cloud, and a mesh was expected");
+    const AllocationCap cap(check_counts(buffer, is_mesh));
+    auto cloud = decode(buffer, is_mesh, true);
+    return has_lost_types(*cloud) ? decode(buffer, is_mesh, false) : std::move(cloud);
 }
 
 } // namespace
 
 bool is_draco(Span bytes) { return as_text(bytes.first(std::min<std::size_t>(bytes.size(), 5))) == "DRACO"; }
 
-DracoMesh decode_draco(Span bytes) {
+namespace {
+
+void add_triangles(const ::draco::Mesh& mesh, DracoMesh& result) {
+    result.triangles.resize(std::size_t{3} * mesh.num_faces());
+    for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t point = mesh.face(::draco::FaceIndex(f))[k].value();
+            if (point >= result.points)
+                fail(fmt::format("face {} refers to point {} of {}", f, point, result.points));
+            result.triangles[std::size_t{3} * f + static_cast<std::size_t>(k)] = point;
+        }
+}
+
+} // namespace
+
+DracoMesh decode_draco(Span bytes, DracoContents contents) {
     DracoMesh result;
     try {
-        const auto mesh = decode(bytes);
-        result.points = mesh->num_points();
-        result.triangles.resize(std::size_t{3} * mesh->num_faces());
-        for (std::uint32_t f = 0; f < mesh->num_faces(); ++f)
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t point = mesh->face(::draco::FaceIndex(f))[k].value();
-                if (point >= result.points)
-                    fail(fmt::format("face {} refers to point {} of {}", f, point, result.points));
-                result.triangles[std::size_t{3} * f + static_cast<std::size_t>(k)] = point;
-            }
-        for (int a = 0; a < mesh->num_attributes(); ++a)
-            result.columns.push_back(column_of(*mesh, *mesh->attribute(a)));
+        const auto cloud = decode(bytes, contents);
+        result.points = cloud->num_points();
+        if (const auto* mesh = dynamic_cast<const ::draco::Mesh*>(cloud.get())) add_triangles(*mesh, result);
+        for (int a = 0; a < cloud->num_attributes(); ++a)
+            result.columns.push_back(column_of(*cloud, *cloud->attribute(a)));
     } catch (const std::bad_alloc&) {
         fail("it asks for more memory than there is, or than its faces and points can need");
     } catch (const std::length_error&) {
@@ -258,7 +310,7 @@ std::vector<Index> first_with_value(const char* bytes, std::size_t stride, const
     return first;
 }
 
-int add_column(::draco::Mesh& mesh, const DracoColumn& column, const DracoInput& input,
+int add_column(::draco::PointCloud& mesh, const DracoColumn& column, const DracoInput& input,
                const std::vector<Index>& points) {
     return std::visit(
         [&](const auto& numbers) {
@@ -287,7 +339,7 @@ int add_column(::draco::Mesh& mesh, const DracoColumn& column, const DracoInput&
 }
 
 /// Positions have a value per vertex and a mapping from points: Draco then knows which points are one vertex.
-int add_positions(::draco::Mesh& mesh, const DracoInput& input) {
+int add_positions(::draco::PointCloud& mesh, const DracoInput& input) {
     Attribute attribute;
     attribute.Init(Attribute::POSITION, nullptr, 3, ::draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
     const std::size_t vertices = input.vertices.size() / 3;
@@ -334,7 +386,8 @@ DracoGrid whole_numbers(int components) {
             whole_bits};
 }
 
-Settled settle_all(const DracoInput& given, const DracoSettings& settings) {
+/// octahedral: how normals are quantised; else as plain numbers.
+Settled settle_all(const DracoInput& given, const DracoSettings& settings, bool octahedral) {
     Settled out{given,
                 {{given.origin[0], given.origin[1], given.origin[2]},
                  given.range,
@@ -346,7 +399,7 @@ Settled settle_all(const DracoInput& given, const DracoSettings& settings) {
         auto* floats = std::get_if<std::vector<float>>(&column.data);
         if (!floats) continue;
         const int bits = bits_of(column, settings);
-        if (type_of(column) == Attribute::NORMAL) {
+        if (octahedral && type_of(column) == Attribute::NORMAL) {
             settle_normals(*floats, bits);
         } else if (column.kind == DracoKind::identifier && are_whole(*floats)) {
             grid = whole_numbers(column.components);
@@ -364,13 +417,11 @@ struct Encoded {
     std::string why;
 };
 
-Encoded encode(const ::draco::Mesh& mesh, const Settled& settled, const DracoSettings& settings,
-               bool sequential, int position, const std::vector<int>& columns) {
+Encoded encode(::draco::ExpertEncoder& encoder, int method, const Settled& settled,
+               const DracoSettings& settings, int position, const std::vector<int>& columns) {
     const DracoInput& input = settled.input;
-    ::draco::ExpertEncoder encoder(mesh);
     encoder.SetSpeedOptions(settings.speed, settings.speed);
-    encoder.SetEncodingMethod(sequential ? ::draco::MESH_SEQUENTIAL_ENCODING
-                                         : ::draco::MESH_EDGEBREAKER_ENCODING);
+    encoder.SetEncodingMethod(method);
     encoder.SetAttributeExplicitQuantization(position, settled.positions.bits, 3, input.origin, input.range);
     for (std::size_t c = 0; c < columns.size(); ++c)
         if (const auto& grid = settled.grids[c])
@@ -421,7 +472,7 @@ std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
 
 DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings) {
     ShareOfSteps steps({3, 10, 6});
-    const Settled settled = settle_all(given, settings);
+    const Settled settled = settle_all(given, settings, true);
     const DracoInput& input = settled.input;
     ::draco::Mesh mesh;
     mesh.set_num_points(static_cast<std::uint32_t>(input.point_vertex.size()));
@@ -444,7 +495,10 @@ DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings)
     for (const bool sequential : {false, true}) {
         if (input.keep_order && !sequential) continue;
         steps.next();
-        Encoded encoded = encode(mesh, settled, settings, sequential, position, columns);
+        ::draco::ExpertEncoder encoder(mesh);
+        Encoded encoded = encode(
+            encoder, sequential ? ::draco::MESH_SEQUENTIAL_ENCODING : ::draco::MESH_EDGEBREAKER_ENCODING,
+            settled, settings, position, columns);
         why = encoded.why;
         if (!encoded.ok) continue;
         steps.next();
@@ -460,6 +514,29 @@ DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings)
     }
     throw Error(ErrorKind::stage, "E-DRACO",
                 "Draco cannot encode the mesh" + (why.empty() ? why : ": " + why), "write without draco");
+}
+
+Bytes encode_draco_points(const DracoInput& given, const DracoSettings& settings) {
+    const Settled settled = settle_all(given, settings, false); // the tree knows no octahedra
+    const DracoInput& input = settled.input;
+    ::draco::PointCloud cloud;
+    cloud.set_num_points(static_cast<std::uint32_t>(input.point_vertex.size()));
+    const int position = add_positions(cloud, input);
+    std::vector<int> columns;
+    const std::vector<Index> points = points_by_vertex(input);
+    for (const auto& column : input.columns) columns.push_back(add_column(cloud, column, input, points));
+    std::string why;
+    for (const int method :
+         {::draco::POINT_CLOUD_KD_TREE_ENCODING, ::draco::POINT_CLOUD_SEQUENTIAL_ENCODING}) {
+        ::draco::ExpertEncoder encoder(cloud);
+        Encoded encoded = encode(encoder, method, settled, settings, position, columns);
+        if (encoded.ok &&
+            decode_draco(encoded.bytes, DracoContents::mesh_or_points).points == cloud.num_points())
+            return std::move(encoded.bytes);
+        why = encoded.why;
+    }
+    throw Error(ErrorKind::stage, "E-DRACO",
+                "Draco cannot encode the points" + (why.empty() ? why : ": " + why), "write PLY or glTF");
 }
 
 // --- How many bits of position keep vertices apart.

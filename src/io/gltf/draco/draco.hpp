@@ -30,8 +30,10 @@ struct DracoMesh {
 
 /// True when the bytes begin with Draco's magic number.
 bool is_draco(Span bytes);
-/// Decodes a mesh. Throws malformed (E-DRACO), also for point clouds.
-DracoMesh decode_draco(Span bytes);
+/// What the bytes may hold.
+enum class DracoContents { mesh, mesh_or_points };
+/// Decodes a mesh, or points without triangles. Throws malformed (E-DRACO), also for what is not asked for.
+DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
 
 /// A mesh to compress.
 struct DracoInput {
@@ -67,5 +69,10 @@ struct DracoOutput {
 /// faces: it drops degenerate ones, so take them out before. Numbers are quantised alike on every processor.
 /// Throws stage (E-DRACO) when Draco cannot do it at all.
 DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
+
+/// Compresses points without triangles, each a vertex, by a k-d tree, which puts them in another order; in
+/// sequence where an attribute has numbers that the tree does not take. Quantises as encode_draco, but
+/// normals as plain numbers. Throws stage (E-DRACO).
+Bytes encode_draco_points(const DracoInput& input, const DracoSettings& settings);
 
 } // namespace facetmill::io
