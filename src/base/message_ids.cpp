@@ -223,6 +223,13 @@ std::span<const MessageId> message_ids() {
          {Kind::usage},
          "A map contains an unknown key.",
          "The message suggests the nearest name; `facetmill stages NAME` lists all."},
+        {"E-KTX",
+         {Kind::usage, Kind::stage},
+         "KTX2 textures are encoded by the program ktx or toktx, which is not there, failed, or took too "
+         "long.",
+         "Install KTX-Software (https://github.com/KhronosGroup/KTX-Software/releases), or name the program "
+         "by "
+         "the variable FACETMILL_KTX; `textures: {format: webp}` needs no other program."},
         {"E-LIMIT",
          {Kind::limit},
          "A scene, or the result of a stage, has more vertices, corners, faces or lines than are supported.",

@@ -46,11 +46,11 @@ std::atomic<bool> calls_given_up{false};
 constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446; // on every architecture
 
 constexpr std::uint64_t right(int bit) { return std::uint64_t{1} << bit; }
-constexpr std::uint64_t write_file = right(1), read_file = right(2), read_folder = right(3),
-                        remove_folder = right(4), remove_file = right(5), make_folder = right(7),
-                        make_file = right(8), truncate_file = right(14);
+constexpr std::uint64_t run_file = right(0), write_file = right(1), read_file = right(2),
+                        read_folder = right(3), remove_folder = right(4), remove_file = right(5),
+                        make_folder = right(7), make_file = right(8), truncate_file = right(14);
 /// Those that a rule for a file, and not a folder, may give.
-constexpr std::uint64_t of_a_file = write_file | read_file | truncate_file;
+constexpr std::uint64_t of_a_file = run_file | write_file | read_file | truncate_file;
 constexpr std::uint64_t reading = read_file | read_folder;
 constexpr std::uint64_t writing =
     reading | write_file | truncate_file | make_folder | make_file | remove_folder | remove_file;
@@ -297,6 +297,7 @@ bool confine_files(const AllowedFiles& allowed) {
     rules.allow("/dev/null", reading | write_file);
     for (const auto& file : loaded_files()) rules.allow(file, reading);
     if (allowed.read_all) rules.allow("/", reading);
+    if (allowed.run_all) rules.allow("/", run_file);
     for (const auto& path : std::set<fs::path>(allowed.read.begin(), allowed.read.end()))
         rules.allow(path, reading);
     std::set<fs::path> written;

@@ -32,6 +32,7 @@ struct AllowedFiles {
     std::vector<std::filesystem::path> folders_made =
         {};                ///< below these, folders are made and removed, but no files
     bool read_all = false; ///< any file may be read
+    bool run_all = false;  ///< any program may be run
 };
 
 /// Gives up all other files; whether the kernel did it.

@@ -3,8 +3,10 @@
 #include "base/glob.hpp"
 #include "cli/arguments.hpp"
 #include "io/early_folders.hpp"
+#include "io/ktx_workers.hpp"
 #include "io/output_files.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -94,6 +96,30 @@ void allow_plan(AllowedFiles& allowed, const pipeline::Plan& plan) {
     allow_steps(allowed, plan.steps, plan.places);
 }
 
+namespace {
+
+bool names_ktx2(const Value& value) {
+    const auto entry_names = [](const Value::Entry& entry) { return names_ktx2(entry.value); };
+    return (value.is_scalar() && value.text == "ktx2") ||
+           std::any_of(value.items.begin(), value.items.end(),
+                       [](const Value& v) { return names_ktx2(v); }) ||
+           std::any_of(value.entries.begin(), value.entries.end(), entry_names);
+}
+
+bool names_ktx2(const pipeline::Steps& steps) {
+    return std::any_of(steps.begin(), steps.end(), [](const pipeline::Step& step) {
+        return names_ktx2(step.given) ||
+               std::any_of(step.arms.begin(), step.arms.end(),
+                           [](const pipeline::Arm& arm) { return names_ktx2(*arm.steps); });
+    });
+}
+
+} // namespace
+
+void start_programs(const pipeline::Plan& plan) {
+    if (names_ktx2(plan.steps)) io::start_ktx_workers();
+}
+
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console) {
     if (options.off) return;
     if (offered_protections().files > 0) {
@@ -109,6 +135,7 @@ void confine(AllowedFiles allowed, const SandboxOptions& options, const Console&
 }
 
 void confine_calls_only(const SandboxOptions& options) {
+    io::start_ktx_workers(); // whether a plan needs them is not known yet
     if (!options.off) confine_calls();
 }
 

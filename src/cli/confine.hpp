@@ -27,6 +27,10 @@ void allow_output(AllowedFiles& allowed, const std::filesystem::path& output);
 /// only the run knows (a foreach over parts) the folder of the part of the path that is known.
 void allow_plan(AllowedFiles& allowed, const pipeline::Plan& plan);
 
+/// Starts the processes that run other programs for the plan, while there may be new ones: ktx, where a stage
+/// is asked for ktx2.
+void start_programs(const pipeline::Plan& plan);
+
 /// Gives up all that is not allowed, and calls of the system that no run needs, unless the options say
 /// otherwise. Called before there are threads. Makes the folders of outputs that are not there, which go
 /// again when nothing is written there. Tells what is on with --verbose.

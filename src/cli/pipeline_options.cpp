@@ -328,7 +328,10 @@ void tell_recalled(const pipeline::Trace& trace, const Console& console) {
 void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions& options,
                 const Console& console) {
     AllowedFiles allowed;
-    for (const auto& plan : plans) allow_plan(allowed, plan);
+    for (const auto& plan : plans) {
+        start_programs(plan);
+        allow_plan(allowed, plan);
+    }
     if (const auto folder = cache_folder(options.cache)) allowed.written.push_back(*folder);
     if (options.cells.when != pipeline::CellSettings::When::never &&
         (options.cells.memory > 0 || options.cells.when == pipeline::CellSettings::When::always))

@@ -242,13 +242,25 @@ bool is_opaque(const Pixels& image) {
     return true;
 }
 
-Bytes encoded_png(const Pixels& image) {
+namespace {
+
+Bytes png_of_type(const Pixels& image, int colour_type) {
     PngWriter writer;
-    const int colour_type =
-        (is_grey(image) ? 0 : PNG_COLOR_MASK_COLOR) | (is_opaque(image) ? 0 : PNG_COLOR_MASK_ALPHA);
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
     if (!writer.info || !write_png(writer, image, colour_type, channels)) no_memory_for("PNG");
     return std::move(writer.out);
+}
+
+int alpha_type(const Pixels& image) { return is_opaque(image) ? 0 : PNG_COLOR_MASK_ALPHA; }
+
+} // namespace
+
+Bytes encoded_png(const Pixels& image) {
+    return png_of_type(image, (is_grey(image) ? 0 : PNG_COLOR_MASK_COLOR) | alpha_type(image));
+}
+
+Bytes encoded_png_in_colour(const Pixels& image) {
+    return png_of_type(image, PNG_COLOR_MASK_COLOR | alpha_type(image));
 }
 
 Bytes repacked_image(Span bytes) {

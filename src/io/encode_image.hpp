@@ -14,6 +14,8 @@ struct LossSettings {
 
 /// A PNG of as few channels as the image needs. Throws limit (E-MEMORY), as all of these do.
 Bytes encoded_png(const Pixels& image);
+/// A PNG of three channels, or four where one is not opaque, also where all is grey.
+Bytes encoded_png_in_colour(const Pixels& image);
 /// A progressive JPEG without the alpha; of one channel where all is grey.
 Bytes encoded_jpeg(const Pixels& image, const LossSettings& settings);
 /// A WebP, whose colours are kept where nothing is to be seen of them. Its sides are at most 16383 pixels

@@ -13,7 +13,13 @@ using namespace gltf;
 
 namespace {
 
-constexpr const char* webp_extension = "EXT_texture_webp";
+/// The extensions that name an image of a kind that glTF itself has not.
+struct KindOfImage {
+    const char* type;
+    const char* extension;
+};
+constexpr KindOfImage kinds_by_extension[] = {{"image/webp", "EXT_texture_webp"},
+                                              {"image/ktx2", "KHR_texture_basisu"}};
 
 /// owner[key] where that is an object, else nothing.
 const Json* object_at(const Json& owner, const char* key) {
@@ -170,7 +176,10 @@ std::string name_of_image(const Json& image, std::size_t index) {
 // --- other images
 
 std::string suffix_of(const std::string& type) {
-    return type == "image/webp" ? ".webp" : type == "image/jpeg" ? ".jpg" : ".png";
+    return type == "image/webp"   ? ".webp"
+           : type == "image/ktx2" ? ".ktx2"
+           : type == "image/jpeg" ? ".jpg"
+                                  : ".png";
 }
 
 /// Puts images into a copy of a document.
@@ -191,7 +200,8 @@ class Replacing {
         for (auto& [uri, bytes] : files_) out_.files[uri] = std::move(bytes);
         drop_unnamed_files(out_.files, json_);
         for (std::size_t t = 0; t < count_of(json_, "textures"); ++t) point(json_["textures"][t]);
-        if (!types_.empty()) list_extension();
+        if (!types_.empty())
+            for (const KindOfImage& kind : kinds_by_extension) list_extension(kind.extension);
         out_.json = to_string(json_);
         return std::make_shared<const Document>(std::move(out_));
     }
@@ -267,32 +277,35 @@ class Replacing {
             return found == types_.end() ? std::string() : found->second;
         };
         const std::size_t images = count_of(json_, "images");
-        const auto source = index_at(texture, "source", images);
-        const Json* extensions = object_at(texture, "extensions");
-        const Json* webp = extensions ? object_at(*extensions, webp_extension) : nullptr;
-        const auto other = webp ? index_at(*webp, "source", images) : std::nullopt;
-        if (other && !type(other).empty() && type(other) != "image/webp") {
-            texture["source"] = *other;
-            texture["extensions"].erase(webp_extension);
+        for (const KindOfImage& kind : kinds_by_extension) { // an image that is of another kind now
+            const Json* extensions = object_at(texture, "extensions");
+            const Json* named = extensions ? object_at(*extensions, kind.extension) : nullptr;
+            const auto image = named ? index_at(*named, "source", images) : std::nullopt;
+            if (!image || type(image).empty() || type(image) == kind.type) continue;
+            texture["source"] = *image;
+            texture["extensions"].erase(kind.extension);
             if (texture["extensions"].empty()) texture.erase("extensions");
-        } else if (!other && source && type(source) == "image/webp") {
+        }
+        const auto source = index_at(texture, "source", images);
+        for (const KindOfImage& kind : kinds_by_extension) {
+            if (!source || type(source) != kind.type) continue;
             texture.erase("source");
-            texture["extensions"][webp_extension] = {{"source", *source}};
+            texture["extensions"][kind.extension] = {{"source", *source}};
         }
     }
 
-    void list_extension() {
+    void list_extension(const char* extension) {
         bool used = false, required = false;
         for (std::size_t t = 0; t < count_of(json_, "textures"); ++t) {
             const Json* extensions = object_at(json_["textures"][t], "extensions");
-            if (!extensions || !extensions->contains(webp_extension)) continue;
+            if (!extensions || !extensions->contains(extension)) continue;
             used = true;
             required |= !json_["textures"][t].contains("source");
         }
         for (const auto& [list, listed] :
              {std::pair("extensionsUsed", used), {"extensionsRequired", required}}) {
-            remove_name(json_, list, webp_extension);
-            if (listed) add_name(json_, list, webp_extension);
+            remove_name(json_, list, extension);
+            if (listed) add_name(json_, list, extension);
             erase_empty(json_, list);
         }
     }

@@ -43,10 +43,11 @@ std::vector<DocumentImage> document_images(const Document& document, const std::
 /// are not there.
 std::vector<Bytes> image_bytes(const Document& document, const Json& json);
 
-/// The document with other bytes (PNG, JPEG or WebP) for some of its images, by index. Where an image's kind
-/// changes, its name, its media type and the textures do as well: WebP becomes the source of
-/// EXT_texture_webp, which is required unless every such texture has another image, too. Images in buffers
-/// and in data URIs become views of buffers of their own; all else is where it was.
+/// The document with other bytes (PNG, JPEG, WebP or KTX2) for some of its images, by index. Where an image's
+/// kind changes, its name, its media type and the textures do as well: WebP becomes the source of
+/// EXT_texture_webp and KTX2 that of KHR_texture_basisu, which is required unless every such texture has
+/// another image, too. Images in buffers and in data URIs become views of buffers of their own; all else is
+/// where it was.
 std::shared_ptr<const Document> with_images(const Document& document,
                                             const std::map<std::size_t, Bytes>& replaced);
 

@@ -3,7 +3,7 @@
 
 namespace facetmill::help::textures {
 
-inline constexpr const char* about = R"(Makes the images of materials smaller, as PNG, JPEG or WebP.)";
+inline constexpr const char* about = R"(Makes the images of materials smaller, as PNG, JPEG, WebP or KTX2.)";
 
 inline constexpr const char* details =
     R"(Images are scaled down to max_size and power_of_two, never up, by Lanczos's filter: colours in
@@ -19,6 +19,13 @@ larger than 2^26 pixels or of another kind (KTX2, DDS), that is read pixel by pi
 NEAREST, as for a palette), or that holds feature ids, metadata or light. A colour image whose alpha
 is used does not become JPEG (W-TEXTURE-KEPT). Images of 16 bits a channel that are worked on have 8
 afterwards.
+
+ktx2 hands images to the program ktx, or toktx, of KTX-Software, which is looked for in PATH, or which
+FACETMILL_KTX names: the only program that facetmill runs. Colours become ETC1S in sRGB, data ETC1S
+that is linear, normal maps linear UASTC, each with all its smaller levels; the sides are rounded down to
+multiples of 4 pixels. An image that is read as colours and as numbers, and one of fewer than 4 pixels,
+stays as it is (W-TEXTURE-KEPT). The bytes depend on the version of the program. KTX2 is named by
+KHR_texture_basisu, as WebP is named by its extension.
 
 WebP is named by EXT_texture_webp, which is then required: there is no second image for readers that
 do not know it. An image that stands beside another one for such readers is scaled, but does not

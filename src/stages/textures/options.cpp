@@ -1,6 +1,10 @@
 #include "stages/textures/options.hpp"
 
+#include "io/ktx_workers.hpp"
 #include "options/mark_at.hpp"
+
+#include <cstdlib>
+#include <fmt/format.h>
 
 namespace facetmill::textures_stage {
 
@@ -16,7 +20,7 @@ std::vector<NamedChoice<F>> formats() {
             {"png", Format::png, "without loss"},
             {"jpeg", Format::jpeg, "progressive JPEG, without alpha"},
             {"webp", Format::webp, "WebP, by EXT_texture_webp"},
-            {"ktx2", Format::ktx2, "refused: facetmill has no encoder for KHR_texture_basisu"}};
+            {"ktx2", Format::ktx2, "KTX2, by KHR_texture_basisu; needs the program ktx or toktx"}};
 }
 
 void declare_role(Declare<RoleOptions>& d) {
@@ -49,6 +53,11 @@ ImageSettings for_colours(const TexturesOptions& o) { return with_role(o, {}, 80
 ImageSettings for_normals(const TexturesOptions& o) { return with_role(o, o.normals, 90); }
 ImageSettings for_data(const TexturesOptions& o) { return with_role(o, o.data, 90); }
 
+bool wants_ktx2(const TexturesOptions& o) {
+    return for_colours(o).format == Format::ktx2 || for_normals(o).format == Format::ktx2 ||
+           for_data(o).format == Format::ktx2;
+}
+
 void declare_textures(Declare<TexturesOptions>& d) {
     d.option(
          "max_size", &TexturesOptions::max_size,
@@ -60,7 +69,8 @@ void declare_textures(Declare<TexturesOptions>& d) {
     d.choice<Format>("format", &TexturesOptions::format, formats<Format>(),
                      "The format of the images, as far as they become smaller in it.");
     d.option("quality", &TexturesOptions::quality,
-             "Of JPEG and WebP, where an image is written anew; if not given, 80 for colours and 90 for the "
+             "Of JPEG, WebP and KTX2, where an image is written anew; if not given, 80 for colours and 90 "
+             "for the "
              "others (a count).")
         .between(1, 100);
     d.option("lossless", &TexturesOptions::lossless, "Writes WebP without loss.");
@@ -68,21 +78,24 @@ void declare_textures(Declare<TexturesOptions>& d) {
         "repack", &TexturesOptions::repack,
         "Packs PNG and JPEG images that would stay as they are anew where that makes them smaller, without "
         "a change of a pixel.");
+    d.option("timeout", &TexturesOptions::timeout,
+             "Seconds that ktx or toktx may take for one image before the run fails (a count).")
+        .between(1, 86400);
     d.group("normals", &TexturesOptions::normals, "What is different for normal maps.", declare_role);
     d.group("data", &TexturesOptions::data,
             "What is different for images that are neither colours nor normals.", declare_role);
 }
 
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems) {
-    for (const auto& [option, s] : {std::pair("format", for_colours(o)), std::pair("normals", for_normals(o)),
-                                    std::pair("data", for_data(o))}) {
-        if (s.format != Format::ktx2) continue;
+    if (wants_ktx2(o) && !io::ktx_program()) {
+        const char* named = std::getenv("FACETMILL_KTX");
         add_refusal(
-            Refusal{option,
-                    "KTX2 (KHR_texture_basisu) is not written: Debian has no library that encodes it, and "
-                    "a run starts no other programs",
-                    "write the .glb without it, then use 'gltf-transform uastc' or 'etc1s', which call the "
-                    "ktx tools of Khronos; or format: webp"},
+            Refusal{"format",
+                    named && *named ? fmt::format("FACETMILL_KTX names no program: '{}'", named)
+                                    : "KTX2 is encoded by the program ktx or toktx, and neither is in PATH",
+                    "install KTX-Software (https://github.com/KhronosGroup/KTX-Software/releases), or name "
+                    "the program by the variable FACETMILL_KTX; format: webp needs no other program",
+                    "E-KTX"},
             "textures", given, problems);
         return;
     }

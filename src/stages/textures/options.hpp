@@ -20,6 +20,7 @@ struct TexturesOptions {
     std::optional<std::int64_t> max_size, quality;
     bool power_of_two = false, lossless = false, repack = false;
     Format format = Format::keep;
+    std::int64_t timeout = 600; ///< seconds for one KTX2 image
     RoleOptions normals, data;
 };
 
@@ -35,7 +36,10 @@ ImageSettings for_normals(const TexturesOptions& o);
 ImageSettings for_data(const TexturesOptions& o);
 
 void declare_textures(Declare<TexturesOptions>& d);
-/// lossless goes with WebP only.
+/// Whether images of some role are to be KTX2.
+bool wants_ktx2(const TexturesOptions& o);
+
+/// lossless goes with WebP only, and KTX2 with a program that is there.
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::textures_stage

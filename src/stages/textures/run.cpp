@@ -2,6 +2,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "base/readable_numbers.hpp"
+#include "io/ktx_workers.hpp"
 #include "io/pixels.hpp"
 #include "stages/textures/help.hpp"
 #include "stages/textures/work.hpp"
@@ -73,6 +74,17 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
     return jobs;
 }
 
+/// What went wrong in the program that encodes it.
+Error about_image(const Error& error, const std::string& image) {
+    const Diagnostic& first = error.diagnostics().front();
+    if (first.id != "E-KTX") return error;
+    const auto program = io::ktx_program();
+    return {error.kind(), first.id,
+            fmt::format("textures: for the image '{}' {} {}", image,
+                        program ? program->filename().string() : "ktx", first.message),
+            first.hint.empty() ? "facetmill explain E-KTX" : first.hint};
+}
+
 /// Several images at once, but not more pixels than one image may have, which bounds the memory.
 void work(std::vector<Job>& jobs, const TexturesOptions& o) {
     using io::max_pixels;
@@ -91,7 +103,11 @@ void work(std::vector<Job>& jobs, const TexturesOptions& o) {
             end - begin,
             [&](std::size_t i) {
                 Job& job = jobs[begin + i];
-                job.worked = worked(job.image->bytes, job.before, job.use, o);
+                try {
+                    job.worked = worked(job.image->bytes, job.before, job.use, o);
+                } catch (const Error& error) {
+                    throw about_image(error, job.image->name);
+                }
             },
             1);
         begin = end;
@@ -187,6 +203,7 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
     std::vector<Job> jobs = jobs_of(images);
     work(jobs, o);
     put_back(scene, jobs);
+    if (wants_ktx2(o)) context.tell_unrepeatable(); // another version of the program may write other bytes
     tell(jobs, context, report);
     return scene;
 }

@@ -2,6 +2,7 @@
 
 #include "io/encode_image.hpp"
 #include "io/image_files.hpp"
+#include "io/ktx_workers.hpp"
 #include "io/resize_image.hpp"
 
 #include <algorithm>
@@ -13,6 +14,8 @@ namespace facetmill::textures_stage {
 namespace {
 
 using io::Pixels;
+
+constexpr std::size_t block = 4; ///< sides of KTX2 images in glTF are multiples of it (KHR_texture_basisu)
 
 std::string format_of(const io::Bytes& bytes) {
     const std::string type = io::media_type(bytes);
@@ -30,7 +33,11 @@ std::pair<std::size_t, std::size_t> size_for(const ImageState& image, const Imag
         width = scaled(width);
         height = scaled(height);
     }
-    if (s.power_of_two) return {std::bit_floor(width), std::bit_floor(height)};
+    if (s.power_of_two) {
+        width = std::bit_floor(width);
+        height = std::bit_floor(height);
+    }
+    if (s.format == Format::ktx2) return {width / block * block, height / block * block};
     return {width, height};
 }
 
@@ -53,15 +60,45 @@ io::Bytes encoded(const Pixels& image, const std::string& format, const ImageSet
     return io::encoded_png(image);
 }
 
-Worked kept(const ImageState& state, std::string why, bool warn) {
-    Worked out{state, state, {}, std::move(why), warn};
-    return out;
-}
-
 struct Reason {
     const char* why = nullptr; ///< nothing: the image is to be worked on
     bool warn = false;
 };
+
+/// Throws stage (E-KTX).
+io::Bytes encoded_ktx2(Pixels image, const io::ImageUse& use, const ImageSettings& s,
+                       const TexturesOptions& o) {
+    if (!use.alpha)
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+    const io::KtxOrder order{use.normals, use.colours, !io::is_opaque(image), s.quality,
+                             std::chrono::seconds(o.timeout)};
+    io::Bytes bytes = io::run_ktx(io::encoded_png_in_colour(image), order);
+    constexpr std::size_t header = 80, format = 12, width = 20, height = 24;
+    const auto word = [&](std::size_t at) {
+        std::uint32_t n = 0;
+        for (std::size_t i = 4; i-- > 0;) n = n << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
+        return n;
+    };
+    if (io::media_type(bytes) != "image/ktx2" || bytes.size() < header || word(format) != 0 ||
+        word(width) != image.width || word(height) != image.height)
+        throw Error(ErrorKind::stage, "E-KTX", "wrote no KTX2 texture of that image");
+    return bytes;
+}
+
+/// Why an image that is worked on does not become KTX2.
+Reason reason_against_ktx2(const ImageState& image, const io::ImageUse& use) {
+    if (use.fallback) return {"readers that do not know KTX2 need it"};
+    if (use.colours && (use.normals || use.numbers))
+        return {"materials read it as colours and as numbers, of which a KTX2 texture is one", true};
+    if (image.width < block || image.height < block)
+        return {"the sides of KTX2 textures are multiples of 4 pixels, and images are not made larger", true};
+    return {};
+}
+
+Worked kept(const ImageState& state, std::string why, bool warn) {
+    Worked out{state, state, {}, std::move(why), warn};
+    return out;
+}
 
 /// Why an image stays of which nothing but the header is read.
 Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
@@ -90,13 +127,24 @@ ImageState state_of(const io::Bytes& bytes) {
 Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
               const TexturesOptions& o) {
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
-    const ImageSettings s = settings_for(use, o);
+    ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);
     if (use.fallback && format == "webp") format = before.format; // who needs it does not know WebP
+    std::string why;
+    bool warn = false;
+    if (format == "ktx2") {
+        const Reason against = reason_against_ktx2(before, use);
+        if (against.why) {
+            why = against.why;
+            warn = against.warn;
+            format = before.format;
+            s.format = Format::keep;
+        }
+    }
     const auto [width, height] = size_for(before, s);
     const bool smaller = width != before.width || height != before.height;
     if (!smaller && format == before.format) {
-        Worked out = kept(before, "", false);
+        Worked out = kept(before, why, warn);
         if (o.repack) out.bytes = io::repacked_image(bytes);
         if (!out.bytes.empty()) out.after.bytes = out.bytes.size();
         return out;
@@ -104,17 +152,22 @@ Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageU
 
     auto image = io::decoded_image(bytes);
     if (!image || image->damaged) return kept(before, "it is broken", true);
-    std::string why;
     if (format == "jpeg" && before.format != "jpeg" && use.alpha && !io::is_opaque(*image)) {
         why = "its alpha is used, which JPEG has not";
+        warn = true;
         format = before.format;
         if (!smaller) return kept(before, why, true);
     }
     const io::PixelKind kind = kind_of(use);
     const bool coverage = kind == io::PixelKind::colours && use.coverage && !io::is_opaque(*image);
     if (smaller) image = io::resized_image(*image, width, height, kind, coverage);
-    Worked out{before, {format, width, height, 0}, encoded(*image, format, s, kind), why, !why.empty()};
-    if (!smaller && format != "png" && out.bytes.size() >= before.bytes)
+    Worked out{before,
+               {format, width, height, 0},
+               format == "ktx2" ? encoded_ktx2(*std::move(image), use, s, o)
+                                : encoded(*image, format, s, kind),
+               why,
+               warn};
+    if (!smaller && format != "png" && format != "ktx2" && out.bytes.size() >= before.bytes)
         return kept(before, fmt::format("it would not be smaller as {}", format), false);
     out.after.bytes = out.bytes.size();
     return out;
