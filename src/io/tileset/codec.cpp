@@ -1,4 +1,5 @@
 #include "io/gltf/container.hpp"
+#include "io/image_files.hpp"
 #include "io/tileset/tileset.hpp"
 
 namespace facetmill::io::tileset {
@@ -17,9 +18,13 @@ int sniff(Span bytes) {
 
 /// The tiles beside it.
 void peek(const Input& input, FileHeader& header) {
-    const Json json = gltf::parse_document(as_text(input.bytes()));
-    for (const auto& uri : uris_of(json))
-        if (const auto path = gltf::relative_path(uri)) header.files.push_back(input.path_beside(*path));
+    gltf::in_file(input, [&] {
+        for (const auto& uri : uris_of(gltf::parse_document(as_text(input.bytes())))) {
+            const auto relative = gltf::decoded_path(uri);
+            const auto path = relative ? path_below(input, *relative) : std::nullopt;
+            if (path) header.files.push_back(*path);
+        }
+    });
     header.has_materials = [] { return true; };
 }
 

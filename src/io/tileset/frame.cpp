@@ -18,11 +18,14 @@ double longest_side(const Box& box) {
     return std::max({e.x, e.y, e.z});
 }
 
-/// The centre in multiples of a sixteenth of the diagonal or less, and of at least `least`, a power of two.
+/// The centre in multiples of a sixteenth of the diagonal or less, and of at least `least`, a power of two;
+/// as it is where that is finer than doubles.
 Vec3 near_centre(const Box& box, double least) {
+    constexpr double whole = 1LL << 52; // doubles beyond it have no fractions
     const double step = std::max(least, power_below(box.diagonal() / 8));
     Vec3 p = box.centre();
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] / step) * step + 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (std::abs(p[axis]) < whole * step) p[axis] = std::round(p[axis] / step) * step + 0.0;
     return p;
 }
 
@@ -42,7 +45,7 @@ TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettin
     double reach = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
         reach = std::max({reach, box.max[axis] - frame.origin[axis], frame.origin[axis] - box.min[axis]});
-    const double finest = 2 * power_below(reach) / (std::int64_t{1} << float_bits);
+    const double finest = power_below(reach) / (std::int64_t{1} << (float_bits - 1));
     frame.step = finest;
     if (!settings.draco.on && !settings.quantize.on) return frame;
     const int bits = settings.draco.on ? settings.draco.position_bits : settings.quantize.position_bits;

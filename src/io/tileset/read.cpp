@@ -1,9 +1,11 @@
 #include "base/hash.hpp"
+#include "base/memory.hpp"
 #include "base/progress.hpp"
 #include "geometry/edit/equal_wedges.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/gltf.hpp"
+#include "io/image_files.hpp"
 #include "io/tileset/tileset.hpp"
 #include "mesh/transform.hpp"
 
@@ -105,22 +107,24 @@ class MaterialsOfTiles {
 };
 
 Scene read_tile(const Input& input, const Content& content, const ReadSettings& settings, ReadLog& log) {
-    const auto path = gltf::relative_path(content.uri);
-    if (!path)
+    const auto relative = gltf::decoded_path(content.uri);
+    if (!relative || !path_below(input, *relative))
         throw Error(ErrorKind::malformed, "E-URI",
                     fmt::format("{}: \"{}\" is not a file in the tileset's folder or below", content.place,
-                                content.uri));
-    const Input file = input.beside(*path);
+                                content.uri),
+                    hint_for_asset_root(input, relative));
+    const Input file = input.beside(*relative).with_asset_roots(input.asset_roots());
     if (!gltf::is_glb(file.bytes()))
         throw Error(ErrorKind::malformed, "E-TILESET",
                     fmt::format("{}: '{}' is no GLB, and other contents of tiles are not read", content.place,
                                 content.uri),
                     "load the files one by one");
-    log.files.push_back({file.path(), file.stored().size(), sha256(file.stored())});
     ReadSettings inner = settings;
     inner.unit.reset();
     inner.up.reset();
-    return codec_named("glb")->read(file, inner, log);
+    Scene tile = codec_named("glb")->read(file, inner, log);
+    log.files.push_back({file.path(), file.stored().size(), sha256(file.stored())});
+    return tile;
 }
 
 } // namespace
@@ -140,9 +144,14 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         scene.up = settings.up.value_or(UpAxis::z);
         MaterialsOfTiles materials(scene);
         Part all;
+        double bytes = 0;                     // of all files, some perhaps more than once
+        constexpr double memory_per_byte = 4; // as of other meshes
         ShareOfSteps steps(std::vector<double>(contents.size() + 1, 1));
         for (const Content& content : contents) {
             Scene tile = read_tile(input, content, settings, log);
+            bytes += static_cast<double>(log.files.back().bytes);
+            require_memory(memory_per_byte * bytes, fmt::format("reading the tiles of '{}'", input.name()),
+                           "load some of its tiles, or use a machine with more memory");
             materials.take(tile);
             const Transform to_tileset = content.transform * turn_up(UpAxis::y, UpAxis::z);
             for (Part& part : tile.parts) {

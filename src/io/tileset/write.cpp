@@ -13,6 +13,7 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
 
 namespace facetmill::io::tileset {
@@ -109,6 +110,11 @@ class TilesetWriter {
         Mesh mesh = as_one(scene, written_);
         if (mesh.face_count() == 0)
             throw Error(ErrorKind::stage, "E-EMPTY", "a tileset needs at least one face");
+        const double size = mesh.bounds().diagonal();
+        if (!(size <= std::numeric_limits<float>::max()))
+            throw Error(ErrorKind::stage, "E-RANGE",
+                        fmt::format("the scene measures {:.3g}, which float32 cannot hold", size),
+                        "bring it near 1 with transform: {scale: ...}, or write PLY with precision: full");
         frame_ = tileset_frame(mesh.positions, settings_);
         put_into_frame(mesh.positions, frame_);
         steps.next();

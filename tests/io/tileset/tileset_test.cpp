@@ -177,6 +177,18 @@ TEST_CASE("what is not read of a tileset is refused by name", "[io][tileset]") {
     CHECK(refused(R"({"content": {"uri": "a.b3dm"}})").find("E-TILESET") != std::string::npos);
 }
 
+TEST_CASE("a tileset holds a mesh at one place far away, and says what float32 cannot hold",
+          "[io][tileset]") {
+    Scene scene = ball();
+    for (Vec3& p : scene.parts[0].mesh.positions) p = {5e5, 5e6, 1};
+    const OnDisk disk(written(scene));
+    CHECK(disk.read().bounds().min == Vec3{5e5, 5e6, 1});
+    CHECK(disk.read().bounds().max == Vec3{5e5, 5e6, 1});
+    for (Vec3& p : scene.parts[0].mesh.positions)
+        p = {5e5, 5e6, 1e300 * (&p == scene.parts[0].mesh.positions.data())};
+    CHECK(failure([&] { written(scene); }).find("E-RANGE") != std::string::npos);
+}
+
 TEST_CASE("the frame of a tileset keeps vertices apart, unless the bits are given", "[io][tileset]") {
     io::WriteSettings settings;
     settings.draco.on = true;
