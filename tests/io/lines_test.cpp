@@ -69,6 +69,15 @@ TEST_CASE("lines are skipped with a word when nobody asks for them", "[io]") {
     CHECK(loaded.log.warnings[0].hint == "load: {path: ..., lines: 1%} makes tubes of the lines");
 }
 
+TEST_CASE("points of an OBJ are skipped beside faces only: the vertices of a cloud are all kept", "[io]") {
+    const Loaded cloud = load("a.obj", "v 0 0 0\nv 1 0 0\np 1 2\n", false);
+    CHECK(cloud.scene.parts.at(0).mesh.vertex_count() == 2);
+    CHECK(cloud.log.warnings.empty());
+    const Loaded mixed = load("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\np 1\n", false);
+    REQUIRE(mixed.log.warnings.size() == 1);
+    CHECK(mixed.log.warnings[0].message.find("'p' (1)") != std::string::npos);
+}
+
 TEST_CASE("a line of an OBJ that names no vertex is refused with its place", "[io]") {
     CHECK(failure([] { load("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n\nl 1 3\n"); }) ==
           "malformed [E-OBJ] a.obj:5: a line names a vertex that is not there: the file has 2");

@@ -315,8 +315,10 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
         log.warnings.push_back({Severity::warning, id, std::move(message), file_mark(file), std::move(hint)});
     };
     std::vector<std::string> words;
-    for (const auto& [word, count] : s.skipped)
+    for (const auto& [word, count] : s.skipped) {
+        if (word == "p" && s.faces() == 0) continue; // of a cloud all vertices are kept
         words.push_back(fmt::format("{} ({})", in_quotes(word), count));
+    }
     if (!words.empty())
         warn("W-SKIPPED",
              fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")),
