@@ -229,16 +229,47 @@ TEST_CASE("attributes that no material needs go on request", "[stages]") {
     CHECK(has_attribute(run_stage("optimize", "{drop_attributes: true}", needed).scene, "TEXCOORD_0"));
 }
 
-TEST_CASE("tangents that morph targets displace stay", "[stages]") {
+TEST_CASE("tangents go with what morph targets displace of them, unless a target had nothing else",
+          "[stages]") {
     Scene scene = six_colours();
     Mesh& mesh = scene.parts[0].mesh;
     const auto count = mesh.wedge_count();
     mesh.attributes.push_back(
         {"TANGENT", Domain::wedge, Role::tangent, 4, false, std::vector<float>(4 * count, 0.5F)});
     CHECK_FALSE(has_attribute(run_stage("optimize", "{drop_attributes: true}", scene).scene, "TANGENT"));
-    scene.parts[0].mesh.attributes.push_back(
-        {"POSITION@0", Domain::wedge, Role::morph_vector, 3, false, std::vector<float>(3 * count)});
-    CHECK(has_attribute(run_stage("optimize", "{drop_attributes: true}", scene).scene, "TANGENT"));
+    const auto displaces = [&](const char* name) {
+        scene.parts[0].mesh.attributes.push_back(
+            {name, Domain::wedge, Role::morph_vector, 3, false, std::vector<float>(3 * count)});
+    };
+    displaces("TARGET_0_TANGENT");
+    const auto alone = run_stage("optimize", "{drop_attributes: true}", scene);
+    CHECK(has_attribute(alone.scene, "TANGENT"));
+    CHECK(has_attribute(alone.scene, "TARGET_0_TANGENT"));
+    displaces("TARGET_0_POSITION");
+    const auto beside = run_stage("optimize", "{drop_attributes: true}", scene);
+    CHECK_FALSE(has_attribute(beside.scene, "TANGENT"));
+    CHECK_FALSE(has_attribute(beside.scene, "TARGET_0_TANGENT"));
+    CHECK(has_attribute(beside.scene, "TARGET_0_POSITION"));
+}
+
+TEST_CASE("attributes of one's own go on request only", "[stages]") {
+    Scene scene = six_colours();
+    Mesh& mesh = scene.parts[0].mesh;
+    mesh.attributes.push_back(
+        {"quality", Domain::vertex, Role::generic, 1, false, std::vector<float>(mesh.vertex_count(), 0.5F)});
+    mesh.attributes.push_back(
+        {"_weight", Domain::wedge, Role::generic, 1, false, std::vector<float>(mesh.wedge_count(), 2)});
+    const auto kept = run_stage("optimize", "{drop_attributes: true}", scene);
+    CHECK(has_attribute(kept.scene, "quality"));
+    CHECK(has_attribute(kept.scene, "_weight"));
+    const auto dropped = run_stage("optimize", "{drop_own: true}", scene);
+    CHECK_FALSE(has_attribute(dropped.scene, "quality"));
+    CHECK(has_attribute(dropped.scene, "TEXCOORD_0"));
+    CHECK(dropped.record.result["dropped_attributes"] == Json::array({"_weight", "quality"}));
+    // Where an extension of a primitive may read them, they stay.
+    for (Primitive& p : scene.parts[0].mesh.primitives)
+        p.json = R"({"extensions":{"EXT_mesh_features":{"featureIds":[{"featureCount":1}]}}})";
+    CHECK(has_attribute(run_stage("optimize", "{drop_own: true}", scene).scene, "_weight"));
 }
 
 TEST_CASE("wedges that only a dropped attribute kept apart become one", "[stages]") {

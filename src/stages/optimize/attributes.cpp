@@ -3,6 +3,8 @@
 #include "geometry/edit/equal_wedges.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 namespace facetmill::optimize_stage {
 
@@ -24,11 +26,26 @@ needs_of(const Mesh& mesh,
         all.normals |= needs->normals;
         all.tangents |= needs->tangents;
     }
-    // What morph targets displace has to be there.
-    if (std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
-                    [](const Attribute& a) { return a.role == Role::morph_vector; }))
-        all.normals = all.tangents = true;
     return all;
+}
+
+/// "TARGET_3_NORMAL" displaces NORMAL, and the target is "TARGET_3_".
+std::pair<std::string_view, std::string_view> displaced(std::string_view name) {
+    const auto end = name.find_first_not_of("0123456789", std::string_view("TARGET_").size());
+    if (end == std::string_view::npos || name[end] != '_') return {{}, name};
+    return {name.substr(0, end + 1), name.substr(end + 1)};
+}
+
+/// Whether each morph target would displace something without what it displaces of this name: none may become
+/// empty, since weights count them.
+bool targets_can_lose(const Mesh& mesh, std::string_view semantic) {
+    std::map<std::string_view, std::size_t> left;
+    for (const Attribute& a : mesh.attributes) {
+        if (a.role != Role::morph_vector) continue;
+        const auto [target, of] = displaced(a.name);
+        left[target] += of != semantic;
+    }
+    return std::all_of(left.begin(), left.end(), [](const auto& target) { return target.second > 0; });
 }
 
 /// Colours multiply those of the material: white changes nothing.
@@ -42,8 +59,10 @@ bool is_white(const Attribute& a) {
 bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
     constexpr std::string_view uv = "TEXCOORD_";
     if (a.domain == Domain::face) return false;
-    if (a.name == "NORMAL") return !needs.normals;
-    if (a.name == "TANGENT") return !needs.tangents;
+    const std::string_view name = a.role == Role::morph_vector ? displaced(a.name).second : a.name;
+    if (name == "NORMAL") return !needs.normals;
+    if (name == "TANGENT") return !needs.tangents;
+    if (a.role == Role::morph_vector) return false;
     if (a.name == "COLOR_0") return is_white(a);
     if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1)
         return false; // beyond nine: whoever knows
@@ -53,12 +72,17 @@ bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
 } // namespace
 
 std::vector<std::string> drop_unused_attributes(
-    Mesh& mesh, const std::function<std::optional<io::MaterialNeeds>(Index material)>& needs_of_material) {
+    Mesh& mesh, const std::function<std::optional<io::MaterialNeeds>(Index material)>& needs_of_material,
+    UnusedKinds kinds) {
     std::vector<std::string> dropped;
-    const auto needs = needs_of(mesh, needs_of_material);
+    auto needs = needs_of(mesh, needs_of_material);
     if (!needs) return dropped;
+    needs->normals |= !targets_can_lose(mesh, "NORMAL");
+    needs->tangents |= !targets_can_lose(mesh, "TANGENT");
     for (const Attribute& a : mesh.attributes)
-        if (is_unused(a, *needs)) dropped.push_back(a.name);
+        if (a.role == Role::generic && a.domain != Domain::face ? kinds.own
+                                                                : kinds.standard && is_unused(a, *needs))
+            dropped.push_back(a.name);
     if (dropped.empty()) return dropped;
     const auto gone = [&](const std::string& name) {
         return std::find(dropped.begin(), dropped.end(), name) != dropped.end();

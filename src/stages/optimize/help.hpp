@@ -17,13 +17,14 @@ accessors that glTF does not ask for, tracks of animations that keep a node wher
 flatten and instance have emptied, with the groups above them that have nothing else.
 
 On request: drop_attributes drops texture coordinates that no texture reads, tangents without a map
-of normals, normals of unlit materials and colours that are white throughout (not beside extensions
-of a primitive), and merges vertices that only these kept apart. palette makes one material of those
-that are nothing but plain colours, metalness, roughness and emission, with a pixel of 8 bits a
-channel for each, for parts without texture coordinates; parts of different colours can be joined
-then. flatten moves nodes to the top of the scene. instance makes one node, with a list of places,
-of parts that share a mesh and are not mirrored; later stages see its mesh once, so it comes last.
-`load: {instances: expand}` is its reverse.
+of normals, normals of unlit materials, what morph targets displace of them, and colours that are
+white throughout (not beside extensions of a primitive), and merges vertices that only these kept
+apart. drop_own does the same to attributes that glTF does not know, whose names begin with _ there.
+palette makes one material of those that are nothing but plain colours, metalness, roughness and
+emission, with a pixel of 8 bits a channel for each, for parts without texture coordinates; parts of
+different colours can be joined then. flatten moves nodes to the top of the scene. instance makes
+one node, with a list of places, of parts that share a mesh and are not mirrored; later stages see
+its mesh once, so it comes last. `load: {instances: expand}` is its reverse.
 
 Parts stay by themselves, where they are, that are skinned, animated or joints, have morph targets,
 a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share

@@ -19,7 +19,7 @@ namespace {
 
 struct OptimizeOptions {
     bool dedup = true, join = true, join_shared = false, prune = true, keep_names = false;
-    bool drop_attributes = false, palette = false, flatten = false, instance = false;
+    bool drop_attributes = false, drop_own = false, palette = false, flatten = false, instance = false;
     std::int64_t palette_min = 5, instance_min = 5;
 };
 
@@ -28,6 +28,8 @@ void declare(Declare<OptimizeOptions>& d) {
              "Makes one of equal images, samplers, textures, materials, meshes and accessors.");
     d.option("drop_attributes", &OptimizeOptions::drop_attributes,
              "Drops texture coordinates, tangents, normals and white colours that no material needs.");
+    d.option("drop_own", &OptimizeOptions::drop_own,
+             "Drops attributes that glTF does not know, such as _quality, which no viewer reads.");
     d.option("palette", &OptimizeOptions::palette,
              "Makes one material, with a pixel of a texture for each, of materials of plain colours.");
     d.option("palette_min", &OptimizeOptions::palette_min,
@@ -80,7 +82,7 @@ class Optimizing {
         bound_ = io::bound_parts(scene_, tidies_);
         if (o_.dedup) merge_materials();
         if (o_.dedup) merge_meshes();
-        if (o_.drop_attributes) drop_attributes();
+        if (o_.drop_attributes || o_.drop_own) drop_attributes();
         if (o_.dedup) merge_vertices();
         if (o_.palette) paint();
         if (o_.flatten) flatten();
@@ -182,11 +184,12 @@ class Optimizing {
         std::set<std::string> names;
         for (Part& part : scene_.parts) {
             if (!context_.selects(part, scene_)) continue;
-            const auto dropped = drop_unused_attributes(part.mesh, needs);
+            const auto dropped = drop_unused_attributes(part.mesh, needs,
+                                                        {.standard = o_.drop_attributes, .own = o_.drop_own});
             for (const std::string& name : dropped) {
                 names.insert(name);
                 context_.attribute_changes(part, {{name, Domain::wedge, AttributeChange::Kind::dropped,
-                                                   "no material of the part needs it"}});
+                                                   "nothing that is drawn needs it"}});
             }
             part.changed |= !dropped.empty();
         }
@@ -427,7 +430,7 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
     d.field("equal_vertices", &OptimizeReport::equal_vertices,
             "Vertices of one place and equal attributes that another one stands for now.");
     d.field("dropped_attributes", &OptimizeReport::dropped_attributes,
-            "The names of the attributes that no material needs.");
+            "The names of the attributes that nothing needs which is drawn.");
     d.field("palettes", &OptimizeReport::palettes, "Materials made of many.");
     d.field("palette_materials", &OptimizeReport::palette_materials, "Materials that went into them.");
     d.field("flattened_parts", &OptimizeReport::flattened_parts,
