@@ -104,6 +104,13 @@ enum class Textures {
     reference  ///< nowhere: the written file names them where they lie
 };
 
+/// Where positions of a part are rounded to, in its own coordinates: origin + step * whole numbers, which are
+/// not below zero in the part. No step: the bounds and the bits say.
+struct Lattice {
+    Vec3 origin;
+    double step = 0;
+};
+
 struct WriteSettings {
     bool ascii = false;      ///< PLY and STL: text instead of binary
     bool big_endian = false; ///< PLY
@@ -124,12 +131,19 @@ struct WriteSettings {
 
     std::vector<int> part_bits{}; ///< of each part's positions; empty: as Draco or quantize say
 
+    std::vector<Lattice> lattices{}; ///< of each part's positions, within its bits; empty: none has one
+    bool names = true;               ///< glTF: also of what only people look for by name
+
     /// Bits of the grid that positions of a part are rounded to: its longest side is divided into 2^bits - 1
     /// steps. 0: there is none.
     int grid_bits(std::size_t part) const {
         if (!draco.on && !quantize.on) return 0;
         if (part < part_bits.size()) return part_bits[part];
         return draco.on ? draco.position_bits : quantize.position_bits;
+    }
+    /// Of a part; its step is 0 where the bounds and the bits say where positions are rounded to.
+    Lattice lattice(std::size_t part) const {
+        return grid_bits(part) > 0 && part < lattices.size() ? lattices[part] : Lattice{};
     }
 };
 

@@ -295,9 +295,10 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
             back.float_step = std::max(back.float_step, float_step_at(own) * greatest_stretch(to_world));
         if (settings.grid_bits(i) > 0) {
             const Vec3 e = own.extent();
-            const double range = std::max({e.x, e.y, e.z}) * std::sqrt(scale);
+            const double range = std::max({e.x, e.y, e.z});
             const auto steps = static_cast<double>((std::int64_t{1} << settings.grid_bits(i)) - 1);
-            back.grid_step = std::max(back.grid_step, range / steps);
+            const double step = std::max(range / steps, settings.lattice(i).step);
+            back.grid_step = std::max(back.grid_step, step * std::sqrt(scale));
         }
     }
     if (!world.empty()) {

@@ -57,8 +57,10 @@ std::size_t Builder::add_stored(Stored stored, int target) {
     return add_accessor(std::move(accessor));
 }
 
-void Builder::release(const Json& primitive) {
-    Json alone = {{"meshes", {{{"primitives", Json::array({primitive})}}}}};
+void Builder::release(const Json& primitive) { release_mesh({{"primitives", Json::array({primitive})}}); }
+
+void Builder::release_mesh(const Json& mesh) {
+    Json alone = {{"meshes", Json::array({mesh})}};
     visit_accessor_references(alone, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
     visit_view_references(alone, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
 }

@@ -37,6 +37,7 @@ class Builder {
 
     /// Notes the accessors and views that a primitive uses: they go when nothing else names them.
     void release(const Json& primitive);
+    void release_mesh(const Json& mesh); ///< the same of all primitives and extensions of a mesh
     /// Views that can be are written compressed, under the settings' extension, where that pays.
     void compress(const MeshoptSettings& settings) { meshopt_ = settings; }
     void use_extension(const std::string& name, bool required);

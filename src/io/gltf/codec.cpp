@@ -11,6 +11,7 @@
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/patch.hpp"
 #include "io/gltf/points.hpp"
+#include "io/gltf/shorten.hpp"
 #include "io/image_files.hpp"
 
 #include <fmt/format.h>
@@ -274,13 +275,20 @@ Bytes to_bytes(const std::string& text) {
     return {bytes.begin(), bytes.end()};
 }
 
-void drop_unused_draco(Builder& builder) {
-    bool used = false;
-    for (std::size_t m = 0; m < count_of(builder.json(), "meshes"); ++m)
-        for (const auto& primitive : builder.json()["meshes"][m]["primitives"])
-            used = used || (primitive.contains("extensions") &&
-                            primitive["extensions"].contains("KHR_draco_mesh_compression"));
-    if (!used) builder.drop_extension("KHR_draco_mesh_compression");
+/// Extensions of meshes and primitives that are written here no longer count as used where none has them.
+void drop_unused_extensions(Builder& builder) {
+    bool draco = false, manifold = false;
+    const auto has = [](const Json& object, const char* name) {
+        return object.contains("extensions") && object["extensions"].contains(name);
+    };
+    for (std::size_t m = 0; m < count_of(builder.json(), "meshes"); ++m) {
+        const Json& mesh = builder.json()["meshes"][m];
+        manifold = manifold || has(mesh, "EXT_mesh_manifold");
+        for (const auto& primitive : mesh["primitives"])
+            draco = draco || has(primitive, "KHR_draco_mesh_compression");
+    }
+    if (!draco) builder.drop_extension("KHR_draco_mesh_compression");
+    if (!manifold) builder.drop_extension("EXT_mesh_manifold");
 }
 
 void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool binary) {
@@ -339,9 +347,12 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     const auto mesh_of_part = patch_meshes(patch);
     steps.next();
     const auto node_of_part = patch_nodes(patch, mesh_of_part);
-    for (std::size_t i = 0; i < node_of_part.size(); ++i)
-        if (node_of_part[i] >= 0)
-            patch.bits_of_node[static_cast<std::size_t>(node_of_part[i])] = settings.grid_bits(i);
+    for (std::size_t i = 0; i < node_of_part.size(); ++i) {
+        if (node_of_part[i] < 0) continue;
+        const auto node = static_cast<std::size_t>(node_of_part[i]);
+        patch.bits_of_node[node] = settings.grid_bits(i);
+        if (settings.lattice(i).step > 0) patch.lattice_of_node[node] = settings.lattice(i);
+    }
     patch_levels(patch, node_of_part);
     drop_dead_meshes(patch, mesh_of_part);
     steps.next();
@@ -349,7 +360,7 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     store_streams(patch);
     steps.next();
     builder.compress(settings.meshopt);
-    drop_unused_draco(builder);
+    drop_unused_extensions(builder);
     warn_of_losses(patch);
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
     const Textures textures = settings.textures != Textures::automatic ? settings.textures
@@ -357,7 +368,10 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
                                                                        : Textures::copy;
     auto images = place_images(patch, stem, textures);
     Bytes buffer = builder.finish(written.warnings);
-    if (settings.draco.on || settings.quantize.on || settings.meshopt.on) shorten_numbers(builder.json());
+    if (!settings.names) drop_names(builder.json());
+    // Whole numbers stand where other files have them, too: their nodes stay as they are to the last bit.
+    if (settings.draco.on || settings.quantize.on || settings.meshopt.on)
+        shorten(builder.json(), settings.whole_positions ? Box{} : scene.bounds());
     add_main_files(patch, stem, std::move(buffer), binary);
     for (auto& image : images) written.files.push_back(std::move(image));
     return written;

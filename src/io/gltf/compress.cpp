@@ -3,6 +3,7 @@
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/attribute_stream.hpp"
 #include "io/gltf/builder.hpp"
+#include "io/gltf/encode.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -121,7 +122,10 @@ std::optional<Packing> attribute_packing(const Json& document, const Json& view,
         packing.stride > 0 && packing.stride % 4 == 0 && packing.stride <= 256 && bytes % packing.stride == 0;
     if (!fits) return {};
     packing.count = bytes / packing.stride;
-    packing.kind = fmt::format("{} {} {} {}", type, packing.stride, filter, view.value("target", 0));
+    // Vertex data of one width may lie behind each other, whatever its types; all else is told apart by them.
+    const int target = view.value("target", 0);
+    packing.kind =
+        fmt::format("{} {} {} {}", target == array_buffer ? "" : type, packing.stride, filter, target);
     return packing;
 }
 

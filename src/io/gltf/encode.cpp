@@ -420,6 +420,7 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     DracoInput input;
     set_draco_grid(mesh, input); // of the mesh, not the primitive: common borders fall on the same points
     if (settings.whole_positions) set_whole_steps(input, settings.draco.position_bits);
+    widen_draco_grid(input, settings.draco_step, settings.draco.position_bits);
     set_positions(mesh, table, input);
     input.triangles = table.indices;
     std::vector<const Column*> used;

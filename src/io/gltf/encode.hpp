@@ -12,6 +12,7 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
+    double draco_step = 0;                     ///< of positions, where it is more than the bits would give
     QuantizeSettings quantize;                 ///< how attributes will be rounded
     bool filters = false;                      ///< and whether as meshopt's filters want them
     bool manifold = false;                     ///< write EXT_mesh_manifold

@@ -56,17 +56,6 @@ std::string to_string(const Json& document) {
     return document.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void shorten_numbers(Json& document) {
-    constexpr double most = 1e15; // where doubles hold all integers, with no more digits than their text
-    if (document.is_number_float()) {
-        const double x = document.get<double>();
-        if (std::abs(x) < most && x == std::floor(x)) document = static_cast<std::int64_t>(x);
-    } else if (document.is_structured()) {
-        for (auto& [key, value] : document.items())
-            if (key != "extras") shorten_numbers(value);
-    }
-}
-
 void Place::fail(const std::string& message, const char* id, std::string hint) const {
     throw Error(ErrorKind::malformed, id, path_.empty() ? message : path_ + ": " + message, std::move(hint));
 }

@@ -16,8 +16,6 @@ namespace facetmill::io::gltf {
 Json parse_document(std::string_view text);
 /// The document as text; invalid UTF-8 in names that came from elsewhere is replaced, never written.
 std::string to_string(const Json& document);
-/// Floating-point numbers that are whole become integers, which are shorter as text; extras stay as they are.
-void shorten_numbers(Json& document);
 
 /// A value of the document and where it stands. Every access checks and throws malformed (E-GLTF).
 class Place {

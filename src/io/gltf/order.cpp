@@ -1,10 +1,14 @@
 #include "io/gltf/order.hpp"
 
 #include "base/parallel.hpp"
+#include "io/gltf/compress.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <meshoptimizer.h>
 #include <numeric>
+#include <span>
 
 namespace facetmill::io::gltf {
 
@@ -127,20 +131,90 @@ void add_sizes(const Table& table, VertexCacheUse& use) {
     use.vertices += table.wedges.size();
 }
 
+/// What meshopt makes of triangles and of the places of their corners, in 14 bits, when vertices are numbered
+/// by their first use.
+std::size_t stream_bytes(const Mesh& mesh, const Table& table, const std::vector<Index>& indices,
+                         const Box& box) {
+    std::vector<Index> number(table.wedges.size(), none), numbered;
+    std::vector<std::array<std::uint16_t, 4>> places;
+    const Vec3 e = box.extent();
+    const double steps = 16383 / std::max({e.x, e.y, e.z, 1e-300});
+    for (const Index w : indices) {
+        if (number[w] == none) {
+            number[w] = static_cast<Index>(places.size());
+            const Vec3 p = (mesh.positions[mesh.vertex_of_wedge(table.wedges[w])] - box.min) * steps;
+            auto& place = places.emplace_back();
+            for (std::size_t c = 0; c < 3; ++c)
+                place[c] = static_cast<std::uint16_t>(p[c] > 0 ? std::min(p[c] + 0.5, 16383.0) : 0);
+        }
+        numbered.push_back(number[w]);
+    }
+    const Packing corners{"TRIANGLES", "", sizeof(Index), numbered.size()},
+        vertices{"ATTRIBUTES", "", sizeof(places[0]), places.size()};
+    return encode_meshopt(std::as_bytes(std::span(numbered)), corners, 0).size() +
+           encode_meshopt(std::as_bytes(std::span(places)), vertices, 0).size();
+}
+
+/// Corners by triangles along a direction; those of one place as given.
+std::vector<Index> sorted_along(const Mesh& mesh, const Table& table, const std::vector<Index>& corners,
+                                const Vec3& direction) {
+    std::vector<std::pair<double, std::size_t>> triangles(corners.size() / 3);
+    for (std::size_t c = 0; c < corners.size(); ++c)
+        triangles[c / 3] = {
+            triangles[c / 3].first +
+                dot(direction, mesh.positions[mesh.vertex_of_wedge(table.wedges[corners[c]])]),
+            c / 3};
+    std::sort(triangles.begin(), triangles.end());
+    std::vector<Index> sorted;
+    sorted.reserve(corners.size());
+    for (const auto& [_, t] : triangles)
+        sorted.insert(sorted.end(), {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]});
+    return sorted;
+}
+
+/// The order for caches; strips begun in it, in the given one, and in those strips; for meshes that are not
+/// large, of which a percent is to be had, also strips begun along the axes, there and back: the one of the
+/// fewest bytes.
+void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
+    constexpr std::size_t large = 100000; // triangles
+    static const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    const std::size_t vertices = table.wedges.size(), corners = table.indices.size();
+    std::vector<std::vector<Index>> orders(corners / 3 > large ? 4 : 10, table.indices);
+    const auto strips = [&](std::vector<Index>& order) {
+        meshopt_optimizeVertexCacheStrip(order.data(), order.data(), corners, vertices);
+    };
+    meshopt_optimizeVertexCache(orders[0].data(), table.indices.data(), corners, vertices);
+    orders[1] = orders[0];
+    strips(orders[1]);
+    orders[2] = orders[1];
+    std::vector<std::size_t> bytes(orders.size());
+    parallel_for(
+        orders.size(),
+        [&](std::size_t i) {
+            if (i >= 4) orders[i] = sorted_along(mesh, table, table.indices, axes[i - 4]);
+            if (i >= 2) strips(orders[i]);
+            bytes[i] = stream_bytes(mesh, table, orders[i], box);
+        },
+        1);
+    const auto fewest = std::min_element(bytes.begin(), bytes.end()) - bytes.begin();
+    table.indices = std::move(orders[static_cast<std::size_t>(fewest)]);
+}
+
 } // namespace
 
 void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder order, bool shared,
                      VertexCacheUse& use) {
     std::vector<Table*> together;
+    const Box box = mesh.bounds();
     for (Table& table : tables) {
         use.before += transforms(table);
-        meshopt_optimizeVertexCache(table.indices.data(), table.indices.data(), table.indices.size(),
-                                    table.wedges.size());
-        if (order == TriangleOrder::size) // begun in the order for caches, strips turn less often
-            meshopt_optimizeVertexCacheStrip(table.indices.data(), table.indices.data(), table.indices.size(),
-                                             table.wedges.size());
-        else
+        if (order == TriangleOrder::size) {
+            order_for_size(mesh, table, box);
+        } else {
+            meshopt_optimizeVertexCache(table.indices.data(), table.indices.data(), table.indices.size(),
+                                        table.wedges.size());
             order_groups(mesh, table);
+        }
         together.push_back(&table);
         if (shared) continue;
         order_wedges(together);

@@ -21,7 +21,8 @@ struct Patch {
     std::vector<Placement> placements{};      ///< its parts as read
     std::vector<int> claimed{};               ///< the part that stands at each placement, or -1
     std::map<std::size_t, int> bits_of_node{}; ///< of the positions of its mesh, where they are on a grid
-    std::map<Index, int> materials{};          ///< document's index of each scene material used so far
+    std::map<std::size_t, Lattice> lattice_of_node{}; ///< of those that have one
+    std::map<Index, int> materials{};                 ///< document's index of each scene material used so far
     std::map<std::pair<int, std::size_t>, std::size_t>
         copied{};                                ///< textures, samplers, images of other documents
     std::map<int, Json> others{};                ///< other documents, parsed

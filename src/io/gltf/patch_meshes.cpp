@@ -2,6 +2,7 @@
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/patch.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::io::gltf {
@@ -66,7 +67,9 @@ bool is_original(Patch& patch, const Part& part) {
 EncodeSettings settings_for(Patch& patch, const Part& part) {
     EncodeSettings s;
     s.draco = patch.settings.draco;
-    s.draco.position_bits = patch.settings.grid_bits(static_cast<std::size_t>(&part - &patch.scene.parts[0]));
+    const auto number = static_cast<std::size_t>(&part - &patch.scene.parts[0]);
+    s.draco.position_bits = patch.settings.grid_bits(number);
+    s.draco_step = patch.settings.lattice(number).step;
     s.quantize = patch.settings.quantize;
     s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
     s.manifold = patch.settings.mesh_manifold;
@@ -88,11 +91,26 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     return s;
 }
 
+/// What EXT_mesh_manifold names of a mesh that has changed is of no use any more.
+void release_manifold(Patch& patch, const Json& extension) {
+    patch.builder.release_mesh(
+        {{"primitives", Json::array()}, {"extensions", {{"EXT_mesh_manifold", extension}}}});
+    const AttributeChange change{
+        "EXT_mesh_manifold", Domain::face, AttributeChange::Kind::dropped,
+        "it names the corners of a mesh that is written anew; mesh_manifold: true writes it again"};
+    auto& all = patch.written.changes;
+    if (!patch.settings.mesh_manifold && std::find(all.begin(), all.end(), change) == all.end())
+        all.push_back(change);
+}
+
 /// Extensions of the mesh are about the geometry that it had.
 void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
     if (!mesh.contains("extensions")) return;
     for (const auto& [name, value] : mesh["extensions"].items()) {
-        if (name == "EXT_mesh_manifold") continue; // ours: written again on request
+        if (name == "EXT_mesh_manifold") { // ours: written again on request
+            release_manifold(patch, value);
+            continue;
+        }
         patch.written.changes.push_back(
             {name, Domain::face, AttributeChange::Kind::dropped, "an extension of a mesh that has changed"});
         patch.warn(

@@ -41,6 +41,7 @@ class Store {
     void store_manifold(Json& mesh) const;
 
     int bits_of(std::size_t mesh) const;
+    PositionGrid grid_in(std::size_t mesh, const Box& box) const;
     std::optional<PositionGrid> grid_of(std::size_t mesh);
     const char* reason_for_floats(std::size_t mesh) const;
     std::size_t position(std::size_t accessor, const std::optional<PositionGrid>& grid);
@@ -161,6 +162,36 @@ int Store::bits_of(std::size_t mesh) const {
     return bits > 0 ? bits : quantize_.position_bits;
 }
 
+/// The grid whose steps are 1.
+PositionGrid whole_grid(const Box& box) {
+    const Vec3 e = box.extent();
+    return {{short_near(box.min.x, 1), short_near(box.min.y, 1), short_near(box.min.z, 1)},
+            1,
+            std::max({e.x, e.y, e.z}) > 255 ? 16 : 8};
+}
+
+/// The lattice that the parts have which stand where the mesh does, the finest of them; else that of the box
+/// and the bits.
+PositionGrid Store::grid_in(std::size_t mesh, const Box& box) const {
+    const int bits = bits_of(mesh);
+    Lattice finest;
+    bool all = true;
+    for (const std::size_t node : nodes_[mesh]) {
+        const auto found = patch_.lattice_of_node.find(node);
+        all = all && found != patch_.lattice_of_node.end();
+        if (all && !(finest.step > 0 && finest.step <= found->second.step)) finest = found->second;
+    }
+    bool within = all && finest.step > 0;
+    for (std::size_t c = 0; within && c < 3; ++c) within = box.min[c] >= finest.origin[c] - finest.step / 2;
+    if (within) return {finest.origin, finest.step, 16};
+    const Vec3 e = box.extent();
+    const double range = std::max({e.x, e.y, e.z});
+    const auto steps = static_cast<double>((1 << bits) - 1);
+    const double step = range > 0 ? short_above(range / steps) : 1;
+    return {
+        {short_near(box.min.x, step), short_near(box.min.y, step), short_near(box.min.z, step)}, step, bits};
+}
+
 std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     Box faces, all;
     const Json& primitives = json_["meshes"][mesh]["primitives"];
@@ -177,20 +208,15 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     if (all.empty()) return {};
     const Box& box = faces.empty() ? all : faces;
     const Vec3 e = box.extent();
-    const double range = std::max({e.x, e.y, e.z});
-    const bool whole = patch_.settings.whole_positions;
-    if (whole && range > 65535) return {}; // float32 has them, too
-    const int bits = whole ? (range > 255 ? 16 : 8) : bits_of(mesh);
-    const auto steps = static_cast<double>((1 << bits) - 1);
-    const double step = whole || range <= 0 ? 1 : short_above(range / steps);
-    const PositionGrid grid{
-        {short_near(box.min.x, step), short_near(box.min.y, step), short_near(box.min.z, step)}, step, bits};
+    if (patch_.settings.whole_positions && std::max({e.x, e.y, e.z}) > 65535)
+        return {}; // float32 has them, too
+    const PositionGrid grid = patch_.settings.whole_positions ? whole_grid(box) : grid_in(mesh, box);
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
     if (const char* why = reason_for_floats(mesh)) {
         keep("POSITION", why);
         return {};
     }
-    const double reach = (bits <= 8 ? 255.0 : 65535.0) * grid.step;
+    const double reach = (grid.bits <= 8 ? 255.0 : 65535.0) * grid.step;
     const double half = grid.step / 2;
     for (std::size_t c = 0; c < 3; ++c)
         if (all.min[c] < grid.origin[c] - half || all.max[c] > grid.origin[c] + reach + half) {

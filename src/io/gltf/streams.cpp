@@ -1,11 +1,15 @@
 // Animations, instances and bind matrices, each accessor in a view of its own, so that meshopt can compress
-// them: rotations by its filter QUATERNION, translations and scales by EXPONENTIAL, all else without loss.
+// them: rotations by its filter QUATERNION, translations, scales and morph weights by EXPONENTIAL, all
+// else without loss.
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/compress.hpp"
 #include "io/gltf/patch.hpp"
 #include "io/gltf/quantise.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
+#include <span>
 
 namespace facetmill::io::gltf {
 
@@ -29,8 +33,26 @@ class Streams {
     std::map<std::string, std::size_t> made_; ///< by accessor and what it is for
 };
 
-/// Bits of translations and scales, over their greatest extent: half a step is below a hundred-thousandth.
+/// Bits of translations, scales and morph weights, over their greatest extent: half a step is below a
+/// hundred-thousandth.
 constexpr int path_bits = 16;
+
+/// Numbers from 0 to 1 in 65535ths, plainly, where that takes less than the stream of floats would.
+std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
+    std::vector<std::uint16_t> all;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double x = a.value(i, 0);
+        if (a.components != 1 || !(x >= 0 && x <= 1)) return {};
+        all.push_back(static_cast<std::uint16_t>(std::floor(x * 65535 + 0.5)));
+    }
+    const Packing packing{"ATTRIBUTES", floats.filter, sizeof(float), all.size()};
+    constexpr std::size_t json_bytes = 160; // that the extension's object takes
+    const Span bytes = std::as_bytes(std::span(all));
+    if (encode_meshopt(floats.bytes, packing, 0).size() + json_bytes <= bytes.size()) return {};
+    return Stored{
+        {{"componentType", int(uint16)}, {"normalized", true}, {"count", all.size()}, {"type", "SCALAR"}},
+        {bytes.begin(), bytes.end()}};
+}
 
 std::optional<Stored> Streams::stored(std::size_t index, const std::string& path) {
     const Json& given = json_["accessors"][index];
@@ -43,8 +65,10 @@ std::optional<Stored> Streams::stored(std::size_t index, const std::string& path
     const bool floats = a.component_type == float32;
     std::optional<Stored> coded;
     if (filters_ && floats && path == "rotation" && a.components == 4) coded = quaternions(numbers);
-    if (filters_ && floats && path == "translation")
+    if (filters_ && floats && (path == "translation" || path == "weights"))
         coded = exponential(numbers, exponent_of_range(numbers, path_bits), false);
+    if (coded && path == "weights")
+        if (auto fewer = shorts(numbers, *coded)) return fewer;
     if (coded) return coded;
     // Only vertex data may have gaps.
     if (size_of(a.component_type) * static_cast<std::size_t>(a.components) % 4 != 0) return {};

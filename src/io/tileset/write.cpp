@@ -103,6 +103,7 @@ class TilesetWriter {
         settings_.textures = share ? Textures::copy : settings.textures;
         settings_.directory = settings.directory / settings_.title;
         settings_.whole_positions = settings.draco.on || settings.quantize.on;
+        settings_.lattices.clear(); // of the parts, not of the tiles
     }
 
     Written run(const Scene& scene) {

@@ -10,6 +10,7 @@
 #include "io/read_back.hpp"
 
 #include "mesh/transform.hpp"
+#include "stages/write/lattice.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ void as_shared(std::vector<int>& bits, const Scene& scene) {
 std::string why(int usual, Grid grid, int limit, bool enough) {
     if (enough)
         return fmt::format("the smallest number from {}{} on that keeps vertices distinct", usual,
-                           grid == Grid::scene ? " for the size of the scene" : "");
+                           grid == Grid::mesh ? "" : " for the size of the scene");
     return fmt::format("{} would not keep all vertices distinct", limit);
 }
 
@@ -187,10 +188,16 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     bool enough = true;
     if (codec.can.transforms) {
         s.part_bits =
-            grid == Grid::scene ? bits_of_scene(scene, usual) : std::vector<int>(scene.parts.size(), usual);
+            grid == Grid::mesh ? std::vector<int>(scene.parts.size(), usual) : bits_of_scene(scene, usual);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
         as_shared(s.part_bits, scene);
+        if (grid == Grid::even) {
+            EvenGrid even =
+                even_grid(scene, s.part_bits, usual, limit.value_or(usual), io::animated_parts(scene));
+            s.part_bits = std::move(even.bits);
+            s.lattices = std::move(even.lattices);
+        }
     } else {
         int bits = usual;
         enough = keep_distinct(bits, in_one(scene), usual, limit);

@@ -21,7 +21,11 @@ void declare_grid(Declare<Options>& d) {
         {{"scene", Grid::scene,
           "the steps are at most those of the scene's longest side; a small mesh has fewer "
           "bits, but at least 10"},
-         {"mesh", Grid::mesh, "each mesh has all bits for its own longest side"}},
+         {"mesh", Grid::mesh, "each mesh has all bits for its own longest side"},
+         {"even", Grid::even,
+          "the same steps everywhere, those of the scene's longest side, however small a mesh is, but finer "
+          "ones where vertices would coincide otherwise; in quantize, parts that meet keep meeting: where "
+          "none is turned, all have one grid. Meshes that an animation moves are as with scene"}},
         "What the bits of positions are of.");
 }
 
@@ -85,7 +89,8 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
     d.option("filters", &MeshoptOptions::filters,
              "Encodes normals and tangents on an octahedron, rotations of animations and instances in 16 "
              "bits, and values that stay float32 as multiples of a power of two: positions within quantize's "
-             "bits, translations and scales within 2^-16 of their extent. Without filters, the values are "
+             "bits; translations, scales and morph weights within 2^-16 of their extent. "
+             "Without filters, the values are "
              "compressed unchanged.");
     d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, MeshoptOptions& out, Problems& problems) {
@@ -123,6 +128,7 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"tiles", o.tiles.has_value(), &Can::tiles},
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
+            {"drop_names", o.drop_names, &Can::lods},
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
             {"normals", o.normals != NormalKind::keep, &Can::normals},
             {"origin", o.origin.kind == OriginOption::Kind::point, &Can::transforms},
@@ -230,7 +236,7 @@ void declare_write(Declare<WriteOptions>& d) {
          {"keep", io::TriangleOrder::keep, "as the scene has them"},
          {"draw", io::TriangleOrder::draw,
           "triangles that share vertices behind each other, those that hide others first"},
-         {"size", io::TriangleOrder::size, "strips, which meshopt compresses best"}},
+         {"size", io::TriangleOrder::size, "the one of several, mostly strips, that meshopt compresses best"}},
         "The order of triangles and vertices in glTF.");
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
@@ -241,6 +247,10 @@ void declare_write(Declare<WriteOptions>& d) {
          {"copy", io::Textures::copy, "beside the file, under names that begin with its stem"},
          {"reference", io::Textures::reference, "not at all: the file refers to the images of the input"}},
         "Where the images of glTF are stored that the input has as separate files.");
+    d.option(
+        "drop_names", &WriteOptions::drop_names,
+        "Leaves out of glTF the names of nodes, meshes, images, skins and accessors; scenes, animations, "
+        "cameras and materials keep theirs.");
     d.option("lods", &WriteOptions::lods,
              "Writes glTF with MSFT_lod: the parts X.lod1, X.lod2, ... become levels of detail of X rather "
              "than nodes beside it.");
@@ -288,6 +298,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
     s.order = o.order;
     s.mesh_manifold = o.mesh_manifold;
     s.lods = o.lods;
+    s.names = !o.drop_names;
     s.textures = o.textures;
     s.directory = target.parent_path();
     s.double_positions = o.precision == Precision::full;

@@ -8,7 +8,7 @@
 namespace facetmill::write_stage {
 
 /// What the bits of positions are of.
-enum class Grid { scene, mesh };
+enum class Grid { scene, mesh, even };
 
 struct DracoOptions {
     enum class Degenerate { drop, keep };
@@ -49,7 +49,7 @@ struct WriteOptions {
     std::string format;
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    bool ascii = false, big_endian = false, mesh_manifold = false, lods = false;
+    bool ascii = false, big_endian = false, mesh_manifold = false, lods = false, drop_names = false;
     Precision precision = Precision::single;
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals

@@ -118,7 +118,7 @@ TEST_CASE("draco_decoder reads what is compressed", "[io]") {
         const auto view =
             primitive["extensions"]["KHR_draco_mesh_compression"]["bufferView"].get<std::size_t>();
         const auto& bytes = glb.documents[0]->buffers[0];
-        const std::size_t offset = json["bufferViews"][view]["byteOffset"],
+        const std::size_t offset = json["bufferViews"][view].value("byteOffset", std::size_t{0}),
                           size = json["bufferViews"][view]["byteLength"];
         io::write_now(folder / "a.drc", io::Span(bytes).subspan(offset, size));
         REQUIRE(run(fmt::format("draco_decoder -i '{0}/a.drc' -o '{0}/a.obj' >/dev/null",

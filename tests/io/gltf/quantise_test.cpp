@@ -6,6 +6,7 @@
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/compress.hpp"
 #include "io/gltf/quantise.hpp"
+#include "io/gltf/shorten.hpp"
 #include "io/png.hpp"
 #include "io/read_back.hpp"
 #include "mesh/separate_wedges.hpp"
@@ -509,8 +510,31 @@ TEST_CASE("numbers of a grid are short as text", "[io]") {
     CHECK_FALSE(std::signbit(io::gltf::short_near(-1e-9, 1)));
     CHECK(io::gltf::short_near(455000.123, 0) == 455000.123);
     Json json = Json::parse(R"({"a":[1.0,-2.5,1e300],"extras":{"b":1.0},"c":{"d":-3.0}})");
-    io::gltf::shorten_numbers(json);
+    io::gltf::shorten(json, {});
     CHECK(json.dump() == R"({"a":[1,-2.5,1e+300],"extras":{"b":1.0},"c":{"d":-3}})");
+}
+
+TEST_CASE("what named the corners of a mesh that has changed is not written", "[io]") {
+    Scene scene = test::scene_in_metres(shapes::torus(40, 30));
+    separate_corners(scene.parts[0].mesh);
+    std::vector<float> uv;
+    for (std::size_t w = 0; w < scene.parts[0].mesh.wedge_count(); ++w)
+        uv.insert(uv.end(), {static_cast<float>(w), 0});
+    scene.parts[0].mesh.attributes.push_back({"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, uv});
+    io::WriteSettings settings;
+    settings.mesh_manifold = true;
+    Scene manifold = test::again(scene, settings);
+    settings.mesh_manifold = false;
+    CHECK(json_of(test::written(manifold, "glb", settings)).contains("extensionsUsed")); // as it is
+    settings.meshopt.on = settings.quantize.on = true;
+    const io::Written written = test::written(manifold, "glb", settings);
+    const Json json = json_of(written);
+    CHECK(json["accessors"].size() == 3); // indices, positions, texture coordinates
+    CHECK(json["bufferViews"].size() == 3);
+    CHECK(json["extensionsUsed"] == Json::array({"KHR_mesh_quantization", "EXT_meshopt_compression"}));
+    CHECK(std::count_if(written.changes.begin(), written.changes.end(), [](const AttributeChange& c) {
+              return c.attribute == "EXT_mesh_manifold" && c.kind == AttributeChange::Kind::dropped;
+          }) == 1);
 }
 
 TEST_CASE("where corners are merged is compressed, too", "[io]") {

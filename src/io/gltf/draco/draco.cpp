@@ -459,6 +459,13 @@ void set_whole_steps(DracoInput& input, int bits) {
     input.range = input.extent = static_cast<float>((std::int64_t{1} << bits) - 1);
 }
 
+void widen_draco_grid(DracoInput& input, double step, int bits) {
+    const auto range = static_cast<float>(step * (std::ldexp(1.0, bits) - 1));
+    if (!(range > input.range) || !std::isfinite(range)) return;
+    input.extent = range;
+    input.range = storable_above(range);
+}
+
 std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
                                    const std::vector<Index>& point_vertex) {
     std::vector<bool> degenerate(triangles.size() / 3);

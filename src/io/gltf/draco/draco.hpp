@@ -53,6 +53,10 @@ void set_draco_grid(const Mesh& mesh, DracoInput& input);
 /// Makes the steps of the grid 1, for whole numbers that reach no farther than 2^bits - 1 from its origin.
 void set_whole_steps(DracoInput& input, int bits);
 
+/// Makes a grid of so many bits wider, so that its steps are as long as this one; not narrower, nor where a
+/// step is below the millionths that the library stores.
+void widen_draco_grid(DracoInput& input, double step, int bits);
+
 /// The faces that name a vertex twice, which Edgebreaker cannot hold; three corners each.
 std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
                                    const std::vector<Index>& point_vertex);

@@ -1,0 +1,137 @@
+#include "stages/write/lattice.hpp"
+
+#include "base/numbers.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace facetmill::write_stage {
+
+namespace {
+
+double longest_side(const Box& box) {
+    const Vec3 e = box.extent();
+    return box.empty() ? 0 : std::max({e.x, e.y, e.z});
+}
+
+double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
+
+/// The steps of the scene: the bits' own, a little longer (1e-4 to 2e-4), so that their number stays below
+/// what the bits hold, and with five digits, so that places on the grid have few, too.
+double step_of_scene(const Scene& scene, int bits) {
+    const double step = longest_side(scene.bounds()) / steps_of(bits) * (1 + 2e-4);
+    return parse_real(fmt::format("{:.4e}", step)).value_or(step);
+}
+
+/// How much a transform lengthens at most: exact for similarities, and nearly for what rounding made of them.
+/// The greatest eigenvalue of a symmetric matrix is at most the greatest sum of a row's absolute numbers.
+double stretch_of(const Transform& t) {
+    const Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
+    double most = 0;
+    for (const Vec3& a : axes) {
+        double sum = 0;
+        for (const Vec3& b : axes) sum += std::abs(dot(a, b));
+        most = std::max(most, sum);
+    }
+    return most > 0 ? std::sqrt(most) : 1;
+}
+
+/// How much the transform enlarges everything, when it does nothing else but move; 0 for others.
+double plain_scale(const Transform& t) {
+    const double scale = t.m[0][0];
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c)
+            if (t.m[r][c] != (r == c ? scale : 0)) return 0;
+    return scale > 0 ? scale : 0;
+}
+
+/// The last point of the lattice in the world that is not above the bounds, for a part that its node does not
+/// turn; else of the one through the part's own zero.
+Vec3 origin_of(const Part& part, const Box& box, double step, bool in_world) {
+    const double scale = in_world ? plain_scale(part.transform) : 0;
+    constexpr double exact = 0x1p44; // steps, which doubles count with bits to spare
+    Vec3 origin;
+    for (std::size_t c = 0; c < 3; ++c) {
+        double moved = scale > 0 ? part.transform.m[c][3] / scale : 0;
+        if (!(std::abs(moved) + std::abs(box.min[c]) < exact * step)) moved = 0;
+        origin[c] = std::floor((box.min[c] + moved) / step) * step - moved;
+    }
+    return origin;
+}
+
+using Place = std::array<std::int64_t, 3>;
+
+/// How many different points the vertices are rounded to.
+std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
+    std::vector<Place> places(mesh.vertex_count());
+    parallel_for(places.size(), [&](std::size_t v) {
+        for (std::size_t c = 0; c < 3; ++c)
+            places[v][c] = static_cast<std::int64_t>(
+                std::floor((mesh.positions[v][c] - lattice.origin[c]) / lattice.step + 0.5));
+    });
+    std::sort(places.begin(), places.end());
+    return static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());
+}
+
+/// The step, or a half of it, a quarter ..., that keeps the vertices apart; the step itself if none does that
+/// is not below the least one.
+double step_apart(const Part& part, const Box& box, double step, double least, bool in_world) {
+    if (!(longest_side(box) > 0)) return step;
+    const std::size_t wanted = places_on(part.mesh, {box.min, longest_side(box) * 0x1p-40});
+    for (double finer = step;; finer /= 2) {
+        if (finer < longest_side(box) &&
+            places_on(part.mesh, {origin_of(part, box, finer, in_world), finer}) == wanted)
+            return finer;
+        if (finer / 2 < least) return step;
+    }
+}
+
+/// The fewest bits whose steps of this length reach as far.
+int bits_for(double length, double step, int most) {
+    int bits = 1;
+    while (bits < most && steps_of(bits) * step < length) ++bits;
+    return bits;
+}
+
+} // namespace
+
+EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
+                   const std::vector<bool>& left) {
+    EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
+    const double whole = step_of_scene(scene, bits);
+    if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
+    std::map<std::pair<int, int>, std::vector<std::size_t>> users; // of a mesh of a document
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
+        const bool shares = part.document >= 0 && part.source_mesh >= 0;
+        users[shares ? std::pair(part.document, part.source_mesh) : std::pair(-1, static_cast<int>(i))]
+            .push_back(i);
+    }
+    for (const auto& [_, parts] : users) {
+        const bool moved = std::any_of(parts.begin(), parts.end(), [&](std::size_t i) { return left[i]; });
+        double step = HUGE_VAL;
+        for (const std::size_t i : parts) {
+            const Part& part = scene.parts[i];
+            const Box box = part.mesh.bounds();
+            const double own = longest_side(box), here = whole / stretch_of(part.transform);
+            const bool whole_numbers = own / here < 0x1p53 && here > 0; // false for what is no number
+            if (moved || box.empty() || !whole_numbers) step = 0;
+            // One step less at either end, for what lies between the origin and the bounds.
+            const double least = own / std::max(steps_of(limit) - 2, 1.0);
+            if (step > 0) step = std::min(step, step_apart(part, box, here, least, parts.size() == 1));
+        }
+        for (const std::size_t i : parts) {
+            if (!(step > 0)) continue;
+            const Box box = scene.parts[i].mesh.bounds();
+            grid.lattices[i] = {origin_of(scene.parts[i], box, step, parts.size() == 1), step};
+            grid.bits[i] = bits_for(longest_side(box), step, limit);
+        }
+    }
+    return grid;
+}
+
+} // namespace facetmill::write_stage

@@ -1,0 +1,185 @@
+#include "support/catch.hpp"
+
+#include "io/codec.hpp"
+#include "mesh/shapes.hpp"
+#include "stages/write/lattice.hpp"
+#include "support/bench.hpp"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace write_lattice_test {
+
+using namespace facetmill;
+using namespace facetmill::test;
+
+Part& add(Scene& scene, Mesh mesh, double scale = 1, const Vec3& at = {}) {
+    Part& part = scene.parts.emplace_back();
+    part.name = "part";
+    part.mesh = std::move(mesh);
+    part.transform = {{{scale, 0, 0, at.x}, {0, scale, 0, at.y}, {0, 0, scale, at.z}}};
+    return part;
+}
+
+Scene metres() {
+    Scene scene;
+    scene.unit = Unit::m;
+    scene.up = UpAxis::y;
+    return scene;
+}
+
+write_stage::EvenGrid grid_of(const Scene& scene, int bits = 14) {
+    const std::vector<int> usual(scene.parts.size(), 12);
+    return write_stage::even_grid(scene, usual, bits, bits, std::vector<bool>(scene.parts.size()));
+}
+
+/// The file as it is read again.
+Scene written(Bench& b, const std::string& options) {
+    Problems problems;
+    const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
+    b.run("write", pipeline::parse_yaml(source, problems));
+    b.state.outputs.commit();
+    io::ReadLog log;
+    return io::read_scene(io::Input::open(b.dir / "a.glb"), {}, log);
+}
+
+/// Half of a sphere, whose open border lies in the plane x = 0.
+Mesh half_ball(bool right) {
+    const Mesh ball = shapes::icosphere(3);
+    Mesh half;
+    half.positions = ball.positions;
+    for (Index f = 0; f < ball.face_count(); ++f) {
+        double x = 0;
+        for (const Index w : ball.face_wedges(f)) x += ball.positions[ball.vertex_of_wedge(w)].x;
+        if ((x > 0) != right) continue;
+        for (const Index w : ball.face_wedges(f)) half.corners.push_back(ball.vertex_of_wedge(w));
+    }
+    return half;
+}
+
+/// The places in the world, to a millionth of a step.
+std::set<std::array<std::int64_t, 3>> places(const Part& part, double step) {
+    std::set<std::array<std::int64_t, 3>> all;
+    for (const Vec3& v : part.mesh.positions) {
+        const Vec3 p = part.transform.point(v);
+        all.insert(
+            {std::llround(p.x / step * 100), std::llround(p.y / step * 100), std::llround(p.z / step * 100)});
+    }
+    return all;
+}
+
+TEST_CASE("on an even grid, parts that meet keep meeting", "[stages]") {
+    const auto common = [](const std::string& grid) {
+        Bench b;
+        b.scene = metres();
+        add(b.scene, half_ball(false), 1, {0.123, 0.456, 0.789});
+        add(b.scene, half_ball(true), 0.5, {0.123, 0.456, 0.789});
+        for (Vec3& p : b.scene.parts[1].mesh.positions) p = p * 2; // the same surface at another scale
+        add(b.scene, shapes::cube(), 3, {5, 0, 0});
+        const Scene back =
+            written(b, "{path: a.glb, meshopt: true, quantize: {position: 10, grid: " + grid + "}}");
+        const double step = 8.0 / 1023; // about
+        CHECK(b.state.record.outputs.back().read_back["position_error"].get<double>() < step);
+        const auto left = places(back.parts.at(0), step), right = places(back.parts.at(1), step);
+        std::size_t both = 0;
+        for (const auto& p : left) both += right.count(p);
+        return both;
+    };
+    CHECK(common("even") > 40); // a border of 3 subdivisions
+    CHECK(common("mesh") < 10);
+}
+
+TEST_CASE("all parts have the steps of the scene, in their own coordinates", "[stages]") {
+    Scene scene = metres();
+    add(scene, shapes::cube(), 10);
+    add(scene, shapes::cube(), 0.01, {5, 5, 5});
+    const auto grid = grid_of(scene);
+    const double step = 10.0 / 16383;
+    CHECK(grid.lattices[0].step * 10 >= step);
+    CHECK(grid.lattices[0].step * 10 < step * 1.001);
+    CHECK(std::abs(grid.lattices[1].step * 0.01 - grid.lattices[0].step * 10) < 1e-12);
+    CHECK(grid.bits[0] == 14);
+    CHECK(grid.bits[1] == 5); // 0.01 / step is 16.4
+    for (const std::string how :
+         {"draco: {grid: even}", "quantize: {grid: even}", "meshopt: true, quantize: {grid: even}"}) {
+        Bench b;
+        b.scene = scene;
+        const Scene back = written(b, "{path: a.glb, " + how + "}");
+        CHECK(b.record.result[how[0] == 'd' ? "draco" : "quantize"]["least"] == 5);
+        CHECK(b.state.record.outputs.back().read_back["position_error"].get<double>() < step);
+        CHECK(back.parts[1].mesh.face_count() == 12);
+    }
+}
+
+TEST_CASE("steps are finer where vertices would coincide", "[stages]") {
+    Scene scene = metres();
+    add(scene, shapes::cube(), 1000);
+    add(scene, shapes::icosphere(3), 1);
+    const auto grid = grid_of(scene);
+    CHECK(grid.bits[1] > 5);
+    CHECK(grid.bits[1] < 10);
+    // By powers of two, so that its points are among those of the scene's grid.
+    const double ratio = grid.lattices[0].step * 1000 / grid.lattices[1].step;
+    CHECK(std::abs(std::log2(ratio) - std::round(std::log2(ratio))) < 1e-9);
+    Bench b;
+    b.scene = scene;
+    written(b, "{path: a.glb, quantize: {position: 14, grid: even}}");
+    CHECK(b.record.warnings.empty());
+}
+
+TEST_CASE("one mesh has one grid, and what moves or is turned its own", "[stages]") {
+    Scene scene = metres();
+    for (const double scale : {1.0, 4.0}) {
+        Part& part = add(scene, shapes::cube(), scale);
+        part.document = part.source_mesh = 0;
+    }
+    Part& turned = add(scene, shapes::cube());
+    turned.transform = {{{0, -1, 0, 0.3}, {1, 0, 0, 0}, {0, 0, 1, 0}}};
+    add(scene, shapes::cube());
+    const std::vector<int> usual{12, 12, 12, 11};
+    const auto grid = write_stage::even_grid(scene, usual, 14, 14, {false, false, false, true});
+    CHECK(grid.lattices[0].step == grid.lattices[1].step);
+    CHECK(grid.lattices[1].step * 4 < 5.0 / 16383); // the larger one's
+    CHECK(grid.lattices[2].origin == Vec3{0, 0, 0});
+    CHECK(grid.lattices[3].step == 0);
+    CHECK(grid.bits[3] == 11);
+}
+
+TEST_CASE("an even grid takes one point, flat parts, far ones and huge ones", "[stages]") {
+    Scene scene = metres();
+    Mesh point = shapes::cube();
+    for (Vec3& p : point.positions) p = {3, 3, 3};
+    Mesh flat = shapes::cube();
+    for (Vec3& p : flat.positions) p.z = 0;
+    add(scene, point);
+    add(scene, flat, 1, {5e6, 4e5, 0});
+    add(scene, shapes::cube(), 1, {5e6, 4e5, 0});
+    add(scene, Mesh{});
+    const auto grid = grid_of(scene);
+    CHECK(grid.lattices[0].step > 0);
+    CHECK(grid.bits[0] == 1);
+    CHECK(grid.lattices[3].step == 0);
+    for (std::size_t i : {1, 2}) {
+        const auto& lattice = grid.lattices[i];
+        for (const Vec3& p : scene.parts[i].mesh.positions)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double n = (p[c] - lattice.origin[c]) / lattice.step;
+                CHECK(n >= -1e-6);
+                CHECK(n < 16384);
+            }
+    }
+    add(scene, shapes::cube(), 1e300);
+    for (const auto& lattice : grid_of(scene).lattices)
+        for (std::size_t c = 0; c < 3; ++c) CHECK(std::isfinite(lattice.origin[c]));
+    Bench b;
+    b.scene = scene;
+    CHECK_NOTHROW(written(b, "{path: a.glb, quantize: {position: 14, grid: even}}"));
+    Scene broken = metres();
+    add(broken, shapes::cube()).mesh.positions[0].x = std::numeric_limits<double>::quiet_NaN();
+    add(broken, shapes::cube());
+    CHECK_NOTHROW(grid_of(broken));
+    CHECK(grid_of(metres()).lattices.empty());
+}
+
+} // namespace write_lattice_test
