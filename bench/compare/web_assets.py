@@ -45,7 +45,7 @@ def tools(facetmill, npm):
     own = [str(facetmill), "pipe", "-q", "load", "IN", "!"]
     # What the pipeline web does with images=keep: their pixels stay.
     optimize = ["clean", "--weld", "exact", "--non_manifold", "false", "!",
-                "optimize", "--palette", "--drop_attributes", "!"]
+                "optimize", "--drop_attributes", "--drop_own", "--flatten", "!"]
     repack = ["textures", "--repack", "!"]
     position = str(BITS["position"])
     web = ["textures", "2048", "--format", "webp", "!"]
@@ -57,18 +57,19 @@ def tools(facetmill, npm):
     whole = ["--texture-compress", "webp", "--simplify", "false", "--compress"]
     all_of_them = {
         "draco": {"facetmill": [*own, "write", "OUT", "--draco"],
-                  "facetmill web": [*own, *optimize, *repack, "write", "OUT", "--draco.position_bits", position],
+                  "facetmill web": [*own, *optimize, *repack, "write", "OUT", "--drop_names", "--draco.grid", "even",
+                                    "--draco.position_bits", position],
                   "gltf-transform draco": ["gltf-transform", "draco", "IN", "OUT", *draco_bits],
                   "gltf-pipeline -d": ["gltf-pipeline", "-i", "IN", "-o", "OUT", "-d", *pipeline_bits]},
         "meshopt": {"facetmill": [*own, "write", "OUT", "--meshopt"],
-                    "facetmill web": [*own, *optimize, *repack, "write", "OUT", "--meshopt", "--quantize.position",
-                                      position],
+                    "facetmill web": [*own, *optimize, *repack, "write", "OUT", "--drop_names", "--meshopt",
+                                      "--quantize.grid", "even", "--quantize.position", position],
                     "gltf-transform meshopt": ["gltf-transform", "meshopt", "IN", "OUT"],
                     "gltfpack -cc": ["gltfpack", "-cc", "-i", "IN", "-o", "OUT"],
                     "gltfpack -cc -kn -km -ke": ["gltfpack", "-cc", "-kn", "-km", "-ke", "-i", "IN", "-o", "OUT"]},
         "meshopt, version 1": {
-            "facetmill web, KHR": [*own, *optimize, *repack, "write", "OUT", "--meshopt.extension", "KHR",
-                                   "--quantize.position", position],
+            "facetmill web, KHR": [*own, *optimize, *repack, "write", "OUT", "--drop_names", "--meshopt.extension",
+                                   "KHR", "--quantize.grid", "even", "--quantize.position", position],
             "gltfpack -cz": ["gltfpack", "-cz", "-i", "IN", "-o", "OUT"]},
         "whole, draco": {"facetmill": [*own, *optimize, *web, "write", "OUT", "--draco"],
                          "gltf-transform optimize": ["gltf-transform", "optimize", "IN", "OUT", *whole, "draco"]},
