@@ -236,7 +236,8 @@ void declare_write(Declare<WriteOptions>& d) {
          {"keep", io::TriangleOrder::keep, "as the scene has them"},
          {"draw", io::TriangleOrder::draw,
           "triangles that share vertices behind each other, those that hide others first"},
-         {"size", io::TriangleOrder::size, "the one of several, mostly strips, that meshopt compresses best"}},
+         {"size", io::TriangleOrder::size,
+          "the one of several, mostly strips, that meshopt compresses best"}},
         "The order of triangles and vertices in glTF.");
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
