@@ -223,6 +223,17 @@ class Ktx2(Case):
         self.assertEqual(self.mill("pipe", "load", "three.gltf", "!", "write", "four.glb").returncode, 0)
         self.assertEqual(self.told("one.glb"), self.told("four.glb"))
 
+    def test_textures_of_other_formats(self):
+        """The document of an OBJ's materials is not the one that is written: what it requires comes along."""
+        self.write("t.mtl", "newmtl m\nmap_Kd tex.png\n")
+        self.write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n")
+        for kind, extension in (("ktx2", "KHR_texture_basisu"), ("webp", "EXT_texture_webp")):
+            (self.dir / "tex.png").write_bytes(image(64, 64))
+            self.mill("pipe", "load", "t.obj", "!", "textures", "--format", kind, "!", "write", "o.glb", env=self.env)
+            document, _ = self.document("o.glb")
+            self.assertEqual(document["textures"][0]["extensions"], {extension: {"source": 0}})
+            self.assertEqual(document["extensionsRequired"], [extension])
+
     def test_a_gltf_has_it_beside(self):
         self.run_it(output="o/out.gltf")
         self.assertEqual(sorted(self.files(self.dir / "o")), ["out.bin", "out.gltf", "out.tex.ktx2"])

@@ -63,7 +63,7 @@ std::size_t copy_texture(Patch& patch, int document, std::size_t i) {
         for (const auto& [name, value] : extensions->json().items())
             if (const auto source = Place(value, extensions->path() + "." + name).find("source")) {
                 texture["extensions"][name]["source"] = image_for(patch, document, *source);
-                patch.builder.use_extension(name, false);
+                patch.builder.use_extension(name, !texture.contains("source"));
             }
     return patch.builder.add("textures", std::move(texture));
 }
