@@ -1,6 +1,9 @@
 #include "mesh/cut_memory.hpp"
 
+#include "base/random.hpp"
+
 #include <algorithm>
+#include <unordered_map>
 
 namespace facetmill {
 
@@ -23,22 +26,163 @@ const CutMemory::Entry* CutMemory::find(const Plane& plane) const {
 }
 
 void CutMemory::add(const Plane& plane, std::vector<Vec3> points) {
-    // Sides are measured against the plane as it was written first.
     const Entry* known = find(plane);
-    Entry fresh{known ? known->plane : plane, known ? known->reach : 0, {}};
+    if (!known) known = &entries.emplace_back(Entry{plane, 0, {}});
+    add_to(static_cast<std::size_t>(known - entries.data()), std::move(points));
+}
+
+/// Sides are measured against the plane as it was written first.
+void CutMemory::add_to(std::size_t entry, std::vector<Vec3> points) {
+    Entry& e = entries[entry];
     std::erase_if(points, [&](const Vec3& p) {
-        const double s = std::fabs(side(fresh.plane, p));
-        fresh.reach = std::max(fresh.reach, s);
+        const double s = std::fabs(side(e.plane, p));
+        e.reach = std::max(e.reach, s);
         return s == 0;
     });
-    if (known) points.insert(points.end(), known->points.begin(), known->points.end());
+    points.insert(points.end(), e.points.begin(), e.points.end());
     std::sort(points.begin(), points.end(), before);
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    fresh.points = std::move(points);
-    if (known)
-        entries[static_cast<std::size_t>(known - entries.data())] = std::move(fresh);
-    else
-        entries.push_back(std::move(fresh));
+    e.points = std::move(points);
+}
+
+void CutMemory::add_all(std::vector<Entry> more) {
+    std::vector<Plane> planes;
+    for (const Entry& e : entries) planes.push_back(e.plane);
+    for (const Entry& e : more) planes.push_back(e.plane);
+    const auto first = first_same_planes(planes);
+    std::vector<std::size_t> place(planes.size()); // of the entry for each plane that is a first
+    const std::size_t old = entries.size();
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        if (first[i] == i) place[i] = i < old ? i : entries.size();
+        if (i < old) continue;
+        if (first[i] == i) entries.push_back({planes[i], 0, {}});
+        add_to(place[first[i]], std::move(more[i - old].points));
+    }
+}
+
+namespace {
+
+/// Whether the plane passes the box, or by no more than rounding beside it.
+bool passes(const Plane& plane, const Box& box) {
+    const Vec3 middle = box.centre(), half = box.extent() * 0.5;
+    double reach = 0, size = std::fabs(plane.offset);
+    for (std::size_t i = 0; i < 3; ++i) {
+        reach += std::fabs(plane.normal[i]) * half[i];
+        size += std::fabs(plane.normal[i]) * (std::fabs(middle[i]) + half[i] + std::fabs(plane.through[i]));
+    }
+    return !(std::fabs(side(plane, middle)) > reach + 1e-9 * size);
+}
+
+/// Finds the points on planes by halving the points: few planes pass a small box.
+class PointsOnPlanes {
+  public:
+    PointsOnPlanes(const CutMemory& memory, std::span<const Vec3> points)
+        : memory_(memory), points_(points), found_(points.size()) {}
+
+    std::vector<std::vector<std::uint32_t>> run() {
+        if (memory_.entries.empty()) return std::move(found_);
+        std::vector<std::uint32_t> all(points_.size()), entries(memory_.entries.size());
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = static_cast<std::uint32_t>(i);
+        find(all, entries);
+        return std::move(found_);
+    }
+
+  private:
+    void find(std::span<std::uint32_t> points, const std::vector<std::uint32_t>& entries) {
+        Box box;
+        for (const auto p : points) box.add(points_[p]);
+        std::vector<std::uint32_t> near;
+        for (const auto e : entries)
+            if (passes(memory_.entries[e].plane, box)) near.push_back(e);
+        if (near.empty()) return;
+        const Vec3 extent = box.extent();
+        const double longest = std::max({extent.x, extent.y, extent.z});
+        if (points.size() <= 8 || near.size() <= 2 || longest == 0) return test(points, near);
+        const std::size_t axis = longest == extent.x ? 0 : longest == extent.y ? 1 : 2;
+        const auto middle = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+        std::nth_element(points.begin(), middle, points.end(), [&](auto a, auto b) {
+            return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
+        });
+        find({points.begin(), middle}, near);
+        find({middle, points.end()}, near);
+    }
+    void test(std::span<const std::uint32_t> points, const std::vector<std::uint32_t>& entries) {
+        for (const auto p : points)
+            for (const auto e : entries)
+                if (memory_.entries[e].counts_as_on(points_[p])) found_[p].push_back(e);
+    }
+
+    const CutMemory& memory_;
+    std::span<const Vec3> points_;
+    std::vector<std::vector<std::uint32_t>> found_;
+};
+
+} // namespace
+
+std::vector<std::vector<std::uint32_t>> CutMemory::entries_at(std::span<const Vec3> points) const {
+    return PointsOnPlanes(*this, points).run();
+}
+
+namespace {
+
+double largest_part(const Vec3& n) { return std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}); }
+
+/// Planes by two numbers that do not depend on how a plane is written, but for rounding: its distance from
+/// the origin, and how far its normal leans to some direction.
+class PlaneBuckets {
+  public:
+    /// reach: the largest coordinate of the points through which the planes are written, and offset.
+    explicit PlaneBuckets(double reach) : scale_(reach > 0 ? 1 / reach : 1) {}
+
+    /// The first plane put in that is the same; or this one, which is put in.
+    std::size_t first(std::span<const Plane> planes, std::size_t number) {
+        const auto [distance, leaning] = numbers(planes[number]);
+        for (const double d : {distance - cell / 2, distance + cell / 2})
+            for (const double l : {leaning - cell / 2, leaning + cell / 2})
+                if (const auto at = buckets_.find(key(d, l)); at != buckets_.end())
+                    for (const std::size_t other : at->second)
+                        if (same_plane(planes[other], planes[number])) return other;
+        buckets_[key(distance, leaning)].push_back(number);
+        return number;
+    }
+
+  private:
+    /// Far above the rounding of the numbers, which are of the size of 1.
+    static constexpr double cell = 1e-12;
+
+    std::pair<double, double> numbers(const Plane& plane) const {
+        const Vec3& n = plane.normal;
+        const double largest = largest_part(n);
+        const Vec3 unit = normalised(n / largest);
+        const double offset = plane.offset / largest / length(n / largest) * scale_;
+        return {std::fabs(offset - dot(unit, plane.through * scale_)),
+                std::fabs(dot(unit, {0.36, 0.48, 0.8}))};
+    }
+    static std::uint64_t key(double a, double b) {
+        const auto whole = [](double x) { // offsets may be far beyond the points
+            return static_cast<std::uint64_t>(
+                static_cast<std::int64_t>(std::floor(std::clamp(x / cell, -9e18, 9e18))));
+        };
+        return hashed(whole(a), whole(b));
+    }
+
+    double scale_;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> buckets_;
+};
+
+} // namespace
+
+std::vector<std::size_t> first_same_planes(std::span<const Plane> planes) {
+    double reach = 0;
+    for (const Plane& p : planes)
+        reach = std::max({reach, std::fabs(p.through.x), std::fabs(p.through.y), std::fabs(p.through.z),
+                          std::fabs(p.offset) / largest_part(p.normal)});
+    if (!std::isfinite(reach)) reach = 0;
+    PlaneBuckets buckets(reach);
+    std::vector<std::size_t> first(planes.size());
+    for (std::size_t i = 0; i < planes.size(); ++i) first[i] = buckets.first(planes, i);
+    return first;
 }
 
 } // namespace facetmill

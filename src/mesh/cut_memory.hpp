@@ -5,6 +5,8 @@
 
 #include "mesh/plane.hpp"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace facetmill {
@@ -33,6 +35,15 @@ struct CutMemory {
     /// Adds points to what is known of the plane. Those exactly on it need no memory and are left out, but
     /// the plane is known from now on, for the points that later cuts make on edges along it.
     void add(const Plane& plane, std::vector<Vec3> points);
+    /// The same of the plane of an entry.
+    void add_to(std::size_t entry, std::vector<Vec3> points);
+    /// As add for each of those entries, in order, but in time that grows with the sum of both.
+    void add_all(std::vector<Entry> more);
+    /// For each point the entries that it counts as on, ascending.
+    std::vector<std::vector<std::uint32_t>> entries_at(std::span<const Vec3> points) const;
 };
+
+/// For each plane the number of the first one that is the same plane.
+std::vector<std::size_t> first_same_planes(std::span<const Plane> planes);
 
 } // namespace facetmill

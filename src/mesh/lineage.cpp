@@ -44,14 +44,16 @@ struct Ancestry {
         return {{lineage.mix_sources.data() + begin, n}, {lineage.mix_weights.data() + begin, n}};
     }
 
-    /// Calls body(new element, its parents) for every mixed element, in parallel.
+    /// Calls body(new element, its parents) for every mixed element, in parallel unless they are chained.
     template <class Body>
     void for_mixed(Body&& body) const {
-        parallel_for(mixed(), [&](std::size_t i) {
+        const auto one = [&](std::size_t i) {
             std::array<Index, 2> sources;
             std::array<double, 2> weights;
             body(copies + i, parents(i, sources, weights));
-        });
+        };
+        if (!lineage.chained) return parallel_for(mixed(), one);
+        for (std::size_t i = 0; i < mixed(); ++i) one(i);
     }
 };
 
@@ -119,9 +121,10 @@ Attribute inherited(const Attribute& from, const Ancestry& ancestry) {
         [&](const auto& old) {
             std::decay_t<decltype(old)> renewed(ancestry.size() * k);
             copy_elements(renewed, old, ancestry, k);
+            const auto& parents = ancestry.lineage.chained ? renewed : old;
             if (from.role != Role::joints && from.role != Role::weights) // those are mixed together
                 ancestry.for_mixed(
-                    [&](std::size_t i, const Parents& p) { mix_element(from, old, &renewed[i * k], p); });
+                    [&](std::size_t i, const Parents& p) { mix_element(from, parents, &renewed[i * k], p); });
             to.data = std::move(renewed);
         },
         from.data);
@@ -216,7 +219,7 @@ void mix_skin(const Skin& skin, std::size_t element, const Parents& parents, std
 }
 
 void inherit_skin(Mesh& to, const Mesh& from, const Ancestry& ancestry, Domain domain) {
-    const Skin skin(from, to);
+    const Skin skin(ancestry.lineage.chained ? to : from, to);
     if (skin.joints.empty() || skin.joints[0]->domain != domain) return;
     ancestry.for_mixed([&](std::size_t element, const Parents& p) {
         thread_local std::vector<Influence> all;

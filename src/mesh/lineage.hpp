@@ -13,7 +13,9 @@ struct Lineage {
         Index a = 0, b = 0; ///< old elements
         double t = 0.5;     ///< 0 at a, 1 at b
     };
-    bool identity = false;             ///< copies is not stored: all old elements, in order, come first
+    bool identity = false; ///< copies is not stored: all old elements, in order, come first
+    /// With identity: edges may be between elements that were made on edges before them. One after the other.
+    bool chained = false;
     std::vector<Index> copies;         ///< old index of each copied element
     std::vector<Edge> edges;           ///< the elements after the copies
     std::vector<Index> mix_offsets{0}; ///< [mixes + 1] into mix_sources; the elements after the edges

@@ -1,5 +1,6 @@
 #include "geometry/clip/clip.hpp"
 
+#include "base/random.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -134,4 +135,64 @@ TEST_CASE("snapped and remembered meshes stay closed with a huge or a tiny norma
         CHECK(test::closed(r.front));
         CHECK(test::volume(r.front) > 0.5);
     }
+}
+
+namespace {
+
+/// Many planes along and across each other, some twice and written otherwise, each with points on it and some
+/// beside it.
+std::vector<CutMemory::Entry> many_entries() {
+    std::vector<CutMemory::Entry> entries;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        const auto number = [&](std::uint64_t k) { return uniform(hashed(i % 200, k)) * 2 - 1; };
+        Plane plane{
+            {number(0), number(1), i % 200 % 3 == 0 ? 0 : number(2)}, {number(3), number(4), number(5)}, 0};
+        if (i % 5 == 0) plane = {{0, 0, 1}, {0, 0, static_cast<double>(i % 40)}, 0};
+        const Vec3 along = cross(plane.normal, Vec3{0.3, 0.2, 0.9});
+        const Vec3 at = plane.through + along * number(6);
+        if (i >= 200) plane.normal = plane.normal * -4;
+        entries.push_back({plane, 0, {at, plane.through, at + along}});
+    }
+    return entries;
+}
+
+} // namespace
+
+TEST_CASE("many planes are remembered at once as they are one by one", "[geometry]") {
+    CutMemory one_by_one, at_once;
+    std::size_t i = 0;
+    for (const auto& e : many_entries()) {
+        one_by_one.add(e.plane, e.points);
+        if (++i == 10) at_once = one_by_one; // some are known before
+    }
+    auto rest = many_entries();
+    rest.erase(rest.begin(), rest.begin() + 10);
+    at_once.add_all(std::move(rest));
+    REQUIRE(at_once.entries.size() == one_by_one.entries.size());
+    CHECK(at_once.entries.size() <= 200); // those after the 200th are known
+    for (std::size_t e = 0; e < at_once.entries.size(); ++e) {
+        CHECK(at_once.entries[e].plane == one_by_one.entries[e].plane);
+        CHECK(at_once.entries[e].points == one_by_one.entries[e].points);
+        CHECK(at_once.entries[e].reach == one_by_one.entries[e].reach);
+    }
+}
+
+TEST_CASE("the planes that points count as on are found among many", "[geometry]") {
+    CutMemory memory;
+    memory.add_all(many_entries());
+    std::vector<Vec3> points;
+    for (const auto& e : many_entries()) points.insert(points.end(), e.points.begin(), e.points.end());
+    for (std::uint64_t k = 0; k < 100; ++k)
+        points.push_back({uniform(hashed(7, k)), uniform(hashed(8, k)), 0});
+    const auto found = memory.entries_at(points);
+    REQUIRE(found.size() == points.size());
+    std::size_t pairs = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t e = 0; e < memory.entries.size(); ++e)
+            if (memory.entries[e].counts_as_on(points[p])) expected.push_back(e);
+        CHECK(found[p] == expected);
+        pairs += expected.size();
+    }
+    CHECK(pairs >= 900);
 }

@@ -181,3 +181,21 @@ TEST_CASE("wedges without seams descend as their vertices do", "[mesh]") {
     inherit_attributes(to, from, d);
     CHECK(std::get<std::vector<float>>(to.attributes[0].data) == std::vector<float>{0, 1, 4, 3, 1, 1.5});
 }
+
+TEST_CASE("points on edges between points that were made before", "[mesh]") {
+    Mesh from = carrier(2, {"q", Domain::vertex, Role::generic, 1, false, std::vector<float>{0, 8}});
+    from.attributes.push_back({"c", Domain::wedge, Role::colour, 1, true, Bytes{0, 255}});
+    from.attributes.push_back({"JOINTS_0", Domain::wedge, Role::joints, 1, false, Bytes{3, 3}});
+    from.attributes.push_back(
+        {"WEIGHTS_0", Domain::wedge, Role::weights, 1, false, std::vector<float>{1, 1}});
+    Descent d;
+    d.vertices.identity = d.vertices.chained = d.wedges_as_vertices = d.faces_identity = true;
+    d.vertices.edges = {{0, 1, 0.5}, {2, 1, 0.5}, {3, 0, 0.25}};
+    Mesh to;
+    to.positions.resize(5);
+    inherit_attributes(to, from, d);
+    CHECK(std::get<std::vector<float>>(to.attributes[0].data) == std::vector<float>{0, 8, 4, 6, 4.5});
+    CHECK(std::get<Bytes>(to.attributes[1].data) == Bytes{0, 255, 128, 192, 144}); // each rounded anew
+    CHECK(std::get<Bytes>(to.attributes[2].data) == Bytes{3, 3, 3, 3, 3});
+    CHECK(std::get<std::vector<float>>(to.attributes[3].data) == std::vector<float>{1, 1, 1, 1, 1});
+}

@@ -55,7 +55,8 @@ struct CropResult {
 Vec2 seen_along(std::size_t axis, const Vec3& p);
 
 /// Cutting: every face that a segment of the outline enters is cut along the segment's line, all across the
-/// face, so that a face at a corner falls into more pieces than it must. Points are made once per edge, by
+/// piece that is left of it, so that a face at a corner falls into more pieces than it must; a piece that it
+/// enters by no more than the rounding of points is not cut. Points are made once per edge, by
 /// the exact signs of side(), and those of a segment are remembered to be on its plane; neighbours get them
 /// too, so no crack opens. Each piece is then inside or outside by a point in its middle, faces seen edge-on
 /// along the outline by the side that they look to. Attributes as for clip.

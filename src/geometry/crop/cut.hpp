@@ -13,8 +13,8 @@ struct OutlineCut {
     AttributeChanges changes;        ///< empty: nothing was mixed
 };
 
-/// Every face that a segment enters is cut along the segment's line, all across the face; its neighbours get
-/// the points. memory: points known to be on planes, and what becomes known.
-OutlineCut cut_at_outline(Mesh mesh, const CropView& view, CutMemory& memory);
+/// Every face that a segment enters, by more than rounding, is cut along the segment's line, all across the
+/// piece; its neighbours get the points. memory: points known to be on planes, and what becomes known.
+OutlineCut cut_at_outline(const Mesh& mesh, const CropView& view, CutMemory& memory);
 
 } // namespace facetmill

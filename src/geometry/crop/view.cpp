@@ -35,12 +35,12 @@ void CropView::gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const 
     for (const Index w : mesh.face_wedges(f)) face.push_back(seen(mesh.positions[mesh.vertex_of_wedge(w)]));
 }
 
-Place CropView::middle(const Mesh& mesh, Index f) const {
+Place CropView::middle(const Mesh& mesh, Index f, bool convex) const {
     std::vector<Vec2> face;
     gather(mesh, f, face);
     const polygon::Ring ring = face;
     Vec2 sum;
-    if (face.size() > 3 && !polygon::is_convex(ring) && polygon::orientation(ring) != 0) {
+    if (!convex && face.size() > 3 && !polygon::is_convex(ring) && polygon::orientation(ring) != 0) {
         const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
         double most = -1;
         for (const auto& abc : t.triangles) {
@@ -103,17 +103,21 @@ Place CropView::settle(Place place, const Mesh& mesh, Index f) const {
         corners.push_back(settings_.to_world.point(mesh.positions[mesh.vertex_of_wedge(w)]));
     const Vec3 n = polygon::area_vector(corners);
     const Vec2 out = seen_along(settings_.axis, n), at = seen_along(settings_.axis, corners[0]);
-    double nearest = HUGE_VAL;
+    // Of the segments that it may be on, the one that it runs along.
+    double least = HUGE_VAL;
     bool inside = true;
-    for (const auto& e : footprint_.tree().edges()) { // rare: walls that stand on the outline
-        const Vec2 d = e.b - e.a;
-        const double t = std::clamp(dot(at - e.a, d) / dot(d, d), 0.0, 1.0), far = length(e.a + d * t - at);
-        const double along = std::fabs(dot(d, out)) / (length(d) * length(out));
-        if (far + along < nearest) {
-            nearest = far + along;
-            inside = cross(d, out) < 0;
-        }
-    }
+    const double size = std::max({std::fabs(at.x), std::fabs(at.y), 1e-300});
+    for (double margin = std::max(snap, 16 * 2.220446049250313e-16 * size);
+         least == HUGE_VAL && std::isfinite(margin); margin *= 16)
+        footprint_.near(at, margin, [&](Index i) {
+            const Vec2 d = footprint_.tree().edges()[i].b - footprint_.tree().edges()[i].a;
+            const double along = std::fabs(dot(d, out)) / (length(d) * length(out));
+            if (along < least || least == HUGE_VAL) {
+                least = along;
+                inside = cross(d, out) < 0;
+            }
+            return true;
+        });
     return inside ? Place::inside : Place::outside;
 }
 

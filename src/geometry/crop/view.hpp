@@ -46,7 +46,8 @@ class CropView {
     void gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const;
     /// The place of a point in the middle of a face: of a concave one in its largest triangle. A face along
     /// the outline, seen edge-on, bounds the side that it looks away from.
-    polygon::Place middle(const Mesh& mesh, Index f) const;
+    /// convex: it is known to be, but for rounding.
+    polygon::Place middle(const Mesh& mesh, Index f, bool convex = false) const;
     /// Calls visit(segment, meeting) for the segments near a face until it returns false.
     template <class Visit>
     void meetings(const std::vector<Vec2>& face, Visit&& visit) const {

@@ -256,13 +256,10 @@ double float32_ulp(const Box& bounds) {
     return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 23) : 0;
 }
 
-PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on,
-                      std::span<const std::uint8_t> faces) {
-    PlaneCut cut;
-    cut.mesh = &mesh;
-    cut.plane = plane;
-    classify_vertices(cut, on);
-    if (!cut.meets()) return cut;
+namespace {
+
+/// Everything that follows from the signs of the vertices.
+void make_cut(PlaneCut& cut, std::span<const std::uint8_t> faces) {
     classify_faces(cut);
     using namespace face_class;
     cut.cut_faces = faces_where(cut, [](std::uint8_t c) { return (c & (above | below)) == (above | below); });
@@ -283,22 +280,48 @@ PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on,
     make_wedges(cut, std::move(crossings), slots);
     make_vertices(cut);
     place_vertices(cut);
+}
+
+} // namespace
+
+PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on,
+                      std::span<const std::uint8_t> faces) {
+    PlaneCut cut;
+    cut.mesh = &mesh;
+    cut.plane = plane;
+    classify_vertices(cut, on);
+    if (cut.meets()) make_cut(cut, faces);
+    return cut;
+}
+
+PlaneCut cut_by_signs(const Mesh& mesh, const Plane& plane, std::vector<std::int8_t> signs,
+                      std::span<const std::uint8_t> faces) {
+    PlaneCut cut;
+    cut.mesh = &mesh;
+    cut.plane = plane;
+    cut.signs = std::move(signs);
+    for (const std::int8_t s : cut.signs)
+        ++(s > 0 ? cut.above_count : s < 0 ? cut.below_count : cut.on_count);
+    if (cut.meets()) make_cut(cut, faces);
     return cut;
 }
 
 void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more) {
     const auto& positions = cut.mesh->positions;
-    std::vector<Vec3> points;
-    for (std::size_t e = 0; e < memory.entries.size(); ++e) {
-        const auto& entry = memory.entries[e];
-        points.clear();
+    if (!memory.entries.empty()) {
+        std::vector<Vec3> ends;
+        for (const auto& e : cut.vertices) ends.insert(ends.end(), {positions[e.a], positions[e.b]});
+        const auto at = memory.entries_at(ends);
+        std::vector<std::vector<Vec3>> on(memory.entries.size());
         for (std::size_t i = 0; i < cut.points.size(); ++i)
-            if (entry.counts_as_on(positions[cut.vertices[i].a]) &&
-                entry.counts_as_on(positions[cut.vertices[i].b]))
-                points.push_back(cut.points[i]);
-        if (!points.empty() && !same_plane(entry.plane, cut.plane)) memory.add(entry.plane, points);
+            for (const auto e : at[2 * i])
+                if (std::binary_search(at[2 * i + 1].begin(), at[2 * i + 1].end(), e))
+                    on[e].push_back(cut.points[i]);
+        for (std::size_t e = 0; e < on.size(); ++e)
+            if (!on[e].empty() && !same_plane(memory.entries[e].plane, cut.plane))
+                memory.add_to(e, std::move(on[e]));
     }
-    points = cut.points;
+    std::vector<Vec3> points = cut.points;
     points.insert(points.end(), more.begin(), more.end());
     if (cut.snapped_count > 0)
         for (std::size_t v = 0; v < positions.size(); ++v)

@@ -82,6 +82,10 @@ double float32_ulp(const Box& bounds);
 PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},
                       std::span<const std::uint8_t> faces = {});
 
+/// The same where it is known already on which side each vertex counts to be.
+PlaneCut cut_by_signs(const Mesh& mesh, const Plane& plane, std::vector<std::int8_t> signs,
+                      std::span<const std::uint8_t> faces);
+
 /// At every edge the directions of the faces cancel.
 bool is_closed(const Mesh& mesh);
 
@@ -114,6 +118,9 @@ struct Pieces {
 
 /// The parts of the cut faces on a side.
 Pieces pieces_on_side(const PlaneCut& cut, int side);
+
+/// The polygon of the passing face of that number, with the points on its edges.
+void passing_with_points(const PlaneCut& cut, std::size_t number, std::vector<Index>& polygon);
 
 /// Calls body(wedge, next wedge) for the edges of a polygon.
 template <class Body>

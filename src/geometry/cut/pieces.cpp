@@ -147,4 +147,15 @@ Pieces pieces_on_side(const PlaneCut& cut, int side) {
     return out;
 }
 
+void passing_with_points(const PlaneCut& cut, std::size_t number, std::vector<Index>& polygon) {
+    const Index* crossing = cut.crossings.data() + cut.crossing_offsets[cut.cut_faces.size() + number];
+    polygon.clear();
+    for_polygon_edges(cut.mesh->face_wedges(cut.passing[number]), [&](Index a, Index b) {
+        polygon.push_back(a);
+        if (cut.sign_of(a) * cut.sign_of(b) >= 0) return;
+        if (*crossing != none) polygon.push_back(*crossing);
+        ++crossing;
+    });
+}
+
 } // namespace facetmill

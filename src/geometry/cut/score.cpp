@@ -40,23 +40,11 @@ class Scorer {
             for (; next_back_ < back_.size() && back_.source[next_back_] == f; ++next_back_)
                 push(back_.of(next_back_), f, -1);
         } else if (next_passing_ < cut_.passing.size() && cut_.passing[next_passing_] == f) {
-            push(with_points(f, cut_.cut_faces.size() + next_passing_++), f, 0);
+            passing_with_points(cut_, next_passing_++, polygon_);
+            push(polygon_, f, 0);
         } else {
             push(mesh_.face_wedges(f), f, side_of_whole(f));
         }
-    }
-
-    /// A face that passes the cut, with the points on its edges.
-    std::span<const Index> with_points(Index f, std::size_t entry) {
-        const Index* crossing = cut_.crossings.data() + cut_.crossing_offsets[entry];
-        polygon_.clear();
-        for_polygon_edges(mesh_.face_wedges(f), [&](Index a, Index b) {
-            polygon_.push_back(a);
-            if (cut_.sign_of(a) * cut_.sign_of(b) >= 0) return;
-            if (*crossing != none) polygon_.push_back(*crossing);
-            ++crossing;
-        });
-        return polygon_;
     }
 
     int side_of_whole(Index f) const {

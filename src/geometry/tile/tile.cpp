@@ -145,7 +145,7 @@ class Tiler {
 
     static TileResult joined(TileResult a, TileResult b, const ClipResult& halves) {
         for (Tile& t : b.tiles) a.tiles.push_back(std::move(t));
-        for (const auto& entry : b.memory.entries) a.memory.add(entry.plane, entry.points);
+        a.memory.add_all(b.memory.entries);
         AttributeChanges changes = halves.changes;
         merge_changes(changes, a.changes);
         merge_changes(changes, b.changes);

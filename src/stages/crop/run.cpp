@@ -137,7 +137,7 @@ class CropRun {
             report_.cap_faces += r.cap_faces;
             report_.open_contours += r.open.size();
             context_.attribute_changes(part, r.changes);
-            for (auto& entry : r.memory.entries) memory.add(entry.plane, std::move(entry.points));
+            memory.add_all(std::move(r.memory.entries));
         }
         if (!memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(memory));
         part.mesh = {};

@@ -326,6 +326,41 @@ TEST_CASE("outlines of many segments", "[geometry]") {
     }
 }
 
+TEST_CASE("a face that many segments cross is cut as often as there are segments", "[geometry]") {
+    const Mesh square = shapes::grid(1, 1); // two triangles
+    std::vector<Vec2> circle, comb;
+    constexpr int n = 2000;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * pi * i / n + 0.1;
+        circle.push_back(Vec2{0.51, 0.49} + Vec2{cosine(angle), sine(angle)} * 0.4);
+    }
+    const Footprint round({circle});
+    const auto sides = crop_both(square, round, {});
+    // Both parts of the disc, and what one cut leaves outside, for each segment and each crossing of the
+    // diagonal.
+    CHECK(sides[0].mesh.face_count() == 2);
+    CHECK(sides[1].mesh.face_count() < n + 10);
+    CHECK(test::area(sides[0].mesh) == Approx(round.area()).epsilon(1e-12));
+    CHECK(test::area(sides[0].mesh) + test::area(sides[1].mesh) == Approx(1).epsilon(1e-12));
+    for (int i = 0; i < 50; ++i) // teeth whose flanks, and whose tips and roots, are on one line each
+        for (const Vec2 p : {Vec2{0, 0.75}, Vec2{0.25, 0.75}, Vec2{0.5, 0.75}, Vec2{0.5, 0.25}})
+            comb.push_back({(i + p.x) / 64 + 0.125, p.y});
+    comb.push_back({0.9375, 0.25});
+    comb.push_back({0.9375, 0.125});
+    comb.push_back({0.125, 0.125});
+    const Rings rings{
+        comb, {{0.25, 0.15}, {0.3, 0.15}, {0.3, 0.2}, {0.25, 0.2}}, {{0.125, 0.75}, {0.1, 0.9}, {0, 0.8}}};
+    const Footprint toothed(rings);
+    const auto parts = crop_both(square, toothed, {});
+    CHECK(test::area(parts[0].mesh) == Approx(toothed.area()).epsilon(1e-12));
+    CHECK(test::area(parts[0].mesh) + test::area(parts[1].mesh) == Approx(1).epsilon(1e-12));
+    for (const CropResult& r : parts) {
+        CHECK(broken_invariants(r.mesh).empty());
+        CHECK(cracks(r.mesh, rings, square) == 0);
+        CHECK(r.mesh.face_count() < 800);
+    }
+}
+
 TEST_CASE("vertices on one segment that snap takes as on another as well are counted", "[geometry]") {
     Mesh cube = shapes::cube();
     for (Vec3& p : cube.positions) p = p * static_cast<double>(0.1F);

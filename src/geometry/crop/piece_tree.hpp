@@ -1,0 +1,77 @@
+#pragma once
+// The pieces of faces that are cut again and again, by where they are. For crop only.
+
+#include "geometry/polygon/ring_tree.hpp"
+
+namespace facetmill {
+
+/// For each face a tree of boxes whose leaves are its pieces, in the order in which cutting leaves them: what
+/// a piece is cut into takes its place. Kept balanced as by I. Galperin and R. L. Rivest, "Scapegoat trees"
+/// (1993).
+class PieceTree {
+  public:
+    using Bounds = polygon::RingTree::Bounds;
+    struct Piece {
+        Index face = none;
+        std::vector<Index> wedges; ///< in order
+        Index node = none;         ///< none: there is no such piece any more
+    };
+
+    /// Adds a face in one piece; faces are numbered in the order in which they come.
+    void add_face(std::vector<Index> wedges, const Bounds& box);
+    /// Puts pieces in the place of one.
+    void replace(Index piece, std::vector<std::vector<Index>> parts, std::span<const Bounds> boxes);
+    /// Gives a piece other wedges, for points on its edges.
+    void reshape(Index piece, std::vector<Index> wedges, const Bounds& box);
+
+    std::size_t face_count() const { return roots_.size(); }
+    const Piece& operator[](Index piece) const { return pieces_[piece]; }
+    /// Calls visit(piece) for the pieces of a face whose boxes meet the box, in order.
+    template <class Visit>
+    void query(Index face, const Bounds& box, Visit&& visit) const {
+        visit_leaves(
+            roots_[face], [&](const Node& n) { return n.box.meets(box); }, visit);
+    }
+    template <class Visit>
+    void for_pieces(Index face, Visit&& visit) const {
+        visit_leaves(
+            roots_[face], [](const Node&) { return true; }, visit);
+    }
+
+  private:
+    struct Node {
+        Bounds box;
+        Index parent = none, first = none, second = none; ///< nodes
+        Index piece = none;                               ///< of a leaf
+        Index leaves = 1;
+    };
+
+    template <class Enters, class Visit>
+    void visit_leaves(Index root, Enters&& enters, Visit&& visit) const {
+        std::vector<Index>& open = open_;
+        const std::size_t bottom = open.size(); // visits may begin visits
+        open.push_back(root);
+        while (open.size() > bottom) {
+            const Node& n = nodes_[open.back()];
+            open.pop_back();
+            if (!enters(n)) continue;
+            if (n.second != none) open.push_back(n.second);
+            if (n.first != none) open.push_back(n.first);
+            if (n.piece != none) visit(n.piece);
+        }
+    }
+    Index new_node();
+    Index new_leaf(Index face, std::vector<Index> wedges, const Bounds& box);
+    void build(Index node, std::span<const Index> leaves);
+    void rebuild(Index node);
+    void widen(Index node, const Bounds& box);
+    Index unbalanced_above(Index node) const;
+
+    std::vector<Piece> pieces_;
+    std::vector<Node> nodes_;
+    std::vector<Index> roots_; ///< [faces]
+    std::vector<Index> free_;  ///< nodes
+    mutable std::vector<Index> open_;
+};
+
+} // namespace facetmill
