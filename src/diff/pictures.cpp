@@ -3,8 +3,8 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/gltf/pose.hpp"
-#include "io/png.hpp"
 #include "report/deviation_view.hpp"
+#include "report/scene_picture.hpp"
 #include "report/viewer.hpp"
 
 namespace facetmill::report {
@@ -14,7 +14,7 @@ namespace {
 std::string png_of(const Scene& scene, PictureSettings settings,
                    const std::shared_ptr<const MaterialLooks>& looks) {
     settings.looks = looks;
-    return io::base64(io::png(picture_of(scene, settings)));
+    return page_text(picture_of(scene, settings));
 }
 
 /// None where nothing is off the other.
@@ -36,7 +36,7 @@ std::shared_ptr<const MaterialLooks> looks_of(const Scene& scene) {
 
 ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std::string& name_a,
                                        const std::string& name_b) {
-    PictureSettings settings;
+    PictureSettings settings = page_settings();
     settings.width = 640;
     settings.height = 480;
     // Distances are those of the meshes, in bind pose; what is seen is the pose.
@@ -51,9 +51,9 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     if (posed_a || posed_b) settings.camera.reset();
     const Surface surface_a = surface_or_points_of(a, filled_surface),
                   surface_b = surface_or_points_of(b, filled_surface);
-    const FaceTree tree(surface_a, FaceTree::Use::near);
+    const FaceTree tree(surface_a, FaceTree::Use::few);
     out.backward = distances_from(tree, surface_a.bounds().diagonal(), "the first file", b, settings);
-    out.forward = distances_from(FaceTree(surface_b, FaceTree::Use::near), surface_b.bounds().diagonal(),
+    out.forward = distances_from(FaceTree(surface_b, FaceTree::Use::few), surface_b.bounds().diagonal(),
                                  "the second file", a, settings);
     ViewedScenes viewed(2);
     viewed.add_before(a, name_a, looks_a);

@@ -2,7 +2,6 @@
 
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/pose.hpp"
-#include "io/png.hpp"
 #include "mesh/face.hpp"
 #include "report/check_text.hpp"
 #include "report/deviation_view.hpp"
@@ -17,7 +16,7 @@ namespace facetmill::pipeline {
 namespace {
 
 // Base64 of pictures, of a page of 3 MB.
-constexpr std::size_t bytes_of_large = 900'000, most_bytes = 1'600'000;
+constexpr std::size_t bytes_of_large = 1'100'000, most_bytes = 1'600'000;
 constexpr std::size_t most_results = 8, most_measured = 6, most_failures = 8;
 constexpr std::size_t most_faces_of_a_stage = 500'000; // a tree of more takes too long for what it shows
 constexpr int close_zoom = 10;
@@ -69,7 +68,7 @@ void look_at_first(const Scene& scene, const report::Check& check, PictureSettin
 } // namespace
 
 const FaceTree& Page::Reference::tree() {
-    if (!tree_) tree_ = std::make_shared<const FaceTree>(*surface, FaceTree::Use::near);
+    if (!tree_) tree_ = std::make_shared<const FaceTree>(*surface, FaceTree::Use::few);
     return *tree_;
 }
 
@@ -83,13 +82,15 @@ std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::str
 
 bool Page::is_full() const { return bytes_ > most_bytes; }
 
-PictureSettings Page::sized_for_page() const {
-    PictureSettings settings;
+/// part: of the size of the largest pictures.
+PictureSettings Page::sized_for_page(double part) const {
+    PictureSettings settings = report::page_settings();
     if (bytes_ > bytes_of_large) {
-        settings.width /= 2;
-        settings.height /= 2;
+        part /= 2;
         record_.pictures_shrunk = true;
     }
+    settings.width = static_cast<int>(settings.width * part);
+    settings.height = static_cast<int>(settings.height * part);
     return settings;
 }
 
@@ -114,7 +115,7 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
         ++record_.pictures_left_out;
         return;
     }
-    PictureSettings settings = sized_for_page();
+    PictureSettings settings = sized_for_page(1);
     const auto posed = io::posed(scene);
     settings.camera = camera_for(posed ? *posed : scene);
     std::string shown = report::scene_picture(scene, settings, looks_);
@@ -129,7 +130,7 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
     if (is_full())
         record_.pictures_left_out += 3;
     else
-        settings = sized_for_page();
+        settings = sized_for_page(0.75); // three beside each other
     if (settings && !io::posed(scene))
         settings->camera = camera_for(scene); // distances are those in bind pose
     auto view =
@@ -201,7 +202,7 @@ void Page::add_result(const std::string& name, const Scene& scene) {
 std::string Page::picture_of_failure(const Scene& scene, const report::Check& check) {
     const std::vector<Vec3> locations = report::failing_locations(check);
     const Scene marked = with_failing_faces(scene, check);
-    PictureSettings whole;
+    PictureSettings whole = report::page_settings();
     whole.attribute = "failing";
     whole.range = {ColourRange::Kind::given, -1, 1, true};
     PictureSettings close = whole;
@@ -210,7 +211,7 @@ std::string Page::picture_of_failure(const Scene& scene, const report::Check& ch
     close.at = locations.front();
     look_at_first(scene, check, close);
     close.edges = EdgeLines::all;
-    return io::base64(io::png(sheet_of({picture_of(marked, whole), picture_of(marked, close)}, 2)));
+    return report::page_text(sheet_of({picture_of(marked, whole), picture_of(marked, close)}, 2));
 }
 
 void Page::failures(const std::string& step, const Scene& scene, std::size_t first_check) {

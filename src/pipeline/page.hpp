@@ -50,7 +50,7 @@ class Page {
 
   private:
     bool is_full() const;
-    PictureSettings sized_for_page() const;
+    PictureSettings sized_for_page(double part) const;
     const Camera& camera_for(const Scene& scene);
     void add_picture(const Scene& scene, report::StageRecord& stage);
     void add_result(const std::string& name, const Scene& scene);

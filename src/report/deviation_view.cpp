@@ -2,7 +2,7 @@
 
 #include "base/portable_math.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
-#include "io/png.hpp"
+#include "report/scene_picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,26 +32,22 @@ std::vector<std::uint64_t> counted_in_bins(const std::vector<float>& distances, 
     return counts;
 }
 
-std::string encoded_picture(const Scene& scene, const PictureSettings& settings) {
-    return io::base64(io::png(picture_of(scene, settings)));
-}
-
 void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& normal, bool cut,
                    DeviationView& view) {
     settings.attribute = std::string(distance_attribute);
     settings.range = {ColourRange::Kind::given, -view.limit, view.limit, true};
     settings.edges = EdgeLines::no;
-    view.picture = encoded_picture(scene, settings);
+    view.picture = page_text(picture_of(scene, settings));
     settings.camera.reset();
     settings.turn = pi;
-    view.behind = encoded_picture(scene, settings);
+    view.behind = page_text(picture_of(scene, settings));
     settings.turn = 0;
     if (length(normal) > 0 && is_finite(normal)) settings.from = normal;
     settings.zoom = 10;
     settings.at = view.worst;
     settings.marks = {view.worst};
     if (!cut) settings.edges = EdgeLines::all;
-    view.close = encoded_picture(scene, settings);
+    view.close = page_text(picture_of(scene, settings));
 }
 
 } // namespace

@@ -5,15 +5,23 @@
 
 namespace facetmill::report {
 
+PictureSettings page_settings() {
+    PictureSettings settings;
+    settings.coarse_occlusion = true;
+    return settings;
+}
+
+std::string page_text(const Picture& picture) { return io::base64(io::png(picture, io::PngEffort::fast)); }
+
 std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks) {
     std::vector<Diagnostic> ignored;
     settings.looks = looks.looks(scene, ignored);
     const auto posed = io::posed(scene);
-    return io::base64(io::png(picture_of(posed ? *posed : scene, settings)));
+    return page_text(picture_of(posed ? *posed : scene, settings));
 }
 
 std::string small_picture(const Scene& scene) {
-    PictureSettings small;
+    PictureSettings small = page_settings();
     small.width = 160;
     small.height = 120;
     io::LookReader looks;

@@ -8,6 +8,12 @@
 
 namespace facetmill::report {
 
+/// Settings of pictures that stand beside many others in a page: quickly made.
+PictureSettings page_settings();
+
+/// As text of a page: a PNG in base64.
+std::string page_text(const Picture& picture);
+
 /// With the textures of its materials, a PNG in base64. A texture that cannot be drawn is left out without a
 /// word: the stage render warns of it.
 std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks);

@@ -185,7 +185,10 @@ std::string viewer_section(const Json& viewed) {
     if (viewed.is_null()) return {};
     std::string text;
     for (const char c : viewed.dump(-1, ' ', true, Json::error_handler_t::replace))
-        text += c == '<' ? std::string("\\u003c") : std::string(1, c); // no name ends the element
+        if (c == '<')
+            text += "\\u003c"; // no name ends the element
+        else
+            text += c;
     return fmt::format("<section class=\"viewer\" hidden>\n<h2>3D view</h2>\n"
                        "<script type=\"application/json\">{}</script>\n</section>\n<script>{}</script>\n",
                        text, viewer_script());

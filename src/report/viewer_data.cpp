@@ -21,9 +21,11 @@ std::uint32_t quantised(double x, double low, double size, std::uint32_t most) {
 class Planes {
   public:
     void numbers(const std::vector<std::uint32_t>& values, int width) {
+        std::size_t at = bytes_.size();
+        bytes_.resize(at + values.size() * static_cast<std::size_t>(width));
         for (int w = 0; w < width; ++w)
             for (const std::uint32_t value : values)
-                bytes_.push_back(static_cast<std::byte>(value >> (8 * w) & 255));
+                bytes_[at++] = static_cast<std::byte>(value >> (8 * w) & 255);
     }
     /// Each number less the one before, modulo its width, the sign in the last bit.
     void differences(std::vector<std::uint32_t> values, int width) {
@@ -65,8 +67,9 @@ Order order_of(const Mesh& mesh) {
     Order out;
     out.faces.resize(mesh.face_count());
     std::iota(out.faces.begin(), out.faces.end(), Index{0});
-    std::stable_sort(out.faces.begin(), out.faces.end(),
-                     [&](Index a, Index b) { return mesh.primitive_of(a) < mesh.primitive_of(b); });
+    if (mesh.primitives.size() > 1)
+        std::stable_sort(out.faces.begin(), out.faces.end(),
+                         [&](Index a, Index b) { return mesh.primitive_of(a) < mesh.primitive_of(b); });
     std::vector<Index> number(mesh.wedge_count(), none);
     for (const Index f : out.faces)
         for (const Index w : mesh.face_wedges(f)) {
@@ -83,6 +86,8 @@ Order order_of(const Mesh& mesh) {
 }
 
 std::vector<PackedGroup> groups_of(const Preview& preview, const Order& order) {
+    if (preview.paints.size() == 1 && !order.faces.empty())
+        return {{preview.paints.front(), order.faces.size()}};
     std::vector<PackedGroup> groups;
     for (std::size_t i = 0, begin = 0; i < order.faces.size(); ++i) {
         const Index primitive = preview.mesh.primitive_of(order.faces[i]);

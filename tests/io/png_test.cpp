@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "io/pixels.hpp"
 #include "io/png.hpp"
 
 #include <zlib.h>
@@ -55,4 +56,17 @@ TEST_CASE("a PNG holds its pixels", "[io]") {
             CHECK(rows[13 * y + 1 + i] == picture.rgba[12 * y + i]);
         }
     }
+}
+
+TEST_CASE("a PNG made fast has the same pixels", "[io]") {
+    Picture picture{60, 40, {}};
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 60; ++x)
+            for (const int value : {4 * x, 6 * y, x * y % 251, x < 30 ? 0 : 255 - y})
+                picture.rgba.push_back(static_cast<std::uint8_t>(value));
+    const io::Bytes fast = io::png(picture, io::PngEffort::fast);
+    CHECK(fast != io::png(picture));
+    const auto pixels = io::decoded_image(fast);
+    REQUIRE(pixels);
+    CHECK(pixels->rgba == picture.rgba);
 }

@@ -115,10 +115,10 @@ struct Cell {
     Index vertex;
 };
 
-/// Points by the cells of a grid of 256 along the longest side, each a pixel or two of a picture; those that
-/// are not finite are in the last.
+/// Points by the cells of a grid of 112 along the longest side, each two or three pixels of a picture; those
+/// that are not finite are in the last.
 std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
-    constexpr double along = 255;
+    constexpr double along = 111;
     constexpr int bits = 8; // of each coordinate
     constexpr std::uint64_t none_of_them = std::uint64_t{1} << 3 * bits;
     const Vec3 size = box.extent();

@@ -14,8 +14,8 @@ inline constexpr std::string_view distance_attribute = "distance";
 struct SignedDeviationSettings {
     /// Vertices that are looked up. Where there are more, one stands for those in its cell of a grid, but
     /// around the farthest of these all are looked up.
-    std::size_t vertices = 60000;
-    std::size_t samples = 20000; ///< points spread over the area
+    std::size_t vertices = 20000;
+    std::size_t samples = 10000; ///< points spread over the area
     std::uint64_t seed = 1;
 };
 

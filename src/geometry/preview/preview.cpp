@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace facetmill {
 
@@ -17,7 +18,7 @@ namespace {
 /// Scenes of so many times the triangles asked for go through a grid first, which costs a tenth of what their
 /// simplification would; textures would be torn by it, so scenes with them do so later, and their textures
 /// become colours.
-constexpr std::size_t many = 6, many_with_textures = 20;
+constexpr std::size_t many = 4, many_with_textures = 20;
 
 std::size_t triangles_in(const Mesh& mesh) {
     if (mesh.all_triangles()) return mesh.face_count();
@@ -118,6 +119,28 @@ Mesh reduced(Mesh mesh, std::size_t faces) {
     return mesh;
 }
 
+/// The parts as one mesh: all of their triangles, or, with a cell, those between the vertices that a grid
+/// leaves.
+Preview gathered(const Scene& scene, const MaterialLooks* looks, const PreviewAttributes& wanted,
+                 std::optional<double> cell) {
+    Gatherer gatherer(scene, looks, wanted);
+    for (const Part& part : scene.parts) {
+        if (part.mesh.face_count() == 0) continue;
+        const bool as_it_is = part.mesh.all_triangles();
+        const Mesh cut = as_it_is ? Mesh{} : triangles_of(part.mesh);
+        const Mesh& triangles = as_it_is ? part.mesh : cut;
+        std::vector<Index> corners;
+        if (cell)
+            corners = corners_in_cells(triangles, part.transform, *cell);
+        else {
+            corners.resize(triangles.corner_count());
+            std::iota(corners.begin(), corners.end(), Index{0});
+        }
+        gatherer.add(triangles, part.transform, corners);
+    }
+    return gatherer.finish();
+}
+
 } // namespace
 
 Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
@@ -128,24 +151,12 @@ Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
     PreviewAttributes wanted = preview_attributes(scene, looks);
     wanted.baked = wanted.textures && faces > many_with_textures * settings.faces;
     if (wanted.baked) wanted.textures = false;
-    const bool by_grid = !wanted.textures && faces > many * settings.faces;
-    const double cell = by_grid ? cell_edge(scene, settings.faces + settings.faces / 4) : 0;
-    Gatherer gatherer(scene, looks, wanted);
-    for (const Part& part : scene.parts) {
-        if (part.mesh.face_count() == 0) continue;
-        const bool as_it_is = part.mesh.all_triangles();
-        const Mesh cut = as_it_is ? Mesh{} : triangles_of(part.mesh);
-        const Mesh& triangles = as_it_is ? part.mesh : cut;
-        std::vector<Index> corners;
-        if (by_grid)
-            corners = corners_in_cells(triangles, part.transform, cell);
-        else {
-            corners.resize(triangles.corner_count());
-            std::iota(corners.begin(), corners.end(), Index{0});
-        }
-        gatherer.add(triangles, part.transform, corners);
-    }
-    Preview out = gatherer.finish();
+    std::optional<double> cell;
+    if (!wanted.textures && faces > many * settings.faces)
+        cell = cell_edge(scene, settings.faces * 3 / 4); // almost two triangles for each cell that is met
+    Preview out = gathered(scene, looks, wanted, cell);
+    // What is made of pieces smaller than a cell has no triangles between cells.
+    if (cell && out.mesh.face_count() < settings.faces / 4) out = gathered(scene, looks, wanted, {});
     out.faces = faces;
     if (out.mesh.face_count() > settings.faces) out.mesh = reduced(std::move(out.mesh), settings.faces);
     return out;

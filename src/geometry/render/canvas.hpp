@@ -37,6 +37,11 @@ struct Canvas {
         while (mine > there && !sample.compare_exchange_weak(there, mine, std::memory_order_relaxed)) {
         }
     }
+    /// Whether nothing that is put at a sample (at) at that depth, or behind it, will be seen.
+    bool hides(std::size_t i, float depth) {
+        const std::atomic_ref<std::uint64_t> sample(nearest_[i]);
+        return sample.load(std::memory_order_relaxed) >= packed(depth, 0);
+    }
     /// The depth of a sample by its place (at); -infinity where nothing is seen.
     float depth(std::size_t i) const {
         const auto bits = static_cast<std::uint32_t>(nearest_[i] >> 32);
@@ -113,6 +118,11 @@ inline double twice_area(const std::array<Vec3, 3>& p) {
     return (p[2].x - p[0].x) * (p[1].y - p[0].y) - (p[1].x - p[0].x) * (p[2].y - p[0].y);
 }
 
+/// The depth before which no sample of a triangle lies.
+inline double nearest_depth(const std::array<Vec3, 3>& p) {
+    return std::max(std::max(p[0].z, p[1].z), p[2].z);
+}
+
 /// A triangle on the canvas, seen anticlockwise or not.
 struct CanvasTriangle {
     std::array<Vec3, 3> p;
@@ -137,17 +147,17 @@ struct CanvasTriangle {
     }
 };
 
-/// Calls visit(x, y, depth) for the samples of the triangle in the rows [first, last). Where a back and a
-/// front are at one place the front is seen: backs lie a thousandth of a sample behind. front: the outer side
-/// is seen.
+/// Calls visit(x, y, depth) for the samples of the triangle in that box, which samples_around gave. Where a
+/// back and a front are at one place the front is seen: backs lie a thousandth of a sample behind. front: the
+/// outer side is seen.
 template <class Visit>
-void for_each_sample(const CanvasTriangle& t, bool front, int first, int last, int width, Visit&& visit) {
-    const auto [left, right, top, bottom] = samples_around(t.p[0], t.p[1], t.p[2], first, last, width);
+void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, Visit&& visit) {
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;
+    const double nearest = nearest_depth(t.p); // on a sliver, rounding would put samples before it
     const EdgeLine &e = t.edges[0], &f = t.edges[1], &g = t.edges[2];
-    for (int y = top; y <= bottom; ++y) {
+    for (int y = box.top; y <= box.bottom; ++y) {
         const double py = y + 0.5, ey = e.dx * (py - e.y), fy = f.dx * (py - f.y), gy = g.dx * (py - g.y);
-        for (int x = left; x <= right; ++x) {
+        for (int x = box.left; x <= box.right; ++x) {
             const double px = x + 0.5; // as EdgeLine::of
             const double a = e.sign * (e.dy * (px - e.x) - ey);
             if (!(a * side >= 0)) continue;
@@ -155,7 +165,7 @@ void for_each_sample(const CanvasTriangle& t, bool front, int first, int last, i
             if (!(b * side >= 0)) continue;
             const double c = g.sign * (g.dy * (px - g.x) - gy);
             if (!(c * side >= 0)) continue;
-            visit(x, y, (a * t.p[0].z + b * t.p[1].z + c * t.p[2].z) * share - behind);
+            visit(x, y, std::min((a * t.p[0].z + b * t.p[1].z + c * t.p[2].z) * share, nearest) - behind);
         }
     }
 }

@@ -3,14 +3,14 @@
 namespace facetmill {
 
 Layers::Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
-               const SceneDrawing& drawing, const Shader& shader)
+               const SceneDrawing& drawing, const Shader& shader, LastFacings& last)
     : first_(first_row), last_(last_row), width_(canvas.width / Canvas::samples) {
     // What lies deep is dropped as soon as there is much, so that memory does not grow with the depth.
     constexpr std::size_t enough = bytes / sizeof(Layer);
     std::size_t limit = enough;
     for (const std::uint32_t number : numbers) {
         const PartDrawing& part = drawing.part_of(number);
-        add(number, part, canvas, shader);
+        add(number, part, canvas, shader, last);
         if (layers_.size() < limit) continue;
         sort_and_cut();
         limit = std::max(enough, 2 * layers_.size());
@@ -18,13 +18,15 @@ Layers::Layers(const std::vector<std::uint32_t>& numbers, int first_row, int las
     sort_and_cut();
 }
 
-void Layers::add(std::uint32_t number, const PartDrawing& part, const Canvas& canvas, const Shader& shader) {
+void Layers::add(std::uint32_t number, const PartDrawing& part, const Canvas& canvas, const Shader& shader,
+                 LastFacings& last) {
     constexpr int n = Canvas::samples;
     const CanvasTriangle t = part.triangle(number - part.first());
     if (!t.drawn()) return;
     const std::size_t before = layers_.size();
     // Samples come row by row, so a pixel's do not all follow each other.
-    for_each_sample(t, part.front(t.p), first_, last_, canvas.width, [&](int x, int y, double z) {
+    const SampleBox box = samples_around(t.p[0], t.p[1], t.p[2], first_, last_, canvas.width);
+    for_each_sample(t, part.front(t.p), box, [&](int x, int y, double z) {
         if (!(static_cast<float>(z) > canvas.depth(canvas.at(x, y)))) return;
         const auto pixel = static_cast<std::uint32_t>((y - first_) / n * width_ + x / n);
         layers_.push_back(
@@ -49,7 +51,7 @@ void Layers::add(std::uint32_t number, const PartDrawing& part, const Canvas& ca
         }
         const double x = static_cast<double>(one.pixel % static_cast<std::uint32_t>(width_)) * n;
         const double y = static_cast<double>(one.pixel / static_cast<std::uint32_t>(width_)) * n + first_;
-        one.shade = shader.colour(number, x + sum_x / count, y + sum_y / count, 1);
+        one.shade = shader.colour(number, x + sum_x / count, y + sum_y / count, 1, last);
         layers_[kept++] = one;
     }
     layers_.resize(kept);

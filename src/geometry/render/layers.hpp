@@ -13,9 +13,9 @@ class Layers {
     /// is: of a band at most `most` layers for each sample.
     static constexpr std::size_t bytes = std::size_t{64} << 20;
 
-    /// numbers: of the triangles in the band that blend.
+    /// numbers: of the triangles in the band that blend. last: see Shader::colour.
     Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
-           const SceneDrawing& drawing, const Shader& shader);
+           const SceneDrawing& drawing, const Shader& shader, LastFacings& last);
 
     /// Lays them over the samples of the pixel, whose colours are multiplied by alpha, from the back.
     void lay_over(int x, int y, std::array<Texel, Canvas::samples * Canvas::samples>& shades) const;
@@ -27,7 +27,8 @@ class Layers {
         std::uint8_t samples = 0; ///< which of the pixel's, bit by bit
         Texel shade{};
     };
-    void add(std::uint32_t number, const PartDrawing& part, const Canvas& canvas, const Shader& shader);
+    void add(std::uint32_t number, const PartDrawing& part, const Canvas& canvas, const Shader& shader,
+             LastFacings& last);
     void sort_and_cut();
 
     std::vector<Layer> layers_; ///< by pixel, from the front

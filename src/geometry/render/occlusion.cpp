@@ -76,13 +76,13 @@ float hidden_by(const std::array<float, 3>& p, const std::array<float, 3>& norma
     return f * f * f * (above - slack) / std::sqrt(vv);
 }
 
-float open_at(const Places& places, const std::array<Spiral, pattern * pattern>& all, int x, int y,
+float open_at(const Places& places, const Spiral& spiral, std::size_t pixel,
               const std::array<float, 3>& normal, float radius) {
-    const Spiral& spiral = all[static_cast<std::size_t>(y % 4 * 4 + x % 4)];
-    const auto& p = places.place[places.at(x, y)];
+    const auto width = static_cast<std::size_t>(places.width);
+    const auto& p = places.place[pixel];
     float hidden = 0;
     for (const auto& [dx, dy] : spiral) {
-        const int qx = x + dx, qy = y + dy;
+        const int qx = static_cast<int>(pixel % width) + dx, qy = static_cast<int>(pixel / width) + dy;
         if (qx < 0 || qy < 0 || qx >= places.width || qy >= places.height) continue;
         const std::size_t q = places.at(qx, qy);
         if (places.seen[q] != none) hidden += hidden_by(p, normal, places.place[q], radius);
@@ -91,16 +91,27 @@ float open_at(const Places& places, const std::array<Spiral, pattern * pattern>&
     return std::max(0.15f, 1 - strength * hidden);
 }
 
-/// The mean over the pattern around each pixel, of those that lie as deep.
-std::vector<float> smoothed(const Places& places, const std::vector<float>& open, float radius) {
+/// Which pixels a mean is taken of, and for which.
+struct Smoothing {
+    int every = 1;      ///< those of every so many columns and rows
+    int reach = 2;      ///< so far to the left and above, and not quite so far to the right and below
+    bool of_all = true; ///< for all pixels; else for those of that grid alone
+};
+
+/// The mean around each pixel, of those that lie as deep; where there is none, what the pixel itself sees.
+template <class OpenAt>
+std::vector<float> smoothed(const Places& places, const std::vector<float>& open, float radius,
+                            const Smoothing& s, OpenAt&& open_at) {
     std::vector<float> out(open.size(), 1);
     const auto width = static_cast<std::size_t>(places.width);
+    const auto first = [&](int at) { return (std::max(0, at - s.reach) + s.every - 1) / s.every * s.every; };
     parallel_for(open.size(), [&](std::size_t pixel) {
         if (places.seen[pixel] == none) return;
         const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
+        if (!s.of_all && (x % s.every != 0 || y % s.every != 0)) return;
         float sum = 0, count = 0;
-        for (int qy = std::max(0, y - 2); qy < std::min(places.height, y + 2); ++qy)
-            for (int qx = std::max(0, x - 2); qx < std::min(places.width, x + 2); ++qx) {
+        for (int qy = first(y); qy < std::min(places.height, y + s.reach); qy += s.every)
+            for (int qx = first(x); qx < std::min(places.width, x + s.reach); qx += s.every) {
                 const std::size_t q = places.at(qx, qy);
                 if (places.seen[q] == none ||
                     std::abs(places.place[q][2] - places.place[pixel][2]) > 0.25f * radius)
@@ -108,7 +119,7 @@ std::vector<float> smoothed(const Places& places, const std::vector<float>& open
                 sum += open[q];
                 count += 1;
             }
-        out[pixel] = count > 0 ? sum / count : 1;
+        out[pixel] = count > 0 ? sum / count : open_at(pixel);
     });
     return out;
 }
@@ -116,23 +127,31 @@ std::vector<float> smoothed(const Places& places, const std::vector<float>& open
 } // namespace
 
 std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, const Shader& shader,
-                            const View& view, double radius) {
+                            const View& view, double radius, bool coarse) {
     const Places places = places_on(canvas, view);
     const auto all = spirals(radius);
-    const auto width = static_cast<std::size_t>(places.width);
-    std::vector<float> open(places.place.size(), 1);
-    Share::loop_tells();
-    parallel_for(open.size(), [&](std::size_t pixel) {
-        if (places.seen[pixel] == none) return;
+    const auto width = static_cast<std::size_t>(places.width), every = coarse ? std::size_t{2} : 1;
+    const auto open_of = [&](std::size_t pixel) -> float {
+        if (places.seen[pixel] == none) return 1;
         const PartDrawing& part = drawing.part_of(places.seen[pixel]);
-        if (!part.has_faces()) return;
+        if (!part.has_faces()) return 1;
         const Vec3 n = shader.facing_normal(part.corners(places.seen[pixel] - part.first()));
         const std::array<float, 3> normal{static_cast<float>(n.x), static_cast<float>(n.y),
                                           static_cast<float>(n.z)};
-        open[pixel] = open_at(places, all, static_cast<int>(pixel % width), static_cast<int>(pixel / width),
-                              normal, static_cast<float>(radius));
+        const std::size_t x = pixel % width, y = pixel / width;
+        const Spiral& spiral = all[y / every % pattern * pattern + x / every % pattern];
+        return open_at(places, spiral, pixel, normal, static_cast<float>(radius));
+    };
+    std::vector<float> open(places.place.size(), 1);
+    Share::loop_tells();
+    parallel_for(open.size(), [&](std::size_t pixel) {
+        if (pixel % width % every == 0 && pixel / width % every == 0) open[pixel] = open_of(pixel);
     });
-    return smoothed(places, open, static_cast<float>(radius));
+    if (!coarse) return smoothed(places, open, static_cast<float>(radius), {}, open_of);
+    // The whole pattern of the pixels that looked, then between these.
+    open = smoothed(places, open, static_cast<float>(radius), {.every = 2, .reach = 4, .of_all = false},
+                    open_of);
+    return smoothed(places, open, static_cast<float>(radius), {.every = 2}, open_of);
 }
 
 } // namespace facetmill

@@ -8,8 +8,8 @@ namespace facetmill {
 /// 0 to 1 for each pixel of the canvas, 1 where nothing is. Each pixel looks at sixteen others on a spiral
 /// that turns from pixel to pixel in a pattern of four by four, and is mixed with those of the pattern around
 /// it that lie as deep (M. McGuire, M. Mara and D. Luebke, "Scalable Ambient Obscurance", 2012). radius: how
-/// far occluders matter, in samples.
+/// far occluders matter, in samples. coarse: only every second pixel of every second row looks.
 std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, const Shader& shader,
-                            const View& view, double radius);
+                            const View& view, double radius, bool coarse);
 
 } // namespace facetmill

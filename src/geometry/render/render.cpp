@@ -18,9 +18,8 @@ namespace {
 constexpr int band_rows = 32;                       ///< of samples, developed by one thread
 constexpr std::size_t large = std::size_t{1} << 14; ///< samples of a triangle that several threads draw
 
-SampleBox samples_around(const PartDrawing& part, Index face, int first, int last, int width) {
-    return samples_around(part.corner(face, 0), part.corner(face, 1), part.corner(face, 2), first, last,
-                          width);
+SampleBox samples_around(const std::array<Vec3, 3>& p, int first, int last, int width) {
+    return samples_around(p[0], p[1], p[2], first, last, width);
 }
 
 /// Calls visit(band, number) for each band of rows with samples of a triangle that blends, triangle by
@@ -30,7 +29,7 @@ void for_each_in_band(const SceneDrawing& drawing, int height, Visit&& visit) {
     for (const PartDrawing& part : drawing.parts())
         for (Index f = 0; part.painter().any_blends() && f < part.count(); ++f) {
             if (!part.painter().blends(f)) continue;
-            const SampleBox box = samples_around(part, f, 0, height, std::numeric_limits<int>::max());
+            const SampleBox box = samples_around(part.corners(f), 0, height, std::numeric_limits<int>::max());
             for (int band = box.top / band_rows; !box.empty() && band <= box.bottom / band_rows; ++band)
                 visit(static_cast<std::size_t>(band), part.first() + f);
         }
@@ -121,12 +120,13 @@ class PictureDrawing {
             [&](std::size_t begin, std::size_t end) {
                 Faces found;
                 for (auto f = static_cast<Index>(begin); f < end; ++f) {
-                    const SampleBox box = samples_around(part, f, 0, canvas_.height, canvas_.width);
+                    const auto corners = part.corners(f);
+                    const SampleBox box = samples_around(corners, 0, canvas_.height, canvas_.width);
                     if (box.empty()) continue;
                     if (box.size() > large)
                         found.push_back(f);
-                    else
-                        draw_face(part, f, 0, canvas_.height);
+                    else if (!is_hidden(corners, box))
+                        draw_face(part, f, corners, box);
                 }
                 return found;
             },
@@ -139,17 +139,35 @@ class PictureDrawing {
         parallel_for(
             bands_.size(),
             [&](std::size_t band) {
-                for (const Index f : large_ones) draw_face(part, f, first_row(band), last_row(band));
+                for (const Index f : large_ones) {
+                    const auto corners = part.corners(f);
+                    draw_face(part, f, corners,
+                              samples_around(corners, first_row(band), last_row(band), canvas_.width));
+                }
             },
             1);
     }
 
-    /// Its samples in the rows [first, last), unless it blends.
-    void draw_face(const PartDrawing& part, Index face, int first, int last) {
-        const CanvasTriangle t = part.triangle(face);
+    /// Whether other triangles already lie before all of a small one: most are found hidden before they cost
+    /// anything.
+    bool is_hidden(const std::array<Vec3, 3>& corners, const SampleBox& box) {
+        constexpr std::size_t few = 16;
+        if (box.size() > few) return false;
+        const auto nearest = static_cast<float>(nearest_depth(corners));
+        if (!(nearest < HUGE_VALF)) return false;
+        for (int y = box.top; y <= box.bottom; ++y)
+            for (int x = box.left; x <= box.right; ++x)
+                if (!canvas_.hides(canvas_.at(x, y), nearest)) return false;
+        return true;
+    }
+
+    /// Its samples in the box, unless it blends.
+    void draw_face(const PartDrawing& part, Index face, const std::array<Vec3, 3>& corners,
+                   const SampleBox& box) {
+        const CanvasTriangle t(corners);
         if (!t.drawn() || part.painter().blends(face)) return;
         const bool holes = part.painter().has_holes(face);
-        for_each_sample(t, part.front(t.p), first, last, canvas_.width, [&](int x, int y, double z) {
+        for_each_sample(t, part.front(t.p), box, [&](int x, int y, double z) {
             if (!holes || shader_.is_solid(part, t, face, x + 0.5, y + 0.5))
                 canvas_.put(x, y, z, part.first() + face);
         });
@@ -166,26 +184,28 @@ class PictureDrawing {
         // An eighth of the scene, as it is magnified.
         const double radius = std::min(canvas_.width, canvas_.height) / 8.0 * settings_.zoom;
         const double most = std::min(canvas_.width, canvas_.height) / 4.0;
-        return open_sky(canvas_, drawing_, shader_, view_, std::min(radius, most));
+        return open_sky(canvas_, drawing_, shader_, view_, std::min(radius, most),
+                        settings_.coarse_occlusion);
     }
 
     /// The rows of pixels of a band.
     void develop(std::size_t band, Picture& picture) const {
-        const Layers layers(bands_[band], first_row(band), last_row(band), canvas_, drawing_, shader_);
+        LastFacings last;
+        const Layers layers(bands_[band], first_row(band), last_row(band), canvas_, drawing_, shader_, last);
         for (int y = first_row(band) / Canvas::samples; y < last_row(band) / Canvas::samples; ++y)
             for (int x = 0; x < settings_.width; ++x) {
                 const std::size_t pixel =
                     static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                     static_cast<std::size_t>(x);
-                const Texel sum = pixel_sum(x, y, layers, open_.empty() ? 1 : open_[pixel]);
+                const Texel sum = pixel_sum(x, y, layers, open_.empty() ? 1 : open_[pixel], last);
                 store(sum, &picture.rgba[4 * pixel]);
             }
     }
 
     /// The sum over the samples of a pixel, colours times alpha.
-    Texel pixel_sum(int x, int y, const Layers& layers, float open) const {
+    Texel pixel_sum(int x, int y, const Layers& layers, float open, LastFacings& last) const {
         constexpr int n = Canvas::samples;
-        std::array<Texel, n* n> shades = solid_samples(x, y, open);
+        std::array<Texel, n* n> shades = solid_samples(x, y, open, last);
         layers.lay_over(x, y, shades);
         Texel sum{};
         for (const Texel& shade : shades) {
@@ -198,7 +218,8 @@ class PictureDrawing {
     }
 
     /// What covers each sample of a pixel; one shade for each face among them.
-    std::array<Texel, Canvas::samples * Canvas::samples> solid_samples(int x, int y, float open) const {
+    std::array<Texel, Canvas::samples * Canvas::samples> solid_samples(int x, int y, float open,
+                                                                       LastFacings& last) const {
         constexpr int n = Canvas::samples;
         std::array<std::uint32_t, n * n> seen{};
         for (int i = 0; i < n * n; ++i)
@@ -208,7 +229,7 @@ class PictureDrawing {
             if (seen[i] == none) continue;
             const auto before =
                 static_cast<std::size_t>(std::find(seen.begin(), seen.end(), seen[i]) - seen.begin());
-            shades[i] = before < i ? shades[before] : shade_of(x, y, seen, seen[i], open);
+            shades[i] = before < i ? shades[before] : shade_of(x, y, seen, seen[i], open, last);
         }
         for (std::size_t i = 0; i < seen.size(); ++i)
             if (seen[i] != none)
@@ -218,7 +239,7 @@ class PictureDrawing {
     }
 
     Texel shade_of(int x, int y, const std::array<std::uint32_t, Canvas::samples * Canvas::samples>& seen,
-                   std::uint32_t number, float open) const {
+                   std::uint32_t number, float open, LastFacings& last) const {
         constexpr int n = Canvas::samples;
         double sum_x = 0, sum_y = 0, count = 0;
         for (int i = 0; i < n * n; ++i) {
@@ -227,7 +248,7 @@ class PictureDrawing {
             sum_y += n * y + i / n + 0.5;
             ++count;
         }
-        Texel shade = shader_.colour(number, sum_x / count, sum_y / count, open);
+        Texel shade = shader_.colour(number, sum_x / count, sum_y / count, open, last);
         for (float& c : shade) c = std::min(c, 1.0f);
         shade[3] = 1;
         return shade;

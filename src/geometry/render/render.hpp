@@ -68,8 +68,9 @@ struct PictureSettings {
     std::optional<Vec3> at;       ///< the place in the middle, in world space, when zoom is not 1
     Shading shading = Shading::sides;
     ShadingNormals normals = ShadingNormals::automatic;
-    bool occlusion = true;    ///< corners and folds are darker
-    bool silhouettes = false; ///< lines where the depth jumps
+    bool occlusion = true;         ///< corners and folds are darker
+    bool coarse_occlusion = false; ///< seen from every second pixel of every second row: a third of the time
+    bool silhouettes = false;      ///< lines where the depth jumps
     Paint paint = Paint::material;
     std::string attribute; ///< instead of paint, where a mesh has it: its first component, identifiers
                            ///< (Role::index) in colours of their own, numbers on a scale

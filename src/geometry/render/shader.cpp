@@ -101,9 +101,17 @@ Vec3 Shader::bumped(const Spot& spot, const Vec3& normal) const {
     return length(bent) > 0 && is_finite(bent) ? normalised(bent) : normal;
 }
 
-/// The normal of the side that is seen.
-Vec3 Shader::normal_at(const Spot& spot) const {
-    Vec3 outer = facing_normal(spot.t.p); // towards the viewer: the outer one of a front
+const LastFacings::Facing& Shader::facing(std::uint32_t number, const PartDrawing& part,
+                                          LastFacings& last) const {
+    LastFacings::Facing& facing = last.at(number);
+    if (facing.number == number) return facing;
+    const auto corners = part.corners(number - part.first());
+    return facing = {number, part.front(corners), facing_normal(corners)};
+}
+
+/// The normal of the side that is seen. facing: facing_normal.
+Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
+    Vec3 outer = facing; // towards the viewer: the outer one of a front
     if (const auto own = spot.part.normal(view_, spot.at))
         outer = *own;
     else if (!spot.front)
@@ -131,9 +139,8 @@ double Shader::lit(const Spot& spot, const Vec3& normal) const {
 }
 
 /// x y z of the face's own normal in the world, from 0 to 1, such that it is stored as it is.
-Colour Shader::of_direction(const Spot& spot) const {
-    Vec3 n = facing_normal(spot.t.p);
-    if (!spot.front) n = -n;
+Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
+    const Vec3 n = spot.front ? facing : -facing;
     const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
     Colour colour{};
     for (std::size_t c = 0; c < 3; ++c)
@@ -142,30 +149,31 @@ Colour Shader::of_direction(const Spot& spot) const {
 }
 
 /// As colour, of a face without textures, colours or normals of its own: the same at all its places.
-Texel Shader::plain(const PartDrawing& part, Index face, const Texel& paint, float open) const {
-    const std::array<Vec3, 3> p{part.corner(face, 0), part.corner(face, 1), part.corner(face, 2)};
-    const bool right_side = part.front(p) || part.painter().double_sided(face);
-    const float amount = static_cast<float>(ambient + direct * in_light(facing_normal(p), right_side)) * open;
+Texel Shader::plain(const Texel& paint, const LastFacings::Facing& facing, bool double_sided,
+                    float open) const {
+    const bool right_side = facing.front || double_sided;
+    const float amount = static_cast<float>(ambient + direct * in_light(facing.normal, right_side)) * open;
     Texel colour = settings_.shading == Shading::sides && !right_side ? opaque(inner_side) : paint;
     for (std::size_t c = 0; c < 3; ++c) colour[c] *= amount;
     colour[3] = 1;
     return colour;
 }
 
-Texel Shader::colour(std::uint32_t number, double x, double y, float open) const {
+Texel Shader::colour(std::uint32_t number, double x, double y, float open, LastFacings& last) const {
     const PartDrawing& part = drawing_.part_of(number);
     const Index i = number - part.first();
     if (!part.has_faces()) return part.painter().of(part.vertex_place(i));
     if (const Texel* paint = part.painter().plain(i); paint && !part.has_normals())
-        return plain(part, i, *paint, open);
+        return plain(*paint, facing(number, part, last), part.painter().double_sided(i), open);
     const CanvasTriangle t = part.triangle(i);
     const Spot spot(part, view_, t, i, x, y);
-    if (part.painter().by_normal()) return opaque(of_direction(spot));
+    const Vec3& facing_it = facing(number, part, last).normal;
+    if (part.painter().by_normal()) return opaque(of_direction(spot, facing_it));
     const bool inside = settings_.shading == Shading::sides && !spot.front && !spot.double_sided;
     Texel colour = base_colour(spot, inside);
     if (!spot.look || spot.look->alpha != MaterialLook::Alpha::blend) colour[3] = 1;
     if (spot.look && spot.look->unlit && !inside) return colour;
-    const auto amount = static_cast<float>(lit(spot, normal_at(spot))) * open;
+    const auto amount = static_cast<float>(lit(spot, normal_at(spot, facing_it))) * open;
     for (std::size_t c = 0; c < 3; ++c) colour[c] *= amount;
     if (!spot.look || inside) return colour;
     Texel glow{1, 1, 1, 1};

@@ -5,6 +5,22 @@
 
 namespace facetmill {
 
+/// Which way the triangles look that were asked for last, since neighbouring pixels see the same ones. Each
+/// thread has its own.
+class LastFacings {
+  public:
+    struct Facing {
+        std::uint32_t number = none; ///< of the triangle
+        bool front = false;          ///< its outer side is seen
+        Vec3 normal;                 ///< Shader::facing_normal
+    };
+    /// The place of that triangle, which may hold another.
+    Facing& at(std::uint32_t number) { return all_[number % all_.size()]; }
+
+  private:
+    std::vector<Facing> all_ = std::vector<Facing>(1024);
+};
+
 /// Shades places of triangles and vertices that stand on a canvas.
 class Shader {
   public:
@@ -12,8 +28,8 @@ class Shader {
         : drawing_(drawing), view_(view), settings_(settings) {}
 
     /// The colour, linear, and alpha (1 unless the material blends) of what has that number, at (x, y) of the
-    /// canvas. open: how much of the sky is seen from there, 0 to 1.
-    Texel colour(std::uint32_t number, double x, double y, float open) const;
+    /// canvas. open: how much of the sky is seen from there, 0 to 1. last: of this drawing alone.
+    Texel colour(std::uint32_t number, double x, double y, float open, LastFacings& last) const;
 
     /// Whether a material with holes has none at (x, y).
     bool is_solid(const PartDrawing& part, const CanvasTriangle& t, Index face, double x, double y) const;
@@ -26,13 +42,14 @@ class Shader {
 
     Texel base_colour(const Spot& spot, bool inside) const;
     Texel textured(const Spot& spot, const Texture& texture) const;
-    Vec3 normal_at(const Spot& spot) const;
+    const LastFacings::Facing& facing(std::uint32_t number, const PartDrawing& part, LastFacings& last) const;
+    Vec3 normal_at(const Spot& spot, const Vec3& facing) const;
     Vec3 bumped(const Spot& spot, const Vec3& normal) const;
     std::optional<std::pair<Vec3, Vec3>> tangents(const Spot& spot, const Vec3& normal) const;
     double in_light(const Vec3& normal, bool right_side) const;
-    Texel plain(const PartDrawing& part, Index face, const Texel& paint, float open) const;
+    Texel plain(const Texel& paint, const LastFacings::Facing& facing, bool double_sided, float open) const;
     double lit(const Spot& spot, const Vec3& normal) const;
-    Colour of_direction(const Spot& spot) const;
+    Colour of_direction(const Spot& spot, const Vec3& facing) const;
 
     const SceneDrawing& drawing_;
     const View& view_;

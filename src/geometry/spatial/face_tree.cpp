@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/storage.hpp"
 #include "geometry/spatial/dense_box.hpp"
+#include "geometry/spatial/hilbert_curve.hpp"
 #include "geometry/spatial/median_order.hpp"
 
 #include <algorithm>
@@ -45,12 +46,7 @@ void FaceTree::set_dense_frame(const Surface& surface, const Box& all, const std
     for (std::size_t axis = 0; axis < 3; ++axis) reach = std::max({reach, -low[axis], high[axis]});
 }
 
-FaceTree::FaceTree(const Surface& surface, Use use) {
-    const std::vector<Index> kept = finite_triangles(surface);
-    if (kept.empty()) return;
-    const Box all = surface.bounds();
-    set_frame(all);
-    if (use == Use::near) set_dense_frame(surface, all, kept);
+std::vector<Index> FaceTree::in_median_order(const Surface& surface, const std::vector<Index>& kept) const {
     std::vector<CentredItem> order;
     resize_large(order, kept.size());
     parallel_for(order.size(), [&](std::size_t i) {
@@ -59,12 +55,37 @@ FaceTree::FaceTree(const Surface& surface, Use use) {
         order[i] = {{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, t};
     });
     sort_in_median_order(order);
+    std::vector<Index> out;
+    resize_large(out, order.size());
+    parallel_for(out.size(), [&](std::size_t i) { out[i] = order[i].item; });
+    return out;
+}
+
+std::vector<Index> FaceTree::along_curve(const Surface& surface, const std::vector<Index>& kept) const {
+    const auto centre = [&](std::size_t i) {
+        const Index t = kept[i];
+        return (local(surface.point(t, 0)) + local(surface.point(t, 1)) + local(surface.point(t, 2))) / 3;
+    };
+    std::vector<Index> order = order_along_curve(kept.size(), {{-1, -1, -1}, {1, 1, 1}}, centre);
+    parallel_for(order.size(), [&](std::size_t i) { order[i] = kept[order[i]]; });
+    return order;
+}
+
+FaceTree::FaceTree(const Surface& surface, Use use) {
+    const std::vector<Index> kept = finite_triangles(surface);
+    if (kept.empty()) return;
+    const Box all = surface.bounds();
+    set_frame(all);
+    const bool is_near = use == Use::near || use == Use::few;
+    if (is_near) set_dense_frame(surface, all, kept);
+    const std::vector<Index> order =
+        use == Use::few ? along_curve(surface, kept) : in_median_order(surface, kept);
     resize_large(triangles, kept.size());
     resize_large(faces, kept.size());
-    if (use == Use::near) resize_large(sources, kept.size());
+    if (is_near) resize_large(sources, kept.size());
     parallel_for(kept.size(), [&](std::size_t i) {
-        const Index t = order[i].item;
-        if (use == Use::near) sources[i] = t;
+        const Index t = order[i];
+        if (is_near) sources[i] = t;
         triangles[i] = {surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)};
         faces[i] = surface.face(t);
     });

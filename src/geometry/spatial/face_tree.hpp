@@ -16,7 +16,9 @@ struct FaceTree : BoxLevels {
     enum class Use {
         all,
         rays, ///< rays alone: made faster, and knows no distances
-        near  ///< closest points alone, most of them near the surface: made faster; see flatten
+        near, ///< closest points alone, most of them near the surface: made faster; see flatten
+        few   ///< likewise, of fewer points than the surface has triangles: made twice as fast, each point
+              ///< slower
     };
     /// Four boxes turned to the mean normal of what they hold, in the tree's frame: the points centre + sum
     /// of axis[i] * x[i] with |x[i]| <= half[i]. Empty slots have half = -infinity.
@@ -57,6 +59,9 @@ struct FaceTree : BoxLevels {
 
   private:
     void set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept);
+    /// The triangles that were kept, in the order of the tree.
+    std::vector<Index> in_median_order(const Surface& surface, const std::vector<Index>& kept) const;
+    std::vector<Index> along_curve(const Surface& surface, const std::vector<Index>& kept) const;
 };
 
 } // namespace facetmill

@@ -33,7 +33,7 @@ TEST_CASE("signed distances are positive outside and negative inside", "[geometr
     const auto inside = signed_deviation(scene_with(smaller), sphere);
     CHECK(inside.low < -0.48);
     CHECK(inside.high == 0);
-    CHECK(inside.samples.size() == 20000);
+    CHECK(inside.samples.size() == 10000);
     const Attribute* distance = inside.scene.parts[0].mesh.find(distance_attribute, Domain::vertex);
     REQUIRE(distance);
     CHECK(distance->value(0, 0) < -0.4);

@@ -338,8 +338,11 @@ TEST_CASE("folds are darker than planes", "[geometry]") {
         s.occlusion = occlusion;
         return at(picture_of(scene_of(corner), s), 100, y).r;
     };
-    for (const int y : {47, 53}) CHECK(red_at(true, y) < red_at(false, y) - 5);  // at the fold
-    for (const int y : {25, 75}) CHECK(red_at(true, y) >= red_at(false, y) - 1); // far from it
+    for (const bool coarse : {false, true}) {
+        s.coarse_occlusion = coarse;
+        for (const int y : {47, 53}) CHECK(red_at(true, y) < red_at(false, y) - 5);  // at the fold
+        for (const int y : {25, 75}) CHECK(red_at(true, y) >= red_at(false, y) - 1); // far from it
+    }
     // A plane hides nothing of itself, however it stands.
     PictureSettings steep = seen_from({0.2, 3, 1});
     const Picture with = picture_of(square(), steep);

@@ -14,13 +14,14 @@ using namespace facetmill;
 
 namespace {
 
-/// The trees that know distances: of all uses, for near points, and that with what far points need.
+/// The trees that know distances: of all uses, for near points, that with what far points need, and for few.
 std::vector<FaceTree> trees_of(const Surface& surface) {
     std::vector<FaceTree> trees;
     trees.emplace_back(surface);
     trees.emplace_back(surface, FaceTree::Use::near);
     trees.emplace_back(surface, FaceTree::Use::near);
     trees.back().flatten();
+    trees.emplace_back(surface, FaceTree::Use::few);
     return trees;
 }
 
