@@ -7,7 +7,7 @@ millionths of the diagonal (`facetmill diff`); `picture` is the root mean square
 Seconds are processor time, with all processes of a tool. Ratios are geometric means over the assets that both made.
 
 npm install gltfpack @gltf-transform/cli gltf-pipeline gltf-validator     gives the peers; --npm names the folder of
-node_modules. A gltfpack in the PATH is preferred. Pictures need Pillow and numpy (--python)."""
+node_modules. A gltfpack in the PATH is taken where npm's is missing. Pictures need Pillow and numpy (--python)."""
 
 import argparse
 import json
@@ -40,8 +40,8 @@ require(modules + '/gltf-validator').validateBytes(new Uint8Array(fs.readFileSyn
 def tools(facetmill, npm):
     """By group and name: the command that makes OUT of IN; the peers that are there."""
     def where(name):
-        found = shutil.which(name) if name == "gltfpack" else None
-        return found or shutil.which(name, path=str(npm / "node_modules/.bin") if npm else None)
+        found = shutil.which(name, path=str(npm / "node_modules/.bin")) if npm else None
+        return found or (shutil.which(name) if name == "gltfpack" else None)
     own = [str(facetmill), "pipe", "-q", "load", "IN", "!"]
     # What the pipeline web does with images=keep: their pixels stay.
     optimize = ["clean", "--weld", "exact", "--non_manifold", "false", "!",
