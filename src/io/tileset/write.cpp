@@ -1,6 +1,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/pyramid/pyramid.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/textures.hpp"
@@ -39,7 +40,7 @@ AttributeChanges drop_morph_targets(Mesh& mesh) {
 Mesh as_one(const Scene& scene, Written& written) {
     Mesh all;
     for (const Part& part : scene.parts) {
-        Mesh mesh = part.mesh.all_triangles() ? part.mesh : triangulated(part.mesh);
+        Mesh mesh = part.mesh.all_triangles() ? part.mesh : triangles_of(part.mesh);
         for (auto& changes : {drop_skin(mesh, "tiles have no skins"), drop_morph_targets(mesh)})
             written.changes.insert(written.changes.end(), changes.begin(), changes.end());
         apply(mesh, part.transform);

@@ -189,6 +189,17 @@ TEST_CASE("a tileset holds a mesh at one place far away, and says what float32 c
     CHECK(failure([&] { written(scene); }).find("E-RANGE") != std::string::npos);
 }
 
+TEST_CASE("faces that cross themselves are filled in tiles as in other files", "[io][tileset]") {
+    Scene scene = ball();
+    Mesh& mesh = scene.parts[0].mesh;
+    mesh = {};
+    mesh.positions = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.corners = {0, 1, 2, 3};
+    mesh.face_offsets = {0, 4};
+    const OnDisk disk(written(scene));
+    CHECK(inspect(disk.read().parts[0].mesh).area == 0.5);
+}
+
 TEST_CASE("the frame of a tileset keeps vertices apart, unless the bits are given", "[io][tileset]") {
     io::WriteSettings settings;
     settings.draco.on = true;
