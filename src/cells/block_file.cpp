@@ -1,5 +1,6 @@
 #include "cells/block_file.hpp"
 
+#include "cells/stream.hpp"
 #include "io/output_files.hpp"
 
 #include <algorithm>
@@ -114,15 +115,9 @@ Block BlockFile::put(io::Span bytes) {
 }
 
 void BlockFile::get(const Block& block, std::byte* to) const {
-    std::size_t done = 0;
-    while (done < block.size) {
-        const ssize_t n =
-            ::pread(file_, to + done, block.size - done, static_cast<off_t>(block.offset + done));
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        done += static_cast<std::size_t>(n);
-    }
-    if (done < block.size || digest_of({to, block.size}) != block.digest) unreadable_scratch(folder_);
+    if (read_at(file_, block.offset, {to, block.size}) < block.size ||
+        digest_of({to, block.size}) != block.digest)
+        unreadable_scratch(folder_);
 }
 
 io::Bytes BlockFile::get(const Block& block) const {

@@ -6,6 +6,7 @@
 #include "cells/ply_rows.hpp"
 #include "cells/rows.hpp"
 #include "cells/stl_source.hpp"
+#include "io/encoding.hpp"
 #include "io/output_files.hpp"
 #include "io/packing.hpp"
 #include "io/text.hpp"
@@ -38,9 +39,7 @@ bool is_packed(const std::filesystem::path& path) {
 
 /// As io::read_scene takes it: by content where it is sure, else by the suffix.
 Format format_of(const io::Input& input) {
-    const io::Codec* codec = nullptr;
-    for (const io::Codec& other : io::codecs())
-        if (other.sniff && other.sniff(input.bytes()) == 2) codec = &other;
+    const io::Codec* codec = io::sure_codec(input);
     if (!codec) codec = io::codec_for(input.path());
     if (is_gltf(input)) return Format::gltf;
     constexpr std::pair<const char*, Format> known[] = {
@@ -48,14 +47,6 @@ Format format_of(const io::Input& input) {
     for (const auto& [name, format] : known)
         if (codec && codec->name == name) return format;
     return Format::none;
-}
-
-/// Text that begins so is decoded first, which needs it in memory.
-bool has_other_encoding(const io::Input& input) {
-    const std::string_view text =
-        io::as_text(input.bytes().first(std::min<std::size_t>(3, input.bytes().size())));
-    return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.starts_with("\xef\xbb\xbf") ||
-           (text.size() > 1 && (text[0] == 0) != (text[1] == 0));
 }
 
 std::optional<std::string> why_not(const io::Input& input, Format format) {
@@ -69,7 +60,7 @@ std::optional<std::string> why_not(const io::Input& input, Format format) {
         [[fallthrough]];
     case Format::obj:
     case Format::off:
-        if (has_other_encoding(input)) return "its text is not plain UTF-8";
+        if (!io::is_plain_utf8(input)) return "its text is not plain UTF-8";
         return format == Format::off ? why_off_not_streamed(input) : std::nullopt;
     case Format::none:
         break;

@@ -25,32 +25,6 @@ std::vector<T>& values_of(Mesh& mesh, const char* name, Domain domain) {
     return std::get<std::vector<T>>(mesh.find(name, domain)->data);
 }
 
-/// Sets of faces that hang together, numbered as they are met.
-class Sets {
-  public:
-    std::uint32_t add() {
-        parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-        return parent_.back();
-    }
-    std::uint32_t find(std::uint32_t set) {
-        while (parent_[set] != set) set = parent_[set] = parent_[parent_[set]];
-        return set;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    std::size_t count() {
-        std::size_t roots = 0;
-        for (std::uint32_t set = 0; set < parent_.size(); ++set) roots += find(set) == set;
-        return roots;
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
-
 class CellInspection {
   public:
     CellInspection(const Partition& partition, const Transform& transform, const Means& means)
@@ -209,7 +183,7 @@ class CellInspection {
     Vec3 middle_;
     Properties found_;
     Connectivity sums_;
-    Sets sets_;
+    DisjointSets sets_; ///< of faces that hang together, numbered as they are met
     std::int64_t inside_sets_ = 0;
     double volume_ = 0; ///< six times
 };

@@ -12,6 +12,18 @@
 
 namespace facetmill::cells {
 
+std::size_t read_at(int file, std::uint64_t offset, std::span<std::byte> to) {
+    std::size_t done = 0;
+    while (done < to.size()) {
+        const ssize_t n =
+            ::pread(file, to.data() + done, to.size() - done, static_cast<off_t>(offset + done));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) break;
+        done += static_cast<std::size_t>(n);
+    }
+    return done;
+}
+
 ReadFile::ReadFile(const std::filesystem::path& path) : path_(path) {
     file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file_ < 0)
@@ -22,17 +34,12 @@ ReadFile::ReadFile(const std::filesystem::path& path) : path_(path) {
 ReadFile::~ReadFile() { ::close(file_); }
 
 void ReadFile::read(std::uint64_t offset, std::span<std::byte> to) const {
-    while (!to.empty()) {
-        const ssize_t n = ::pread(file_, to.data(), to.size(), static_cast<off_t>(offset));
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0 && temporary_) unreadable_scratch(path_);
-        if (n <= 0)
-            io::malformed(path_.string(), 0, "E-CHANGED",
-                          fmt::format("byte {} cannot be read any more", offset),
-                          "run it again while no other program writes to the file");
-        to = to.subspan(static_cast<std::size_t>(n));
-        offset += static_cast<std::uint64_t>(n);
-    }
+    const std::size_t done = read_at(file_, offset, to);
+    if (done == to.size()) return;
+    if (temporary_) unreadable_scratch(path_);
+    io::malformed(path_.string(), 0, "E-CHANGED",
+                  fmt::format("byte {} cannot be read any more", offset + done),
+                  "run it again while no other program writes to the file");
 }
 
 Stream::Stream(const ReadFile& file, std::uint64_t begin, std::uint64_t end, Sha256* sum)

@@ -6,6 +6,10 @@
 
 namespace facetmill::cells {
 
+/// Reads a file from that byte on; returns how many bytes there were, fewer than asked for at its end or
+/// where it cannot be read.
+std::size_t read_at(int file, std::uint64_t offset, std::span<std::byte> to);
+
 /// A file that is open for reading.
 class ReadFile {
   public:

@@ -33,14 +33,7 @@ std::vector<std::string> names_where(Condition&& condition) {
 /// The codec that the content asks for; else the one that the name asks for.
 const Codec& choose(const Input& input, ReadLog& log) {
     const Codec* by_name = codec_for(input.name());
-    const Codec* perhaps = nullptr;
-    const Codec* surely = nullptr;
-    for (const auto& codec : codecs()) {
-        const int score = codec.sniff ? codec.sniff(input.bytes()) : 0;
-        if (score == 2 && (!surely || &codec == by_name)) surely = &codec;
-        if (score == 1 && !perhaps) perhaps = &codec;
-    }
-    if (surely) {
+    if (const Codec* surely = sure_codec(input)) {
         if (by_name && by_name != surely)
             log.warnings.push_back(
                 {Severity::warning, "W-FORMAT",
@@ -50,18 +43,15 @@ const Codec& choose(const Input& input, ReadLog& log) {
         return *surely;
     }
     if (by_name) return *by_name;
-    if (perhaps) return *perhaps;
+    for (const auto& codec : codecs())
+        if (codec.sniff && codec.sniff(input.bytes()) == 1) return codec;
     throw Error(ErrorKind::usage, "E-FORMAT",
                 fmt::format("the format of '{}' is not recognised", input.name()),
                 fmt::format("give 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
 }
 
 /// The input as its codec reads it: text in UTF-8, and what is surely of some format as it is.
-Input readable(const Input& input) {
-    for (const auto& codec : codecs())
-        if (codec.sniff && codec.sniff(input.bytes()) == 2) return input;
-    return in_utf8(input);
-}
+Input readable(const Input& input) { return sure_codec(input) ? input : in_utf8(input); }
 
 /// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
 const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
@@ -143,6 +133,14 @@ const Codec* codec_for(const std::filesystem::path& path) {
                 return &codec;
         }
     return nullptr;
+}
+
+const Codec* sure_codec(const Input& input) {
+    const Codec* by_name = codec_for(input.name());
+    const Codec* sure = nullptr;
+    for (const auto& codec : codecs())
+        if (codec.sniff && codec.sniff(input.bytes()) == 2 && (!sure || &codec == by_name)) sure = &codec;
+    return sure;
 }
 
 const Codec* codec_named(std::string_view name) {

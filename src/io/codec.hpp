@@ -255,6 +255,8 @@ struct RegisterCodec {
 const std::vector<Codec>& codecs();
 /// The codec for a file name's extension (.gz and .zst ignored), or null.
 const Codec* codec_for(const std::filesystem::path& path);
+/// The codec whose magic number the input begins with; of several, the one that its name asks for. Or null.
+const Codec* sure_codec(const Input& input);
 const Codec* codec_named(std::string_view name);
 /// The names of all codecs that read, or that write, sorted.
 std::vector<std::string> names_of_readers();

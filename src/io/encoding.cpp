@@ -12,6 +12,8 @@ namespace {
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF", little_mark = "\xFF\xFE", big_mark = "\xFE\xFF";
 constexpr std::string_view little_utf32{"\xFF\xFE\0\0", 4}, big_utf32{"\0\0\xFE\xFF", 4};
 
+enum class Encoding { utf8, marked_utf8, utf16_little, utf16_big, utf32 };
+
 [[noreturn]] void cannot_decode(const Input& input, const std::string& message) {
     throw Error(ErrorKind::malformed, "E-ENCODING", fmt::format("'{}' {}", input.name(), message),
                 "save it as UTF-8");
@@ -26,6 +28,14 @@ bool alternates(std::string_view text, std::size_t character) {
     for (std::size_t i = 0; i < 2 * pairs; i += 2)
         if (!is_plain(text[i + character]) || text[i + 1 - character] != '\0') return false;
     return true;
+}
+
+Encoding encoding_of(std::string_view text) {
+    if (text.starts_with(utf8_mark)) return Encoding::marked_utf8;
+    if (text.starts_with(little_utf32) || text.starts_with(big_utf32)) return Encoding::utf32;
+    if (text.starts_with(little_mark) || alternates(text, 0)) return Encoding::utf16_little;
+    if (text.starts_with(big_mark) || alternates(text, 1)) return Encoding::utf16_big;
+    return Encoding::utf8;
 }
 
 void append_utf8(Bytes& out, std::uint32_t code) {
@@ -48,9 +58,10 @@ void append_utf8(Bytes& out, std::uint32_t code) {
     }
 }
 
-/// The bytes from `at` on, which are UTF-16 in that byte order.
-Bytes from_utf16(const Input& input, std::size_t at, bool big) {
+/// The bytes behind a mark, if there is one, which are UTF-16 in that byte order.
+Bytes from_utf16(const Input& input, bool big) {
     const Span bytes = input.bytes();
+    std::size_t at = as_text(bytes).starts_with(big ? big_mark : little_mark) ? 2 : 0;
     const auto unit = [&](std::size_t i) {
         const auto high = std::to_integer<std::uint32_t>(bytes[i + (big ? 0 : 1)]);
         return high << 8 | std::to_integer<std::uint32_t>(bytes[i + (big ? 1 : 0)]);
@@ -77,15 +88,20 @@ Bytes from_utf16(const Input& input, std::size_t at, bool big) {
 } // namespace
 
 Input in_utf8(const Input& input) {
-    const std::string_view text = as_text(input.bytes());
-    if (text.starts_with(utf8_mark)) return input.from(utf8_mark.size());
-    if (text.starts_with(little_utf32) || text.starts_with(big_utf32))
+    switch (const Encoding encoding = encoding_of(as_text(input.bytes()))) {
+    case Encoding::utf8:
+        break;
+    case Encoding::marked_utf8:
+        return input.from(utf8_mark.size());
+    case Encoding::utf16_little:
+    case Encoding::utf16_big:
+        return input.with(from_utf16(input, encoding == Encoding::utf16_big));
+    case Encoding::utf32:
         cannot_decode(input, "is UTF-32, which is not read");
-    if (text.starts_with(little_mark) || text.starts_with(big_mark))
-        return input.with(from_utf16(input, 2, text.starts_with(big_mark)));
-    for (const bool big : {false, true})
-        if (alternates(text, big ? 1 : 0)) return input.with(from_utf16(input, 0, big));
+    }
     return input;
 }
+
+bool is_plain_utf8(const Input& input) { return encoding_of(as_text(input.bytes())) == Encoding::utf8; }
 
 } // namespace facetmill::io

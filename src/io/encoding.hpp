@@ -11,4 +11,7 @@ namespace facetmill::io {
 /// halves of surrogate pairs.
 Input in_utf8(const Input& input);
 
+/// Whether in_utf8 gives the input as it is. Only its beginning is looked at.
+bool is_plain_utf8(const Input& input);
+
 } // namespace facetmill::io

@@ -206,6 +206,11 @@ DisjointSets::DisjointSets(std::size_t n) : parent_(n) {
     parallel_for(n, [&](std::size_t i) { parent_[i] = static_cast<Index>(i); });
 }
 
+Index DisjointSets::add() {
+    parent_.push_back(static_cast<Index>(parent_.size()));
+    return parent_.back();
+}
+
 Index DisjointSets::find(Index i) {
     for (;;) {
         const Index p = load(parent_[i]), above = load(parent_[p]);
@@ -226,6 +231,12 @@ void DisjointSets::join(Index a, Index b) {
         if (std::atomic_ref(parent_[b]).compare_exchange_strong(expected, a, std::memory_order_relaxed))
             return;
     }
+}
+
+std::size_t DisjointSets::count() {
+    std::size_t roots = 0;
+    for (Index i = 0; i < parent_.size(); ++i) roots += find(i) == i;
+    return roots;
 }
 
 namespace {

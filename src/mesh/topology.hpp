@@ -71,10 +71,14 @@ std::size_t component_count(const Mesh& mesh);
 /// a finished set is its lowest member, whatever the order of the joins.
 class DisjointSets {
   public:
-    explicit DisjointSets(std::size_t n);
+    explicit DisjointSets(std::size_t n = 0);
+    /// A set of one more member, which it returns. While no other thread works on the sets.
+    Index add();
     /// The lowest member known of i's set; final once all joins are done.
     Index find(Index i);
     void join(Index a, Index b);
+    /// How many there are, once all joins are done.
+    std::size_t count();
 
   private:
     std::vector<Index> parent_;
