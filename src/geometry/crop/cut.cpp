@@ -302,6 +302,7 @@ class Cutter {
             for (; next_back < back.size() && back.source[next_back] == f; ++next_back)
                 parts.push_back(global(back.of(next_back)));
             std::vector<Bounds> boxes;
+            boxes.reserve(parts.size());
             for (const auto& wedges : parts) boxes.push_back(bounds(wedges));
             pieces_.replace(touched_[f], std::move(parts), boxes);
         }
