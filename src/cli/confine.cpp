@@ -24,6 +24,12 @@ void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folde
                   "(../textures/wood.png), not only beside or below themselves. May be repeated.");
 }
 
+io::ReadSettings read_settings(const std::vector<std::string>& asset_roots) {
+    io::ReadSettings settings;
+    settings.asset_roots.assign(asset_roots.begin(), asset_roots.end());
+    return settings;
+}
+
 void allow_input(AllowedFiles& allowed, const fs::path& input) {
     if (input == "-") return;
     std::error_code ignored;

@@ -3,6 +3,7 @@
 
 #include "base/sandbox.hpp"
 #include "cli/console.hpp"
+#include "io/codec.hpp"
 #include "pipeline/plan.hpp"
 
 namespace facetmill::cli {
@@ -18,6 +19,9 @@ void add_sandbox_option(Arguments& arguments, SandboxOptions& options);
 
 /// --asset-root, which may be repeated.
 void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders);
+
+/// How files are read where it named these folders.
+io::ReadSettings read_settings(const std::vector<std::string>& asset_roots);
 
 /// Adds an input: itself, and its folder, where its neighbours are.
 void allow_input(AllowedFiles& allowed, const std::filesystem::path& input);

@@ -54,7 +54,7 @@ Scene read(const std::string& name, bool is_a, const DiffOptions& options, repor
            const Console& console) {
     io::ReadLog log;
     const io::Input input = io::Input::open(name);
-    Scene scene = io::read_scene(input, read_settings(options), log);
+    Scene scene = io::read_scene(input, read_settings(options.asset_roots), log);
     (is_a ? notes.size_a : notes.size_b) = size_of(name, input.stored(), log);
     for (const auto& warning : log.warnings) {
         console.diagnostic(warning);
@@ -77,12 +77,6 @@ bool is_named_by_file(const Scene& scene, const std::string& file) {
 }
 
 } // namespace
-
-io::ReadSettings read_settings(const DiffOptions& options) {
-    io::ReadSettings settings;
-    settings.asset_roots.assign(options.asset_roots.begin(), options.asset_roots.end());
-    return settings;
-}
 
 ComparedFiles compared_files(const DiffOptions& options, const std::string& name_a, const std::string& name_b,
                              const CommandLine& line, const Console& console) {

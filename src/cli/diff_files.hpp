@@ -4,7 +4,6 @@
 #include "cli/command.hpp"
 #include "cli/confine.hpp"
 #include "diff/comparison.hpp"
-#include "io/codec.hpp"
 
 #include <filesystem>
 
@@ -22,9 +21,6 @@ struct DiffOptions {
     int threads = 0;
     SandboxOptions sandbox;
 };
-
-/// How both are read.
-io::ReadSettings read_settings(const DiffOptions& options);
 
 /// A pair that was read and compared, the second scene in the convention of the first.
 struct ComparedFiles {

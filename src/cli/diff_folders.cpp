@@ -85,7 +85,7 @@ class FolderDiff {
         pair.outcome = in_a ? FolderPair::Outcome::removed : FolderPair::Outcome::added;
         pair.exit_code = static_cast<int>(ErrorKind::check);
         pair.verdict = in_a ? "only in the first folder" : "only in the second folder";
-        tell_one_side(file, in_a, !index_.empty(), read_settings(options_), pair);
+        tell_one_side(file, in_a, !index_.empty(), read_settings(options_.asset_roots), pair);
     }
 
     const DiffOptions& options_;

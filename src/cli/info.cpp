@@ -185,19 +185,13 @@ Picture info_picture(const Scene& scene, const Console& console) {
     return picture_of(posed ? *posed : scene, settings);
 }
 
-io::ReadSettings read_settings(const InfoOptions& options) {
-    io::ReadSettings settings;
-    settings.asset_roots.assign(options.asset_roots.begin(), options.asset_roots.end());
-    return settings;
-}
-
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
                  std::vector<Picture>& pictures) {
     ShareOfSteps steps({3, options.picture.empty() ? 0.0 : 6.0, options.self_intersections ? 24.0 : 6.0, 2});
     const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
     io::ReadLog log;
     FileInfo info;
-    info.scene = io::read_scene(io::Input::open(mesh), read_settings(options), log, codec);
+    info.scene = io::read_scene(io::Input::open(mesh), read_settings(options.asset_roots), log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
     steps.next();
     if (!options.picture.empty()) pictures.push_back(info_picture(info.scene, console));
