@@ -71,6 +71,13 @@ void normalise_offsets(Mesh& mesh) {
     mesh.face_offsets = {};
 }
 
+void normalise_wedges(Mesh& mesh) {
+    if (mesh.wedge_vertex.size() != mesh.positions.size()) return;
+    for (std::size_t w = 0; w < mesh.wedge_vertex.size(); ++w)
+        if (mesh.wedge_vertex[w] != w) return;
+    mesh.wedge_vertex = {};
+}
+
 namespace {
 
 /// The transpose of the inverse of t's linear part, up to a positive factor: what normals are multiplied by.

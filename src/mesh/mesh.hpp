@@ -96,6 +96,9 @@ void add_face(Mesh& mesh, std::span<const Index> wedges);
 /// Removes face_offsets when all faces are triangles (the canonical form of an all-triangle mesh).
 void normalise_offsets(Mesh& mesh);
 
+/// Removes wedge_vertex when every wedge is its vertex (the canonical form of a mesh without seams).
+void normalise_wedges(Mesh& mesh);
+
 /// Drops vertices and wedges that no face uses. Attributes follow.
 void drop_unused(Mesh& mesh);
 

@@ -48,14 +48,6 @@ void renumber(std::vector<Index>& indices, const std::vector<Index>& renumbered)
     parallel_for(indices.size(), [&](std::size_t i) { indices[i] = renumbered[indices[i]]; });
 }
 
-/// Forgets wedge_vertex when every wedge is its vertex.
-void normalise_wedges(Mesh& mesh) {
-    if (mesh.wedge_vertex.size() != mesh.positions.size()) return;
-    for (std::size_t w = 0; w < mesh.wedge_vertex.size(); ++w)
-        if (mesh.wedge_vertex[w] != w) return;
-    mesh.wedge_vertex = {};
-}
-
 /// 1 for each of n elements that the indices name.
 std::vector<Index> used(std::size_t n, const std::vector<Index>& indices) {
     std::vector<Index> flags(n, 0);

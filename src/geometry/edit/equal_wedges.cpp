@@ -1,60 +1,103 @@
 #include "geometry/edit/equal_wedges.hpp"
 
+#include "base/parallel.hpp"
+
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
 namespace facetmill {
 
 namespace {
 
-/// Compares the attributes of wedges.
+/// Compares wedges by the bits of all their attributes, then by index.
 class WedgeOrder {
   public:
-    explicit WedgeOrder(const Mesh& mesh) : vertex_(mesh.wedge_vertex) {
-        for (const Attribute& a : mesh.attributes)
+    explicit WedgeOrder(const Mesh& mesh) {
+        for (const auto& a : mesh.attributes)
             if (a.domain == Domain::wedge)
                 std::visit(
-                    [&](const auto& numbers) {
-                        columns_.push_back({reinterpret_cast<const char*>(numbers.data()),
-                                            sizeof(numbers[0]) * static_cast<std::size_t>(a.components)});
+                    [&](const auto& v) {
+                        columns_.push_back({reinterpret_cast<const std::byte*>(v.data()),
+                                            static_cast<std::size_t>(a.components) * sizeof(v[0])});
                     },
                     a.data);
     }
     int compare(Index a, Index b) const {
-        if (vertex_[a] != vertex_[b]) return vertex_[a] < vertex_[b] ? -1 : 1;
-        for (const auto& [bytes, stride] : columns_)
-            if (const int order = std::memcmp(bytes + a * stride, bytes + b * stride, stride)) return order;
+        for (const auto& c : columns_)
+            if (const int order = std::memcmp(c.data + a * c.width, c.data + b * c.width, c.width))
+                return order;
         return 0;
+    }
+    bool operator()(Index a, Index b) const {
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : a < b;
     }
 
   private:
-    const std::vector<Index>& vertex_;
-    std::vector<std::pair<const char*, std::size_t>> columns_;
+    struct Column {
+        const std::byte* data;
+        std::size_t width;
+    };
+    std::vector<Column> columns_;
 };
+
+/// The wedges of each vertex, ascending.
+struct Groups {
+    std::vector<Index> offsets, wedges;
+};
+Groups wedges_of_vertices(const Mesh& mesh) {
+    Groups g;
+    g.offsets.assign(mesh.vertex_count() + 1, 0);
+    for (const Index v : mesh.wedge_vertex) ++g.offsets[v];
+    exclusive_scan(g.offsets);
+    g.wedges.resize(mesh.wedge_count());
+    auto next = g.offsets;
+    for (Index w = 0; w < mesh.wedge_count(); ++w) g.wedges[next[mesh.wedge_vertex[w]]++] = w;
+    return g;
+}
+
+/// Keeps the wedges that stand for themselves, in order; attributes follow.
+void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) {
+    std::vector<Index> kept, number(representative.size());
+    for (Index w = 0; w < representative.size(); ++w)
+        if (representative[w] == w) {
+            number[w] = static_cast<Index>(kept.size());
+            kept.push_back(w);
+        }
+    if (kept.size() == representative.size()) return;
+    parallel_for(mesh.corners.size(),
+                 [&](std::size_t c) { mesh.corners[c] = number[representative[mesh.corners[c]]]; });
+    for (auto& a : mesh.attributes)
+        if (a.domain == Domain::wedge) a.select(kept);
+    std::vector<Index> vertices(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) vertices[i] = mesh.wedge_vertex[kept[i]];
+    mesh.wedge_vertex = std::move(vertices);
+}
 
 } // namespace
 
 std::size_t merge_equal_wedges(Mesh& mesh) {
     if (!mesh.has_seams()) return 0;
     const std::size_t before = mesh.wedge_count();
+    const Groups groups = wedges_of_vertices(mesh);
     const WedgeOrder order(mesh);
-    std::vector<Index> sorted(mesh.wedge_vertex.size());
-    std::iota(sorted.begin(), sorted.end(), Index{0});
-    std::sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
-        const int c = order.compare(a, b);
-        return c != 0 ? c < 0 : a < b;
+    std::vector<Index> representative(mesh.wedge_count());
+    parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Index> sorted;
+        for (std::size_t v = begin; v < end; ++v) {
+            sorted.assign(groups.wedges.begin() + groups.offsets[v],
+                          groups.wedges.begin() + groups.offsets[v + 1]);
+            std::sort(sorted.begin(), sorted.end(), order);
+            for (std::size_t i = 0; i < sorted.size(); ++i)
+                representative[sorted[i]] = i > 0 && order.compare(sorted[i - 1], sorted[i]) == 0
+                                                ? representative[sorted[i - 1]]
+                                                : sorted[i];
+        }
     });
-    std::vector<Index> instead(sorted.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-        instead[sorted[i]] =
-            i > 0 && order.compare(sorted[i - 1], sorted[i]) == 0 ? instead[sorted[i - 1]] : sorted[i];
-    bool equal = false;
-    for (Index w = 0; w < instead.size(); ++w) equal = equal || instead[w] != w;
-    if (!equal) return 0;
-    for (Index& w : mesh.corners) w = instead[w];
-    drop_unused(mesh);
-    return before - mesh.wedge_count();
+    keep_representatives(mesh, representative);
+    const std::size_t merged = before - mesh.wedge_count();
+    normalise_wedges(mesh);
+    return merged;
 }
 
 } // namespace facetmill

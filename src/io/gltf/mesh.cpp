@@ -2,12 +2,12 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "geometry/edit/equal_wedges.hpp"
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/features.hpp"
 #include "io/gltf/lines.hpp"
 #include "io/gltf/nodes.hpp"
 
-#include <cstring>
 #include <fmt/format.h>
 
 namespace facetmill::io::gltf {
@@ -376,79 +376,6 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
 
 namespace {
 
-/// Compares wedges by the bits of all their attributes, then by index.
-class WedgeOrder {
-  public:
-    explicit WedgeOrder(const Mesh& mesh) {
-        for (const auto& a : mesh.attributes)
-            if (a.domain == Domain::wedge)
-                std::visit(
-                    [&](const auto& v) {
-                        columns_.push_back({reinterpret_cast<const std::byte*>(v.data()),
-                                            static_cast<std::size_t>(a.components) * sizeof(v[0])});
-                    },
-                    a.data);
-    }
-    int compare(Index a, Index b) const {
-        for (const auto& c : columns_)
-            if (const int order = std::memcmp(c.data + a * c.width, c.data + b * c.width, c.width))
-                return order;
-        return 0;
-    }
-    bool operator()(Index a, Index b) const {
-        const int order = compare(a, b);
-        return order != 0 ? order < 0 : a < b;
-    }
-
-  private:
-    struct Column {
-        const std::byte* data;
-        std::size_t width;
-    };
-    std::vector<Column> columns_;
-};
-
-/// The wedges of each vertex, ascending.
-struct Groups {
-    std::vector<Index> offsets, wedges;
-};
-Groups wedges_of_vertices(const Mesh& mesh) {
-    Groups g;
-    g.offsets.assign(mesh.vertex_count() + 1, 0);
-    for (const Index v : mesh.wedge_vertex) ++g.offsets[v];
-    exclusive_scan(g.offsets);
-    g.wedges.resize(mesh.wedge_count());
-    auto next = g.offsets;
-    for (Index w = 0; w < mesh.wedge_count(); ++w) g.wedges[next[mesh.wedge_vertex[w]]++] = w;
-    return g;
-}
-
-/// Keeps the wedges that stand for themselves, in order; attributes follow.
-void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) {
-    std::vector<Index> kept, number(representative.size());
-    for (Index w = 0; w < representative.size(); ++w)
-        if (representative[w] == w) {
-            number[w] = static_cast<Index>(kept.size());
-            kept.push_back(w);
-        }
-    if (kept.size() == representative.size()) return;
-    parallel_for(mesh.corners.size(),
-                 [&](std::size_t c) { mesh.corners[c] = number[representative[mesh.corners[c]]]; });
-    for (auto& a : mesh.attributes)
-        if (a.domain == Domain::wedge) a.select(kept);
-    std::vector<Index> vertices(kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) vertices[i] = mesh.wedge_vertex[kept[i]];
-    mesh.wedge_vertex = std::move(vertices);
-}
-
-/// When wedge w is vertex w everywhere, the map is not stored.
-void drop_identity(Mesh& mesh) {
-    if (mesh.wedge_vertex.size() != mesh.positions.size()) return;
-    for (Index w = 0; w < mesh.wedge_vertex.size(); ++w)
-        if (mesh.wedge_vertex[w] != w) return;
-    mesh.wedge_vertex.clear();
-}
-
 /// Corner c of the mesh is at the returned vertex, a wedge's number; empty when the extension does not say.
 std::vector<Index> told_vertices(Source& source, const Place& extension, const Mesh& mesh) {
     const Place primitive = extension.at("manifoldPrimitive");
@@ -458,27 +385,6 @@ std::vector<Index> told_vertices(Source& source, const Place& extension, const M
 }
 
 } // namespace
-
-void merge_equal_wedges(Mesh& mesh) {
-    if (mesh.wedge_vertex.empty()) return;
-    const Groups groups = wedges_of_vertices(mesh);
-    const WedgeOrder order(mesh);
-    std::vector<Index> representative(mesh.wedge_count());
-    parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
-        std::vector<Index> sorted;
-        for (std::size_t v = begin; v < end; ++v) {
-            sorted.assign(groups.wedges.begin() + groups.offsets[v],
-                          groups.wedges.begin() + groups.offsets[v + 1]);
-            std::sort(sorted.begin(), sorted.end(), order);
-            for (std::size_t i = 0; i < sorted.size(); ++i)
-                representative[sorted[i]] = i > 0 && order.compare(sorted[i - 1], sorted[i]) == 0
-                                                ? representative[sorted[i - 1]]
-                                                : sorted[i];
-        }
-    });
-    keep_representatives(mesh, representative);
-    drop_identity(mesh);
-}
 
 bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vector<ReadWarning>& warnings) {
     const auto extensions = mesh_place.find("extensions");
@@ -517,7 +423,7 @@ bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vec
         mesh.wedge_vertex[w] = number[v];
     }
     mesh.positions = std::move(positions);
-    drop_identity(mesh);
+    normalise_wedges(mesh);
     return true;
 }
 

@@ -23,10 +23,6 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
 /// The role that a glTF attribute name has.
 Role role_of(std::string_view semantic);
 
-/// Makes wedges of one vertex with bit-equal attributes one wedge: unindexed glTF repeats them, and they
-/// would look like seams.
-void merge_equal_wedges(Mesh& mesh);
-
 /// Applies EXT_mesh_manifold's merges to a mesh whose wedges are vertices; false when there are none, or they
 /// contradict the mesh (then a warning is added and nothing changed).
 bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vector<ReadWarning>& warnings);

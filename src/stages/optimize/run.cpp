@@ -166,7 +166,9 @@ class Optimizing {
             Part& part = scene_.parts[i];
             const auto numbers = [](const Primitive& p) { return !p.json.empty(); };
             if (std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(), numbers)) continue;
-            const std::size_t merged = merge_equal_wedges(part.mesh);
+            const std::size_t before = part.mesh.wedge_count();
+            if (merge_equal_wedges(part.mesh) > 0) drop_unused(part.mesh);
+            const std::size_t merged = before - part.mesh.wedge_count();
             part.changed |= merged > 0;
             report_.equal_vertices += merged;
         }
