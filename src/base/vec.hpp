@@ -2,6 +2,7 @@
 // Three doubles and the few operations on them that every algorithm needs. All use + - x / sqrt only, so
 // results do not depend on the processor (see base/portable_math.hpp for the transcendental ones).
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -79,6 +80,11 @@ struct Box {
     }
     Vec3 centre() const { return (min + max) * 0.5; }
     Vec3 extent() const { return empty() ? Vec3{} : max - min; }
+    /// Along the axes; 0 when empty.
+    double longest_side() const {
+        const Vec3 e = extent();
+        return std::max({e.x, e.y, e.z});
+    }
     /// The length of the space diagonal; 0 when empty.
     double diagonal() const { return length(extent()); }
 };

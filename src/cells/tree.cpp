@@ -35,7 +35,7 @@ std::uint8_t Tree::common_depth(std::uint32_t leaf, std::uint32_t other) const {
 
 Grid::Grid(const Box& bounds, std::uint32_t resolution) : origin_(bounds.min) {
     const Vec3 extent = bounds.extent();
-    const double longest = std::max({extent.x, extent.y, extent.z});
+    const double longest = bounds.longest_side();
     if (longest > 0 && std::isfinite(longest)) per_unit_ = resolution / longest;
     if (!std::isfinite(per_unit_)) per_unit_ = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)

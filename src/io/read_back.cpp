@@ -210,8 +210,7 @@ class Grid {
 double cell_of_few(const std::vector<Vec3>& points) {
     Box box;
     for (const Vec3& p : points) box.add(p);
-    const Vec3 e = box.extent();
-    const double share = 2 * std::max({e.x, e.y, e.z}) / std::sqrt(static_cast<double>(points.size()));
+    const double share = 2 * box.longest_side() / std::sqrt(static_cast<double>(points.size()));
     return std::max(share, 1e-15 * std::max(length(box.min), length(box.max)));
 }
 
@@ -294,8 +293,7 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
         if (transforms)
             back.float_step = std::max(back.float_step, float_step_at(own) * greatest_stretch(to_world));
         if (settings.grid_bits(i) > 0) {
-            const Vec3 e = own.extent();
-            const double range = std::max({e.x, e.y, e.z});
+            const double range = own.longest_side();
             const auto steps = static_cast<double>((std::int64_t{1} << settings.grid_bits(i)) - 1);
             const double step = std::max(range / steps, settings.lattice(i).step);
             back.grid_step = std::max(back.grid_step, step * std::sqrt(scale));

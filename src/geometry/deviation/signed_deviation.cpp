@@ -121,8 +121,7 @@ std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
     constexpr double along = 111;
     constexpr int bits = 8; // of each coordinate
     constexpr std::uint64_t none_of_them = std::uint64_t{1} << 3 * bits;
-    const Vec3 size = box.extent();
-    const double longest = std::max({size.x, size.y, size.z});
+    const double longest = box.longest_side();
     const double scale = longest > 0 ? along / longest : 0;
     std::vector<Cell> cells(points.size());
     parallel_for(points.size(), [&](std::size_t i) {

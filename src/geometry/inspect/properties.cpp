@@ -20,10 +20,7 @@ std::optional<double> is_outward_oriented(const Measured& m) {
     return inward_faces(m.local).empty() ? 1 : 0;
 }
 
-std::optional<double> max_extent(const Measured& m) {
-    const Vec3 e = m.world.bounds().extent();
-    return std::max({e.x, e.y, e.z});
-}
+std::optional<double> max_extent(const Measured& m) { return m.world.bounds().longest_side(); }
 
 double boundary_length(const Mesh& mesh) {
     double sum = 0;

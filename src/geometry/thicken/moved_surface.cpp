@@ -42,7 +42,7 @@ class RoomSearch {
     Room run(const Box& box) {
         const Vec3 extent = box.max - box.min;
         if (2 * depth_ >= std::min({extent.x, extent.y, extent.z})) return Room::none;
-        if (look_at({box.centre(), std::max({extent.x, extent.y, extent.z}) / 2, 0})) return Room::some;
+        if (look_at({box.centre(), box.longest_side() / 2, 0})) return Room::some;
         for (int looked = 0; !cells_.empty(); ++looked) {
             if (looked == max_cells) return Room::unknown;
             const Cell cell = cells_.top();

@@ -164,10 +164,9 @@ int Store::bits_of(std::size_t mesh) const {
 
 /// The grid whose steps are 1.
 PositionGrid whole_grid(const Box& box) {
-    const Vec3 e = box.extent();
     return {{short_near(box.min.x, 1), short_near(box.min.y, 1), short_near(box.min.z, 1)},
             1,
-            std::max({e.x, e.y, e.z}) > 255 ? 16 : 8};
+            box.longest_side() > 255 ? 16 : 8};
 }
 
 /// The lattice that the parts have which stand where the mesh does, the finest of them; else that of the box
@@ -184,8 +183,7 @@ PositionGrid Store::grid_in(std::size_t mesh, const Box& box) const {
     bool within = all && finest.step > 0;
     for (std::size_t c = 0; within && c < 3; ++c) within = box.min[c] >= finest.origin[c] - finest.step / 2;
     if (within) return {finest.origin, finest.step, 16};
-    const Vec3 e = box.extent();
-    const double range = std::max({e.x, e.y, e.z});
+    const double range = box.longest_side();
     const auto steps = static_cast<double>((1 << bits) - 1);
     const double step = range > 0 ? short_above(range / steps) : 1;
     return {
@@ -207,9 +205,7 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     }
     if (all.empty()) return {};
     const Box& box = faces.empty() ? all : faces;
-    const Vec3 e = box.extent();
-    if (patch_.settings.whole_positions && std::max({e.x, e.y, e.z}) > 65535)
-        return {}; // float32 has them, too
+    if (patch_.settings.whole_positions && box.longest_side() > 65535) return {}; // float32 has them, too
     const PositionGrid grid = patch_.settings.whole_positions ? whole_grid(box) : grid_in(mesh, box);
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
     if (const char* why = reason_for_floats(mesh)) {

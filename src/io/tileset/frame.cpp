@@ -13,11 +13,6 @@ namespace {
 /// The largest power of two that is at most x; the smallest of all where x is 0.
 double power_below(double x) { return std::ldexp(1.0, x > 0 ? std::max(std::ilogb(x), -1000) : -1000); }
 
-double longest_side(const Box& box) {
-    const Vec3 e = box.extent();
-    return std::max({e.x, e.y, e.z});
-}
-
 /// The centre in multiples of a sixteenth of the diagonal or less, and of at least `least`, a power of two;
 /// as it is where that is finer than doubles.
 Vec3 near_centre(const Box& box, double least) {
@@ -50,7 +45,7 @@ TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettin
     if (!settings.draco.on && !settings.quantize.on) return frame;
     const int bits = settings.draco.on ? settings.draco.position_bits : settings.quantize.position_bits;
     const double steps = static_cast<double>((std::int64_t{1} << bits) - 1);
-    frame.step = std::max(finest, power_below(longest_side(box) / steps));
+    frame.step = std::max(finest, power_below(box.longest_side() / steps));
     if (settings.tiles.given_bits) return frame;
     const auto places = [&](double step) {
         std::vector<Vec3> moved = positions;

@@ -159,9 +159,8 @@ class TilesetWriter {
             part.transform.m[axis][3] = turn.point(origin)[axis] + 0.0;
         }
         WriteSettings settings = settings_;
-        const Vec3 e = mesh.bounds().extent();
         const auto reach =
-            static_cast<std::uint64_t>(settings.whole_positions ? std::max({e.x, e.y, e.z}) : 0);
+            static_cast<std::uint64_t>(settings.whole_positions ? mesh.bounds().longest_side() : 0);
         if (settings.whole_positions)
             settings.part_bits = {std::max(1, static_cast<int>(std::bit_width(reach)))};
         part.mesh = std::move(mesh);

@@ -228,8 +228,7 @@ class Reached {
         }
         // Points count as on a plane within the rounding of float32: well below a millionth.
         constexpr double near = 1e-6;
-        const Vec3 e = box.extent();
-        double size = std::max({e.x, e.y, e.z});
+        double size = box.longest_side();
         for (const Vec3& p : {box.min, box.max})
             size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         for (const Plane& p : planes_) margin_.push_back(near * size * length(p.normal));

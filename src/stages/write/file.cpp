@@ -32,14 +32,10 @@ Mesh in_one(const Scene& scene) {
 /// side of the scene; at least 10 (if `bits` are not fewer), a thousandth of the part.
 std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     constexpr int fewest = 10;
-    const auto longest = [](const Box& box) {
-        const Vec3 e = box.extent();
-        return box.empty() ? 0 : std::max({e.x, e.y, e.z});
-    };
-    const double whole = longest(scene.bounds());
+    const double whole = scene.bounds().longest_side();
     std::vector<int> all;
     for (const Part& part : scene.parts) {
-        const double own = longest(part.mesh.bounds()) * greatest_stretch(part.transform);
+        const double own = part.mesh.bounds().longest_side() * greatest_stretch(part.transform);
         int enough = std::min(fewest, bits);
         const auto steps = [](int n) { return static_cast<double>((std::int64_t{1} << n) - 1); };
         while (enough < bits && own / steps(enough) > whole / steps(bits)) ++enough;

@@ -13,17 +13,12 @@ namespace facetmill::write_stage {
 
 namespace {
 
-double longest_side(const Box& box) {
-    const Vec3 e = box.extent();
-    return box.empty() ? 0 : std::max({e.x, e.y, e.z});
-}
-
 double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
 
 /// The steps of the scene: the bits' own, a little longer (1e-4 to 2e-4), so that their number stays below
 /// what the bits hold, and with five digits, so that places on the grid have few, too.
 double step_of_scene(const Scene& scene, int bits) {
-    const double step = longest_side(scene.bounds()) / steps_of(bits) * (1 + 2e-4);
+    const double step = scene.bounds().longest_side() / steps_of(bits) * (1 + 2e-4);
     return parse_real(fmt::format("{:.4e}", step)).value_or(step);
 }
 
@@ -80,10 +75,10 @@ std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
 /// The step, or a half of it, a quarter ..., that keeps the vertices apart; the step itself if none does that
 /// is not below the least one.
 double step_apart(const Part& part, const Box& box, double step, double least, bool in_world) {
-    if (!(longest_side(box) > 0)) return step;
-    const std::size_t wanted = places_on(part.mesh, {box.min, longest_side(box) * 0x1p-40});
+    if (!(box.longest_side() > 0)) return step;
+    const std::size_t wanted = places_on(part.mesh, {box.min, box.longest_side() * 0x1p-40});
     for (double finer = step;; finer /= 2) {
-        if (finer < longest_side(box) &&
+        if (finer < box.longest_side() &&
             places_on(part.mesh, {origin_of(part, box, finer, in_world), finer}) == wanted)
             return finer;
         if (finer / 2 < least) return step;
@@ -117,7 +112,7 @@ EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, 
         for (const std::size_t i : parts) {
             const Part& part = scene.parts[i];
             const Box box = part.mesh.bounds();
-            const double own = longest_side(box), here = whole / stretch_of(part.transform);
+            const double own = box.longest_side(), here = whole / stretch_of(part.transform);
             const bool whole_numbers = own / here < 0x1p53 && here > 0; // false for what is no number
             if (moved || box.empty() || !whole_numbers) step = 0;
             // One step less at either end, for what lies between the origin and the bounds.
@@ -128,7 +123,7 @@ EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, 
             if (!(step > 0)) continue;
             const Box box = scene.parts[i].mesh.bounds();
             grid.lattices[i] = {origin_of(scene.parts[i], box, step, parts.size() == 1), step};
-            grid.bits[i] = bits_for(longest_side(box), step, limit);
+            grid.bits[i] = bits_for(box.longest_side(), step, limit);
         }
     }
     return grid;
