@@ -38,6 +38,7 @@ PUBLIC = {
     "geometry/deviation/deviation_fields.hpp": "the declared fields of a deviation, which reports show",
     "geometry/inspect/connectivity.hpp": "components of a mesh",
     "geometry/inspect/evidence.hpp": "where a property fails",
+    "geometry/measure/pieces.hpp": "measures of meshes that come in pieces, for cells",
     "geometry/measure/statistics_fields.hpp": "the declared fields of statistics, which reports show",
     "geometry/normals/tangents.hpp": "tangents for maps of normals",
     "geometry/measure/shape_histograms.hpp": "histograms of edges and faces, which pages show",

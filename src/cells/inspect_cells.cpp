@@ -1,31 +1,20 @@
 #include "cells/inspect_cells.hpp"
 
-#include "base/memory.hpp"
-#include "base/progress.hpp"
-#include "base/readable_numbers.hpp"
-#include "cells/gather.hpp"
-#include "geometry/inspect/connectivity.hpp"
+#include "cells/rims.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <string_view>
 
 namespace facetmill::cells {
 
 namespace {
 
-constexpr const char* counted_name = "counted"; ///< [vertices] 1: counted before
-constexpr const char* set_name = "set";         ///< [faces] the number of its set of connected faces
+constexpr const char* set_name = "set"; ///< [faces] the number of its set of connected faces
 
-template <class T>
-std::vector<T>& values_of(Mesh& mesh, const char* name, Domain domain) {
-    return std::get<std::vector<T>>(mesh.find(name, domain)->data);
-}
-
-class CellInspection {
+class CellInspection final : RimVisitor {
   public:
     CellInspection(const Partition& partition, const Transform& transform, const Means& means)
         : partition_(partition), transform_(transform), means_(means) {
@@ -33,7 +22,7 @@ class CellInspection {
     }
 
     Properties run() {
-        rim_of(0);
+        visit_rims(partition_, means_, *this);
         Properties& p = found_;
         p.vertices = p.wedges = static_cast<std::int64_t>(partition_.vertices());
         p.faces = p.triangles = static_cast<std::int64_t>(partition_.faces());
@@ -49,37 +38,9 @@ class CellInspection {
     }
 
   private:
-    /// The faces of the node that have a vertex which cells outside of it share; all else is counted.
-    Cell rim_of(std::uint32_t number) {
-        const Tree::Node& node = partition_.tree().nodes[number];
-        Cell cell;
-        if (node.is_leaf()) {
-            cell = partition_.cell(node.leaf);
-            Share::tell_item(node.leaf, partition_.tree().leaves.size());
-            cell.mesh.attributes.clear();
-            add_sums(cell.mesh);
-            add_labels(cell);
-        } else {
-            std::vector<Cell> cells;
-            for (const std::uint32_t child : node.child) cells.push_back(rim_of(child));
-            require_room(cells);
-            cell = joined(std::move(cells), node.depth);
-            join_sets(cell.mesh);
-        }
-        count(cell);
-        return cell;
-    }
-
-    void require_room(const std::vector<Cell>& cells) const {
-        constexpr std::uint64_t per_face = 200; // with vertices of its own, and what counting takes
-        std::uint64_t faces = 0;
-        for (const Cell& cell : cells) faces += cell.mesh.face_count();
-        if (faces * per_face > means_.memory / 2)
-            throw out_of_memory(
-                fmt::format("{} triangles at vertices that cells share need {} at once; --memory "
-                            "gives {}",
-                            grouped(faces), sized(2 * faces * per_face), sized(means_.memory)),
-                "give more memory");
+    void read(Cell& cell) override {
+        add_sums(cell.mesh);
+        add_labels(cell);
     }
 
     /// What each face has by itself.
@@ -118,13 +79,11 @@ class CellInspection {
         }
         for (std::size_t f = 0; f < of_face.size(); ++f) of_face[f] = number[components.of_face[f]];
         cell.mesh.attributes.push_back({set_name, Domain::face, Role::index, 1, false, std::move(of_face)});
-        cell.mesh.attributes.push_back({counted_name, Domain::vertex, Role::index, 1, false,
-                                        std::vector<std::uint8_t>(cell.mesh.vertex_count(), 0)});
     }
 
     /// Faces that have a vertex in common hang together.
-    void join_sets(Mesh& mesh) {
-        const auto& of_face = values_of<std::uint32_t>(mesh, set_name, Domain::face);
+    void meet(Mesh& mesh) override {
+        const auto& of_face = std::get<std::vector<std::uint32_t>>(mesh.find(set_name, Domain::face)->data);
         std::vector<std::uint32_t> met(mesh.vertex_count(), UINT32_MAX);
         for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
             std::uint32_t& first = met[mesh.corners[c]];
@@ -136,22 +95,15 @@ class CellInspection {
         }
     }
 
-    /// Counts what is complete, and keeps the faces of what is not.
-    void count(Cell& cell) {
-        auto& counted = values_of<std::uint8_t>(cell.mesh, counted_name, Domain::vertex);
-        std::vector<Turn> turns(cell.home.size());
-        for (std::size_t v = 0; v < turns.size(); ++v)
-            turns[v] = cell.home[v] != Cell::inner ? Turn::later : counted[v] ? Turn::before : Turn::now;
-        const Connectivity now = connectivity_of(cell.mesh, turns);
+    void look(const Mesh& mesh, const std::vector<Turn>& turns) override {
+        const Connectivity now = connectivity_of(mesh, turns);
         sums_.edges += now.edges;
         sums_.boundary_edges += now.boundary_edges;
         sums_.uncancelled_edges += now.uncancelled_edges;
         sums_.crowded_edges += now.crowded_edges;
         sums_.disagreeing_edges += now.disagreeing_edges;
         sums_.non_manifold_vertices += now.non_manifold_vertices;
-        count_duplicates(cell.mesh, turns);
-        for (std::size_t v = 0; v < turns.size(); ++v) counted[v] = turns[v] != Turn::later;
-        keep_open(cell);
+        count_duplicates(mesh, turns);
     }
 
     /// Faces with the same vertices come together where one of these is complete first.
@@ -164,17 +116,6 @@ class CellInspection {
             }
             found_.duplicate_faces += now && !before;
         }
-    }
-
-    static void keep_open(Cell& cell) {
-        std::vector<Index> faces;
-        for (Index f = 0; f < cell.mesh.face_count(); ++f) {
-            const auto wedges = cell.mesh.face_wedges(f);
-            if (std::any_of(wedges.begin(), wedges.end(),
-                            [&](Index v) { return cell.home[v] != Cell::inner; }))
-                faces.push_back(f);
-        }
-        cell = with_faces(std::move(cell), faces);
     }
 
     const Partition& partition_;

@@ -1,9 +1,8 @@
 #pragma once
 // The properties of a mesh in cells, equal to those of the mesh in memory.
 //
-// Every edge and vertex is counted where all of its faces are known: inside a cell; or, of a border that
-// cells share, at the node of the tree where all cells with it come together. What goes up the tree are only
-// the faces at borders that are not counted yet.
+// Every edge and vertex is counted where all of its faces are known (cells/rims.hpp): inside a cell; or, of a
+// border that cells share, at the node of the tree where all cells with it come together.
 
 #include "cells/partition.hpp"
 #include "geometry/inspect/inspect.hpp"

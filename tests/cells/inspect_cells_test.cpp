@@ -1,9 +1,9 @@
 #include "cells/inspect_cells.hpp"
 
 #include "cells/numbering.hpp"
-#include "io/outputs.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/cells.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary.hpp"
 
@@ -12,18 +12,6 @@ using namespace facetmill::cells;
 
 namespace {
 
-constexpr std::uint64_t memory = std::uint64_t{64} << 20;
-
-std::unique_ptr<Partition> cells_of(const test::TemporaryDirectory& folder, const Mesh& mesh,
-                                    std::uint64_t most) {
-    Scene scene;
-    scene.parts.emplace_back().mesh = mesh;
-    const auto path = folder / "m.ply";
-    io::write_now(path, io::codec_for(path)->write(scene, {.double_positions = true}).files.front().bytes);
-    return std::make_unique<Partition>(open_faces({path}, {}, folder.path()), Means{folder.path(), memory},
-                                       most);
-}
-
 /// All that cells tell, as in memory.
 void check_equal(const Mesh& mesh, std::uint64_t most) {
     const test::TemporaryDirectory folder;
@@ -31,9 +19,9 @@ void check_equal(const Mesh& mesh, std::uint64_t most) {
     part.mesh = mesh;
     part.transform.m[0][0] = -2; // mirrors, and is moved
     part.transform.m[1][3] = 5;
-    const auto partition = cells_of(folder, mesh, most);
+    const auto partition = test::cells_of(folder, mesh, most);
     const Properties a = inspect(part),
-                     b = inspect_cells(*partition, part.transform, {folder.path(), memory});
+                     b = inspect_cells(*partition, part.transform, {folder.path(), test::cell_memory});
     for (const Property& property : property_table()) {
         if (!inspects(property) || property.of_scene()) continue;
         INFO(property.name);
@@ -45,46 +33,6 @@ void check_equal(const Mesh& mesh, std::uint64_t most) {
     CHECK(b.bounds.max == a.bounds.max);
 }
 
-/// Faces taken away, turned, repeated, and made to share edges and vertices.
-Mesh nasty(unsigned seed) {
-    Mesh mesh = test::noisy_icosphere(4, 0.02, seed);
-    mesh.attributes.clear();
-    Mesh other = test::moved(mesh, {3, 0, 0});
-    append(mesh, other);
-    append(mesh, Mesh(mesh)); // everything twice, apart
-    const auto n = static_cast<Index>(mesh.vertex_count());
-    Mesh out;
-    out.positions = mesh.positions;
-    unsigned state = seed;
-    const auto random = [&](unsigned below) {
-        return (state = state * 1664525 + 1013904223) / 65536 % below;
-    };
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        std::vector<Index> face(mesh.face_wedges(f).begin(), mesh.face_wedges(f).end());
-        switch (random(40)) {
-        case 0:
-            continue; // a hole
-        case 1:
-            std::swap(face[0], face[1]);
-            break;
-        case 2:
-            add_face(out, face); // twice
-            break;
-        case 3:
-            face[2] = face[0]; // degenerate
-            break;
-        case 4:
-            face[1] = random(n); // right through
-            break;
-        default:
-            break;
-        }
-        add_face(out, face);
-    }
-    drop_unused(out);
-    return out;
-}
-
 } // namespace
 
 TEST_CASE("properties of cells are those of the mesh", "[cells]") {
@@ -93,7 +41,7 @@ TEST_CASE("properties of cells are those of the mesh", "[cells]") {
         check_equal(test::noisy_torus(60, 30, 0.001, 3), most);
         check_equal(test::with_noise(shapes::grid(40, 40), 0.2, 5), most);
     }
-    for (unsigned seed = 1; seed <= 6; ++seed) check_equal(nasty(seed), 20 + 97 * seed);
+    for (unsigned seed = 1; seed <= 6; ++seed) check_equal(test::nasty(seed), 20 + 97 * seed);
 }
 
 TEST_CASE("components of cells are counted across borders, and where there are many", "[cells]") {
@@ -115,7 +63,7 @@ TEST_CASE("components of cells are counted across borders, and where there are m
 TEST_CASE("vertices of cells are numbered once each", "[cells]") {
     const test::TemporaryDirectory folder;
     const Mesh mesh = test::noisy_icosphere(4, 0.01, 7);
-    const auto partition = cells_of(folder, mesh, 100);
+    const auto partition = test::cells_of(folder, mesh, 100);
     Numbering numbering(partition->tree());
     std::vector<Vec3> places(mesh.vertex_count());
     std::vector<bool> met(mesh.vertex_count(), false);

@@ -102,7 +102,9 @@ class Cells(Case):
                  ("simplify 10% --max_error 1%", "max_error is measured on the whole mesh", "leave that option out"),
                  ("simplify 10% --only x", "'simplify' has the key 'only'", "leave it out"),
                  ("simplify --vertices 100", "the target must be faces or a ratio", "leave that option out"),
-                 ("measure", "'measure' cannot work", "(clip, load, simplify, transform, validate, write can)"))
+                 ("measure --areas", "measure: areas: cells do not carry attributes of faces", "leave that option out"),
+                 ("measure --path o.csv", "the faces in the order of the file", "leave that option out"),
+                 ("orient", "'orient' cannot work", "(clip, load, measure, simplify, transform, validate, write can)"))
         for stages, message, way_out in cases:
             run = self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", *stages.split(), "!", "write", "o.ply",
                             expect=2)
@@ -171,6 +173,23 @@ class Cells(Case):
                                          expect=2).stderr)
         self.assertIn("E-OVERWRITE", self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", "write", "large.ply",
                                                expect=2).stderr)
+
+    def test_a_large_mesh_is_measured_in_cells(self):
+        self.large()
+        results = set()
+        for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
+            self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "load", "large.ply", "!", "measure",
+                      "--path", "o.json")
+            results.add((self.dir / "o.json").read_bytes())
+        self.assertEqual(len(results), 1)
+        self.mill("pipe", "load", "large.ply", "!", "measure", "--path", "whole.json")
+        found, whole = (json.loads((self.dir / name).read_text())["parts"][0] for name in ("o.json", "whole.json"))
+        for group, name in (("faces", "angle"), ("faces", "area"), ("edges", "length"), ("edges", "turn")):
+            for key in ("count", "minimum", "median", "maximum"):
+                self.assertEqual(found[group][name][key], whole[group][name][key])
+        for key in ("convex", "concave", "flat", "feature", "boundary", "non_manifold"):
+            self.assertEqual(found["edges"][key], whole["edges"][key])
+        self.assertAlmostEqual(found["solid"]["volume"] / whole["solid"]["volume"], 1, 12)
 
     def test_a_glb_is_written_in_cells(self):
         self.large()

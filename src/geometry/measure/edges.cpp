@@ -1,7 +1,7 @@
 // Edges, corners and curvature of geometry/measure/measure.hpp.
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
-#include "geometry/measure/measure.hpp"
+#include "geometry/measure/pieces.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/power_scale.hpp"
@@ -68,28 +68,20 @@ double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec
     return dot(cross(a, b), normal) < 0 ? 2 * pi - angle : angle;
 }
 
-// Of meshes whose boxes are not far from 1 in size.
+/// Whether an edge counts where the vertices have these turns.
+bool counts(const EdgeTable::Edge& e, std::span<const Turn> turns) {
+    if (turns.empty()) return true;
+    const Turn a = turns[e.low], b = turns[e.high];
+    return (a == Turn::now || b == Turn::now) && a != Turn::before && b != Turn::before;
+}
 
-EdgeResult edges_of(const Mesh& mesh, const EdgeSettings& settings) {
-    const EdgeTurns t = turns_of(mesh, area_vectors(mesh));
-    EdgeResult r;
-    std::vector<double> lengths(t.edges.size());
-    parallel_for(lengths.size(), [&](std::size_t e) { lengths[e] = length_of(mesh, t.edges.edges[e]); });
-    for (std::size_t e = 0; e < t.edges.size(); ++e) {
-        const std::size_t faces = t.edges.corners_of(static_cast<Index>(e)).size();
-        r.boundary += faces == 1;
-        r.non_manifold += faces > 2;
-        const double turn = t.turn[e];
-        if (!(turn == turn)) continue;
-        r.feature += std::abs(turn) > settings.feature_angle;
-        if (std::abs(turn) <= settings.flat)
-            ++r.flat;
-        else
-            ++(turn > 0 ? r.convex : r.concave);
-    }
-    r.length = statistics(std::move(lengths));
-    r.turn = statistics(t.turn);
-    return r;
+void count_turn(EdgeResult& r, double turn, const EdgeSettings& settings) {
+    if (!(turn == turn)) return;
+    r.feature += std::abs(turn) > settings.feature_angle;
+    if (std::abs(turn) <= settings.flat)
+        ++r.flat;
+    else
+        ++(turn > 0 ? r.convex : r.concave);
 }
 
 double area_of_face(const Mesh& mesh, Index f, const Vec3& area) {
@@ -99,30 +91,49 @@ double area_of_face(const Mesh& mesh, Index f, const Vec3& area) {
     return covered_area(corners);
 }
 
-FaceResult faces_of(const Mesh& mesh) {
-    FaceResult r;
+} // namespace
+
+EdgeValues edge_values(const Mesh& mesh, const EdgeSettings& settings, std::span<const Turn> turns) {
+    EdgeTurns t = turns_of(mesh, area_vectors(mesh));
+    EdgeValues values{std::vector<double>(t.edges.size()), std::move(t.turn), {}};
+    parallel_for(values.length.size(), [&](std::size_t e) {
+        const bool here = counts(t.edges.edges[e], turns);
+        values.length[e] = here ? length_of(mesh, t.edges.edges[e]) : none_there;
+        if (!here) values.turn[e] = none_there;
+    });
+    EdgeResult& r = values.counts;
+    for (std::size_t e = 0; e < t.edges.size(); ++e) {
+        if (!counts(t.edges.edges[e], turns)) continue;
+        const std::size_t faces = t.edges.corners_of(static_cast<Index>(e)).size();
+        r.boundary += faces == 1;
+        r.non_manifold += faces > 2;
+        count_turn(r, values.turn[e], settings);
+    }
+    return values;
+}
+
+FaceValues face_values(const Mesh& mesh) {
+    FaceValues r;
     r.kinds = face_kinds(mesh);
     const std::vector<Vec3> areas = area_vectors(mesh);
-    r.areas.resize(areas.size());
-    std::vector<double> angles(mesh.corner_count()), ratios(areas.size(), none_there);
+    r.area.resize(areas.size());
+    r.angle.resize(mesh.corner_count());
+    r.aspect_ratio.assign(areas.size(), none_there);
     parallel_for(areas.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
-        r.areas[i] = area_of_face(mesh, f, areas[i]);
+        r.area[i] = area_of_face(mesh, f, areas[i]);
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         for (Index c = begin; c < end; ++c)
-            angles[c] = angle_at(mesh.point(previous_corner(c, begin, end)), mesh.point(c),
-                                 mesh.point(next_corner(c, begin, end)), areas[i]);
-        if (end - begin == 3 && r.areas[i] > 0)
-            ratios[i] = aspect_ratio(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2));
+            r.angle[c] = angle_at(mesh.point(previous_corner(c, begin, end)), mesh.point(c),
+                                  mesh.point(next_corner(c, begin, end)), areas[i]);
+        if (end - begin == 3 && r.area[i] > 0)
+            r.aspect_ratio[i] = aspect_ratio(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2));
     });
     for (const Vec3& a : areas) r.signed_area += a;
-    r.area = statistics(r.areas);
-    r.angle = statistics(std::move(angles));
-    r.aspect_ratio = statistics(std::move(ratios));
     return r;
 }
 
-CurvatureResult curvature_of(const Mesh& given) {
+CurvatureValues curvature_values(const Mesh& given, std::span<const Turn> turns_of_vertices) {
     const Mesh mesh = triangles_of(given); // vertices where faces cross themselves come last
     const std::vector<Vec3> areas = area_vectors(mesh);
     const EdgeTurns t = turns_of(mesh, areas);
@@ -147,10 +158,15 @@ CurvatureResult curvature_of(const Mesh& given) {
         turns[low] += turn;
         turns[high] += turn;
     }
-    CurvatureResult r;
+    const auto counts_vertex = [&](std::size_t v) {
+        return turns_of_vertices.empty() || v >= turns_of_vertices.size() ||
+               turns_of_vertices[v] == Turn::now;
+    };
+    CurvatureValues r;
     r.gaussian.assign(mesh.vertex_count(), none_there);
     r.mean = r.gaussian;
     parallel_for(mesh.vertex_count(), [&](std::size_t v) {
+        if (!counts_vertex(v)) return;
         double angle = 0, area = 0;
         for (const Index c : corners.of(static_cast<Index>(v))) {
             const Index f = c / 3;
@@ -169,10 +185,10 @@ CurvatureResult curvature_of(const Mesh& given) {
     for (const double m : missing) r.total += m;
     r.gaussian.resize(given.vertex_count());
     r.mean.resize(given.vertex_count());
-    r.of_gaussian = statistics(r.gaussian);
-    r.of_mean = statistics(r.mean);
     return r;
 }
+
+namespace {
 
 /// What was measured in scaled coordinates, and is a length to that power.
 void unscale(Statistics& s, int power) {
@@ -186,33 +202,58 @@ void unscale(std::vector<double>& numbers, int power) {
 
 } // namespace
 
+void unscale(EdgeResult& r, const PowerScale& scale) { unscale(r.length, scale.powers[0]); }
+
+void unscale(FaceResult& r, const PowerScale& scale) {
+    const int power = scale.powers[0];
+    unscale(r.area, 2 * power);
+    unscale(r.areas, 2 * power);
+    for (std::size_t i = 0; i < 3; ++i) r.signed_area[i] = unscaled(r.signed_area[i], 2 * power);
+    r.kinds.deviation = unscaled(r.kinds.deviation, power);
+}
+
+void unscale(CurvatureResult& r, const PowerScale& scale) {
+    const int power = scale.powers[0];
+    unscale(r.gaussian, -2 * power);
+    unscale(r.mean, -power);
+    unscale(r.of_gaussian, -2 * power);
+    unscale(r.of_mean, -power);
+}
+
 EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings) {
     const PowerScale scale = even_scale(mesh.bounds());
-    if (scale.none()) return edges_of(mesh, settings);
-    EdgeResult r = edges_of(scale(mesh), settings);
-    unscale(r.length, scale.powers[0]);
+    EdgeValues values = edge_values(scale.none() ? mesh : scale(mesh), settings);
+    EdgeResult r = values.counts;
+    r.length = statistics(std::move(values.length));
+    r.turn = statistics(std::move(values.turn));
+    if (!scale.none()) unscale(r, scale);
     return r;
 }
 
 FaceResult measure_faces(const Mesh& mesh) {
     const PowerScale scale = even_scale(mesh.bounds());
-    if (scale.none()) return faces_of(mesh);
-    FaceResult r = faces_of(scale(mesh));
-    unscale(r.area, 2 * scale.powers[0]);
-    unscale(r.areas, 2 * scale.powers[0]);
-    for (std::size_t i = 0; i < 3; ++i) r.signed_area[i] = unscaled(r.signed_area[i], 2 * scale.powers[0]);
-    r.kinds.deviation = unscaled(r.kinds.deviation, scale.powers[0]);
+    FaceValues values = face_values(scale.none() ? mesh : scale(mesh));
+    FaceResult r;
+    r.kinds = values.kinds;
+    r.signed_area = values.signed_area;
+    r.area = statistics(values.area);
+    r.angle = statistics(std::move(values.angle));
+    r.aspect_ratio = statistics(std::move(values.aspect_ratio));
+    r.areas = std::move(values.area);
+    if (!scale.none()) unscale(r, scale);
     return r;
 }
 
 CurvatureResult measure_curvature(const Mesh& mesh) {
     const PowerScale scale = even_scale(mesh.bounds());
-    if (scale.none()) return curvature_of(mesh);
-    CurvatureResult r = curvature_of(scale(mesh));
-    unscale(r.gaussian, -2 * scale.powers[0]);
-    unscale(r.mean, -scale.powers[0]);
-    unscale(r.of_gaussian, -2 * scale.powers[0]);
-    unscale(r.of_mean, -scale.powers[0]);
+    CurvatureValues values = curvature_values(scale.none() ? mesh : scale(mesh));
+    CurvatureResult r;
+    r.total = values.total;
+    r.of_gaussian = statistics(values.gaussian);
+    r.of_mean = statistics(values.mean);
+    r.gaussian = std::move(values.gaussian);
+    r.mean = std::move(values.mean);
+    if (!scale.none()) unscale(r, scale);
     return r;
 }
 

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "geometry/measure/pieces.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
 
@@ -22,21 +23,16 @@ void add(Symmetric& s, const Symmetric& t) {
     s.zz += t.zz;
 }
 
-/// Sums over triangles as seen from a point near them, the common factors left out.
-struct Sums {
-    double area = 0, volume = 0; ///< twice, six times
-    Vec3 shell, solid;           ///< six times area times centroid; 24 times volume times centroid
-    Symmetric sheet, spread;     ///< of the shell 24 times, of the solid 120 times
+using Sums = MassSums;
 
-    void add(const Sums& b) {
-        area += b.area;
-        volume += b.volume;
-        shell += b.shell;
-        solid += b.solid;
-        facetmill::add(sheet, b.sheet);
-        facetmill::add(spread, b.spread);
-    }
-};
+void add(Sums& a, const Sums& b) {
+    a.area += b.area;
+    a.volume += b.volume;
+    a.shell += b.shell;
+    a.solid += b.solid;
+    add(a.sheet, b.sheet);
+    add(a.spread, b.spread);
+}
 
 void add_square(Symmetric& s, const Vec3& v, double weight) {
     s.xx += weight * v.x * v.x;
@@ -95,7 +91,7 @@ Sums sums_of(const Mesh& mesh, const Vec3& from) {
             return sums;
         },
         [](Sums a, const Sums& b) {
-            a.add(b);
+            add(a, b);
             return a;
         });
 }
@@ -128,29 +124,29 @@ void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
     }
 }
 
-/// Of a mesh whose box is not far from 1 in size.
-MassResult mass_of(const Mesh& mesh, bool closed) {
-    const Box box = mesh.bounds();
-    const Vec3 from = box.empty() ? Vec3{} : box.centre();
-    const Sums sums = sums_of(mesh, from);
-    MassResult result;
-    result.shell.area = sums.area / 2;
-    if (sums.area > 0) {
-        const Vec3 centroid = sums.shell / (3 * sums.area);
-        result.shell.centroid = from + centroid;
-        result.shell.spread = sums.sheet * (1.0 / 24);
-        add_square(result.shell.spread, centroid, -result.shell.area);
-    }
-    if (mesh.face_count() == 0 || !closed) return result;
-    SolidMass& solid = result.solid.emplace();
-    const double area = result.shell.area, ball = area * std::sqrt(area / (36 * pi));
-    if (!(std::abs(sums.volume / 6) > 1e-12 * ball)) return result;
+// Of a mesh whose box is not far from 1 in size, by its sums as seen from a point.
+
+ShellMass shell_of(const Sums& sums, const Vec3& from) {
+    ShellMass shell;
+    shell.area = sums.area / 2;
+    if (!(sums.area > 0)) return shell;
+    const Vec3 centroid = sums.shell / (3 * sums.area);
+    shell.centroid = from + centroid;
+    shell.spread = sums.sheet * (1.0 / 24);
+    add_square(shell.spread, centroid, -shell.area);
+    return shell;
+}
+
+SolidMass solid_of(const Sums& sums, const Vec3& from) {
+    SolidMass solid;
+    const double area = sums.area / 2, ball = area * std::sqrt(area / (36 * pi));
+    if (!(std::abs(sums.volume / 6) > 1e-12 * ball)) return solid;
     solid.volume = sums.volume / 6;
     const Vec3 centroid = sums.solid / (4 * sums.volume);
     solid.centroid = from + centroid;
     solid.spread = sums.spread * (1.0 / 120);
     add_square(solid.spread, centroid, -solid.volume);
-    return result;
+    return solid;
 }
 
 // What was measured in scaled coordinates, as it is in the given ones.
@@ -235,14 +231,34 @@ SolidMass joined(const SolidMass& a, const SolidMass& b) {
     return sum;
 }
 
-MassResult measure_mass(const Mesh& mesh) {
-    const bool closed = mesh.face_count() > 0 && inspect(mesh).closed;
-    const PowerScale even = even_scale(mesh.bounds()), axes = axis_scale(mesh.bounds());
-    if (even.none() && axes.none()) return mass_of(mesh, closed);
+MassPieces::MassPieces(const Box& bounds)
+    : even_(even_scale(bounds)), axes_(axis_scale(bounds)), plain_(even_.none() && axes_.none()) {
+    if (bounds.empty()) return;
+    even_from_ = Box{even_(bounds.min), even_(bounds.max)}.centre();
+    axes_from_ = Box{axes_(bounds.min), axes_(bounds.max)}.centre();
+}
+
+void MassPieces::add(const Mesh& piece) {
+    faces_ += piece.face_count();
+    facetmill::add(even_sums_, sums_of(plain_ ? piece : even_(piece), even_from_));
+    if (!plain_) facetmill::add(axes_sums_, sums_of(axes_(piece), axes_from_));
+}
+
+MassResult MassPieces::result(bool closed) const {
     MassResult result;
-    result.shell = taken_back(mass_of(even(mesh), false).shell, even);
-    if (closed) result.solid = taken_back(*mass_of(axes(mesh), true).solid, axes);
+    result.shell = shell_of(even_sums_, even_from_);
+    const bool solid = closed && faces_ > 0;
+    if (solid) result.solid = solid_of(plain_ ? even_sums_ : axes_sums_, axes_from_);
+    if (plain_) return result;
+    result.shell = taken_back(result.shell, even_);
+    if (solid) result.solid = taken_back(*result.solid, axes_);
     return result;
+}
+
+MassResult measure_mass(const Mesh& mesh) {
+    MassPieces all(mesh.bounds());
+    all.add(mesh);
+    return all.result(mesh.face_count() > 0 && inspect(mesh).closed);
 }
 
 namespace {

@@ -211,4 +211,20 @@ void declare_measure_report(DeclareFields<MeasureReport>& d) {
     d.tell(lines_of);
 }
 
+void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context) {
+    if (mass.solid && mass.solid->volume < 0)
+        context.warn("W-INSIDE-OUT",
+                     fmt::format("part '{}' is inside out: its volume and inertia are negative", part),
+                     "use orient to turn it outward");
+}
+
+void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
+                   Context& context) {
+    const Fields fields = fields_of<MeasureReport>(declare_measure_report);
+    for (const auto& path : o.path) {
+        const std::string text = lists_faces(path) ? table : fields.json(&report).dump(2) + "\n";
+        context.output(path.text, std::as_bytes(std::span(text)));
+    }
+}
+
 } // namespace facetmill::measure_stage

@@ -3,6 +3,7 @@
 
 #include "geometry/measure/measure.hpp"
 #include "options/fields.hpp"
+#include "stages/measure/options.hpp"
 
 namespace facetmill::measure_stage {
 
@@ -40,5 +41,10 @@ struct MeasureReport {
     std::vector<MeasuredPart> parts;
 };
 void declare_measure_report(DeclareFields<MeasureReport>& d);
+
+void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context);
+/// The files that the options name. table: of the faces, for those that list them.
+void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
+                   Context& context);
 
 } // namespace facetmill::measure_stage

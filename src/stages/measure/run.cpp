@@ -1,12 +1,11 @@
 #include "geometry/measure/measure.hpp"
 
 #include "mesh/placement.hpp"
+#include "stages/measure/cells.hpp"
 #include "stages/measure/face_table.hpp"
 #include "stages/measure/help.hpp"
 #include "stages/measure/options.hpp"
 #include "stages/measure/report.hpp"
-
-#include <fmt/format.h>
 
 namespace facetmill::measure_stage {
 
@@ -38,10 +37,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
     all.shell = joined(all.shell, mass.shell);
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
     if (list_faces) all.csv += face_table_rows(part.name, mesh);
-    if (mass.solid && mass.solid->volume < 0)
-        context.warn("W-INSIDE-OUT",
-                     fmt::format("part '{}' is inside out: its volume and inertia are negative", part.name),
-                     "use orient to turn it outward");
+    warn_of_inside_out(part.name, mass, context);
     if (o.areas) set_attribute(part.mesh, "area", Domain::face, std::move(faces.areas));
     if (o.curvature) {
         set_attribute(part.mesh, "gaussian_curvature", Domain::vertex, std::move(curvature.gaussian));
@@ -66,23 +62,23 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context, MeasureReport&
     if (all.parts.empty()) all.solid.reset();
     report = {
         to_string(scene.unit), o.density, {all.shell, measured(all.solid, o.density)}, std::move(all.parts)};
-    const Fields fields = fields_of<MeasureReport>(declare_measure_report);
-    for (const auto& path : o.path) {
-        const std::string text = lists_faces(path) ? all.csv : fields.json(&report).dump(2) + "\n";
-        context.output(path.text, std::as_bytes(std::span(text)));
-    }
+    write_results(o, report, all.csv, context);
     return scene;
 }
 
-const RegisterStage registered = make_stage<MeasureOptions>(
-    {.name = "measure",
-     .about = help::measure::about,
-     .details = help::measure::details,
-     .examples = {"measure", "measure: {density: 7.85, path: part.json}",
-                  "measure: {curvature: true, path: [all.json, faces.csv]}"},
-     .tells = true,
-     .crossing_faces = CrossingFacePolicy::name},
-    declare_measure, declare_measure_report, run, {.files = files_of_measure, .verify = verify_measure});
+const RegisterStage registered =
+    make_stage<MeasureOptions>({.name = "measure",
+                                .about = help::measure::about,
+                                .details = help::measure::details,
+                                .examples = {"measure", "measure: {density: 7.85, path: part.json}",
+                                             "measure: {curvature: true, path: [all.json, faces.csv]}"},
+                                .tells = true,
+                                .crossing_faces = CrossingFacePolicy::name},
+                               declare_measure, declare_measure_report, run,
+                               {.files = files_of_measure,
+                                .verify = verify_measure,
+                                .on_cells = measure_on_cells,
+                                .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 
