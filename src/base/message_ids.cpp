@@ -573,7 +573,7 @@ std::span<const MessageId> message_ids() {
         {"W-INSTANCING",
          {},
          "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing), and stages process only "
-         "one of them.",
+         "one of them: the part stands where the largest instance does.",
          "The instances remain in glTF written from the scene; `load: {path: ..., instances: expand}` makes "
          "a part "
          "of each, and `optimize: {instance: true}` makes instances of parts again."},

@@ -6,6 +6,7 @@
 #include "base/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 
@@ -270,8 +271,8 @@ double float_step_at(const Box& box) {
 }
 
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
-/// transform between), and half a step of the grid of Draco or of quantized
-/// positions in every direction.
+/// transform between), half a step of the grid of Draco or of quantized positions in every direction, and the
+/// rounding of the place of an instance.
 /// transforms: the file has the parts' own coordinates.
 void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
@@ -306,7 +307,10 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
     if (!transforms) back.float_step = float_step_at(world);
     // Half a step times the square root of three, and a margin for rounding.
     constexpr double float_step = 1.0 / (1 << 23);
-    back.tolerance = 2 * largest * float_step + back.grid_step;
+    double of_places = 0;
+    for (const double error : errors_of_instances(scene, settings.meshopt.on && settings.meshopt.filters))
+        of_places = std::max(of_places, error);
+    back.tolerance = 2 * largest * float_step + back.grid_step + of_places;
 }
 
 /// What a file should not lose; truths, or counts of what is wrong.

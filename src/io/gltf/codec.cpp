@@ -96,21 +96,14 @@ double bytes_of(const Mesh& mesh) {
 }
 
 /// Says of a node that places many instances of its mesh that only the mesh is a part.
-void warn_of_instancing(const Source& source, const Placement& placement, ReadLog& log) {
-    if (placement.node < 0) return;
-    const auto extensions =
-        item(source.json(), "nodes", static_cast<std::size_t>(placement.node)).find("extensions");
-    const auto instancing = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-    const auto attributes = instancing ? instancing->find("attributes") : std::nullopt;
-    if (!attributes || attributes->json().empty() || !attributes->json().is_object()) return;
-    const auto first = attributes->json().begin();
-    const std::size_t count = accessor(source, Place(*first, attributes->path() + "." + first.key())).count;
+void warn_of_instancing(const Placement& placement, ReadLog& log) {
+    if (placement.instances == 0) return;
     log.warnings.push_back(
         {Severity::warning,
          "W-INSTANCING",
          fmt::format("part '{}' has {} instances by EXT_mesh_gpu_instancing: stages and formats other than "
-                     "glTF see the mesh once, where its node is",
-                     placement.name, count),
+                     "glTF see the mesh once, where the largest of them is",
+                     placement.name, placement.instances),
          {},
          "load: {instances: expand} makes a part of each",
          false});
@@ -123,10 +116,11 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
     std::map<int, std::size_t> first_part; // of each mesh: instances copy it
     std::size_t vertices = 0;
     double bytes = 0; // of copies: a node costs few bytes of JSON
-    const auto all = placements(source.json(), frames);
+    auto all = placements(source.json(), frames);
+    stand_at_largest_instances(source, frames, all);
     ShareOfSteps steps(std::vector<double>(all.size(), 1));
     for (const auto& placement : all) {
-        warn_of_instancing(source, placement, log);
+        warn_of_instancing(placement, log);
         Part part;
         if (const auto known = first_part.find(placement.mesh); known != first_part.end()) {
             bytes += bytes_of(scene.parts[known->second].mesh);
@@ -188,7 +182,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     check_asset(json);
     document->buffers = load_buffers(json, chunks.binary, input, log);
     document->files = load_images(json, input, log);
-    if (settings.expand_instances && uses_extension(json, "EXT_mesh_gpu_instancing")) {
+    if (settings.expand_instances && uses_extension(json, instancing_extension)) {
         expand_instances(json, document->buffers, log);
         document->json = to_string(json);
     }

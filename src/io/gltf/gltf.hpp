@@ -25,6 +25,11 @@ Json document_contents(const Scene& scene);
 /// malformed when the document's nodes or animations are.
 std::vector<bool> animated_parts(const Scene& scene);
 
+/// For each part that stands where the largest of several instances does (EXT_mesh_gpu_instancing), how far
+/// writing that place may move its points, in the world; 0 for others. A place is float32; under meshopt's
+/// filters its rotation has 16 bits. Throws malformed when the document's nodes or instances are.
+std::vector<double> errors_of_instances(const Scene& scene, bool filters);
+
 /// The fewest bits of position, from `min_bits` to 24, at which vertices of the mesh that are at different
 /// places (in float32) stay at different places of its grid; none when 24 are not enough.
 std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits);

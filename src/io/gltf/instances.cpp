@@ -1,64 +1,130 @@
 #include "io/gltf/instances.hpp"
 
 #include "base/memory.hpp"
-#include "io/gltf/accessor.hpp"
+#include "io/gltf/gltf.hpp"
+#include "mesh/transform.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <map>
 
 namespace facetmill::io::gltf {
 
 namespace {
 
-constexpr const char* extension_name = "EXT_mesh_gpu_instancing";
-
 /// An attribute of the instances, as the extension names it and as a node does.
-struct Told {
+struct PlaceAttribute {
     const char* semantic;
     const char* member;
     int components;
-    Attribute numbers{};
+    std::optional<Attribute> Instances::*numbers;
 };
 
-/// What the instances of a node say of their places; the rest is named in `others`.
-std::vector<Told> read_places(Source& source, const Place& attributes, std::size_t& count,
-                              std::vector<std::string>& others) {
-    std::vector<Told> told = {
-        {"TRANSLATION", "translation", 3}, {"ROTATION", "rotation", 4}, {"SCALE", "scale", 3}};
-    std::vector<Told> found;
+constexpr PlaceAttribute place_attributes[] = {{"TRANSLATION", "translation", 3, &Instances::translation},
+                                               {"ROTATION", "rotation", 4, &Instances::rotation},
+                                               {"SCALE", "scale", 3, &Instances::scale}};
+
+Instances read_instances(Source& source, const Place& attributes) {
+    Instances all;
     bool first = true;
     for (const auto& [name, reference] : attributes.json().items()) {
         const Accessor a = accessor(source, Place(reference, attributes.path() + "." + name));
-        if (!first && a.count != count) attributes.fail("the attributes of instances have different counts");
-        count = a.count;
+        if (!first && a.count != all.count)
+            attributes.fail("the attributes of instances have different counts");
+        all.count = a.count;
         first = false;
-        const auto known = std::find_if(told.begin(), told.end(), [&, &semantic = name](const Told& t) {
-            return semantic == t.semantic;
-        });
-        if (known == told.end()) {
-            others.push_back(name);
+        const auto known =
+            std::find_if(std::begin(place_attributes), std::end(place_attributes),
+                         [&, &semantic = name](const PlaceAttribute& p) { return semantic == p.semantic; });
+        if (known == std::end(place_attributes)) {
+            all.others.push_back(name);
             continue;
         }
         if (a.components != known->components)
             attributes.fail(fmt::format("{} must have {} numbers", name, known->components));
-        known->numbers = {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
-        found.push_back(std::move(*known));
+        all.*known->numbers =
+            Attribute{"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
     }
-    return found;
+    return all;
 }
 
-Json node_of(const std::vector<Told>& told, std::size_t i, const Json& mesh, const std::string& name) {
+Vec3 three(const std::optional<Attribute>& a, std::size_t i, const Vec3& otherwise) {
+    return a ? Vec3{a->value(i, 0), a->value(i, 1), a->value(i, 2)} : otherwise;
+}
+
+Json node_of(const Instances& all, std::size_t i, const Json& mesh, const std::string& name) {
     Json node = {{"mesh", mesh}};
     if (!name.empty()) node["name"] = name;
-    for (const Told& t : told) {
+    for (const PlaceAttribute& p : place_attributes) {
+        const auto& told = all.*p.numbers;
         Json numbers = Json::array();
-        for (int c = 0; c < t.components; ++c) numbers.push_back(t.numbers.value(i, c));
-        node[t.member] = std::move(numbers);
+        for (int c = 0; told && c < p.components; ++c) numbers.push_back(told->value(i, c));
+        if (told) node[p.member] = std::move(numbers);
     }
     return node;
 }
 
 } // namespace
+
+Transform Instances::place(std::size_t i) const {
+    std::array<double, 4> turn{0, 0, 0, 1};
+    for (int c = 0; rotation && c < 4; ++c) turn[static_cast<std::size_t>(c)] = rotation->value(i, c);
+    return transform_of(three(translation, i, {}), turn, three(scale, i, {1, 1, 1}));
+}
+
+Transform Instances::largest_place() const {
+    Transform largest;
+    double most = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 s = three(scale, i, {1, 1, 1});
+        const double size = std::max({std::abs(s.x), std::abs(s.y), std::abs(s.z)});
+        if (!(size > most)) continue;
+        const Transform t = place(i);
+        if (!inverse(t) || !is_finite(t.point({}))) continue;
+        largest = t;
+        most = size;
+    }
+    return largest;
+}
+
+std::optional<Instances> instances_of(Source& source, std::size_t index) {
+    const Place node = item(source.json(), "nodes", index);
+    const auto extensions = node.find("extensions");
+    const auto extension = extensions ? extensions->find(instancing_extension) : std::nullopt;
+    const auto attributes = extension ? extension->find("attributes") : std::nullopt;
+    if (!attributes || !node.find("mesh") || node.find("skin")) return {};
+    if (!attributes->json().is_object()) attributes->fail("expected an object");
+    if (attributes->json().empty()) return {};
+    return read_instances(source, *attributes);
+}
+
+void stand_at_largest_instances(Source& source, const std::vector<NodeFrame>& frames,
+                                std::vector<Placement>& placements) {
+    if (!uses_extension(source.json(), instancing_extension)) return;
+    for (Placement& placement : placements) {
+        if (placement.node < 0) continue;
+        const auto node = static_cast<std::size_t>(placement.node);
+        const auto all = instances_of(source, node);
+        if (!all) continue;
+        placement.instances = all->count;
+        placement.largest_instance = all->largest_place();
+        placement.world = frames[node].world * placement.largest_instance;
+    }
+}
+
+std::optional<Attribute> translations_on_grid(const Instances& given, const PositionGrid& grid) {
+    std::vector<float> translations;
+    for (std::size_t i = 0; i < given.count; ++i) {
+        const Vec3 steps = given.place(i).point(grid.origin) / grid.step;
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!(std::abs(steps[c]) <= double{std::numeric_limits<float>::max()})) return {};
+            translations.push_back(static_cast<float>(steps[c]));
+        }
+    }
+    return Attribute{"", Domain::wedge, Role::generic, 3, false, std::move(translations)};
+}
 
 void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog& log) {
     constexpr double bytes_of_node = 2000; // with its part
@@ -68,34 +134,31 @@ void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog
     const std::size_t nodes = count_of(original, "nodes");
     std::vector<std::string> others;
     for (std::size_t n = 0; n < nodes; ++n) {
-        const Place node = item(original, "nodes", n);
-        const auto extensions = node.find("extensions");
-        const auto instancing = extensions ? extensions->find(extension_name) : std::nullopt;
-        if (!instancing || !node.find("mesh") || node.find("skin")) continue;
-        const Place attributes = instancing->at("attributes");
-        if (!attributes.json().is_object()) attributes.fail("expected an object");
-        std::size_t count = 0;
-        const std::vector<Told> told = read_places(source, attributes, count, others);
-        needed += bytes_of_node * static_cast<double>(count);
+        const auto all = instances_of(source, n);
+        if (!all) continue;
+        for (const std::string& name : all->others)
+            if (std::find(others.begin(), others.end(), name) == others.end()) others.push_back(name);
+        needed += bytes_of_node * static_cast<double>(all->count);
         require_memory(needed, "making nodes of instances", "leave out instances: expand");
+        const Place node = item(original, "nodes", n);
         Json& owner = document["nodes"][n];
         Json children = owner.contains("children") ? owner["children"] : Json::array();
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < all->count; ++i) {
             children.push_back(document["nodes"].size());
-            document["nodes"].push_back(node_of(told, i, node.at("mesh").json(), node.text_or("name", "")));
+            document["nodes"].push_back(node_of(*all, i, node.at("mesh").json(), node.text_or("name", "")));
         }
         Json& changed = document["nodes"][n]; // the list may have moved
         if (!children.empty()) changed["children"] = std::move(children);
         changed.erase("mesh");
-        changed["extensions"].erase(extension_name);
+        changed["extensions"].erase(instancing_extension);
         if (changed["extensions"].empty()) changed.erase("extensions");
     }
     const auto has = [](const Json& node) {
-        return node.contains("extensions") && node["extensions"].contains(extension_name);
+        return node.contains("extensions") && node["extensions"].contains(instancing_extension);
     };
     if (nodes == 0 || std::any_of(document["nodes"].begin(), document["nodes"].end(), has)) return;
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        remove_name(document, list, extension_name);
+        remove_name(document, list, instancing_extension);
         erase_empty(document, list);
     }
     if (!others.empty())
@@ -108,3 +171,43 @@ void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog
 }
 
 } // namespace facetmill::io::gltf
+
+namespace facetmill::io {
+
+std::vector<double> errors_of_instances(const Scene& scene, bool filters) {
+    constexpr double of_float = 1.0 / (1 << 23);
+    // Each number of the quaternion is off by 1.1e-5 as stored and 1.5e-5 as decoded, the largest by up to
+    // sqrt(3) times as much: together an angle of less than this.
+    constexpr double of_rotation = 2e-4;
+    std::vector<double> errors(scene.parts.size());
+    for (std::size_t d = 0; d < scene.documents.size(); ++d) {
+        const Document& document = *scene.documents[d];
+        if (document.json.find(gltf::instancing_extension) == std::string::npos) continue;
+        const Json json = gltf::parse_document(document.json);
+        gltf::Source source(json, document.buffers);
+        const auto frames = gltf::node_frames(json);
+        auto places = gltf::placements(json, frames);
+        gltf::stand_at_largest_instances(source, frames, places);
+        std::map<int, Transform> largest;
+        for (const auto& place : places)
+            if (place.instances > 0) largest[place.node] = place.largest_instance;
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            const Part& part = scene.parts[i];
+            const auto found = largest.find(part.node);
+            if (part.document != static_cast<int>(d) || found == largest.end()) continue;
+            const Transform& at = found->second;
+            const Box box = part.mesh.bounds();
+            if (box.empty()) continue;
+            const double corner = std::max(length(box.min), length(box.max)),
+                         inside = length(at.point({})) + greatest_stretch(at) * corner, // seen from the node
+                outside = greatest_stretch(part.transform) / greatest_stretch(at);
+            errors[i] =
+                2 * of_float * inside * outside +
+                (filters ? of_rotation * std::max(box.diagonal(), corner) * greatest_stretch(part.transform)
+                         : 0);
+        }
+    }
+    return errors;
+}
+
+} // namespace facetmill::io

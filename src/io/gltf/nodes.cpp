@@ -31,25 +31,16 @@ Transform from_matrix(const Place& node) {
     return t;
 }
 
+double norm_of(const std::array<double, 4>& q) {
+    return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+}
+
 Transform from_parts(const Place& node) {
     const auto move = numbers<3>(node, "translation", {0, 0, 0});
     const auto scale = numbers<3>(node, "scale", {1, 1, 1});
-    auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
-    const double norm = std::sqrt(x * x + y * y + z * z + w * w);
-    if (!(norm > 0)) node.at("rotation").fail("the quaternion is zero");
-    x /= norm;
-    y /= norm;
-    z /= norm;
-    w /= norm;
-    const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    Transform t;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = r[i][j] * scale[j];
-        t.m[i][3] = move[i];
-    }
-    return t;
+    const auto turn = numbers<4>(node, "rotation", {0, 0, 0, 1});
+    if (!(norm_of(turn) > 0)) node.at("rotation").fail("the quaternion is zero");
+    return transform_of({move[0], move[1], move[2]}, turn, {scale[0], scale[1], scale[2]});
 }
 
 /// A node has one parent. Files that name two exist; the node then stands under the first, and `warn` hears
@@ -81,6 +72,26 @@ void link_levels(const Place& node, std::size_t index, std::vector<NodeFrame>& f
 }
 
 } // namespace
+
+Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, const Vec3& scale) {
+    auto [x, y, z, w] = turn;
+    const double norm = norm_of(turn);
+    if (norm > 0) {
+        x /= norm;
+        y /= norm;
+        z /= norm;
+        w /= norm;
+    }
+    const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+    Transform t;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = r[i][j] * scale[j];
+        t.m[i][3] = move[i];
+    }
+    return t;
+}
 
 std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
     std::vector<NodeFrame> frames(count_of(document, "nodes"));
@@ -165,7 +176,7 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
             node < 0 ? "" : item(document, "nodes", static_cast<std::size_t>(node)).text_or("name", "");
         if (name.empty()) name = item(document, "meshes", static_cast<std::size_t>(mesh)).text_or("name", "");
         if (name.empty()) name = fmt::format("mesh_{}", mesh);
-        all.push_back({names.add(name), node, mesh, skinned, skinned ? Transform{} : world});
+        all.push_back({names.add(name), node, mesh, skinned, skinned ? Transform{} : world, 0, {}});
     };
     for (std::size_t i = 0; i < frames.size(); ++i)
         if (frames[i].mesh >= 0)

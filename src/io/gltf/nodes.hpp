@@ -5,6 +5,7 @@
 #include "mesh/scene.hpp"
 #include "mesh/transform.hpp"
 
+#include <array>
 #include <functional>
 #include <set>
 
@@ -17,6 +18,10 @@ struct NodeFrame {
     int mesh = -1;
     bool skinned = false;
 };
+
+/// What is scaled first, then turned by a quaternion (x, y, z, w) of any length, one of zero turning nothing,
+/// and then moved.
+Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, const Vec3& scale);
 
 /// Takes a warning's id and message.
 using Warn = std::function<void(const char*, std::string)>;
@@ -36,7 +41,10 @@ struct Placement {
     int node = -1; ///< -1 when the document has no nodes at all: then each mesh is placed once, at the origin
     int mesh = -1;
     bool skinned = false;
-    Transform world;
+    Transform
+        world; ///< of the part: the node's, or that of its largest instance (stand_at_largest_instances)
+    std::size_t instances = 0;  ///< by EXT_mesh_gpu_instancing
+    Transform largest_instance; ///< seen from the node
 };
 /// One per node with a mesh that has triangles, in node order.
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);

@@ -19,8 +19,9 @@ struct Patch {
     std::vector<NodeFrame> frames{};          ///< of the document as read, moved skeletons where they are now
     std::map<std::size_t, Transform> above{}; ///< the matrices of new nodes above roots
     std::vector<Placement> placements{};      ///< its parts as read
-    std::vector<int> claimed{};               ///< the part that stands at each placement, or -1
-    std::map<std::size_t, int> bits_of_node{}; ///< of the positions of its mesh, where they are on a grid
+    std::map<int, Transform> largest_instances{}; ///< of nodes that have several, seen from them
+    std::vector<int> claimed{};                   ///< the part that stands at each placement, or -1
+    std::map<std::size_t, int> bits_of_node{};    ///< of the positions of its mesh, where they are on a grid
     std::map<std::size_t, Lattice> lattice_of_node{}; ///< of those that have one
     std::map<Index, int> materials{};                 ///< document's index of each scene material used so far
     std::map<std::pair<int, std::size_t>, std::size_t>
@@ -59,12 +60,13 @@ void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part);
 
 /// Stores the attributes of all meshes as quantize says, and as meshopt's filters want them. The grid of a
 /// mesh's positions goes into the transforms of its nodes, or of new nodes below them where an animation, a
-/// camera, children or whatever else depends on the node itself. Positions of meshes with a skin, with
-/// EXT_mesh_gpu_instancing, or without a node stay float32, which is said in the changes. After patch_nodes
-/// and patch_levels.
+/// camera, children or whatever else depends on the node itself; where the node has its mesh at many places
+/// (EXT_mesh_gpu_instancing), the grid's origin goes into each of these. Positions of meshes with a skin or
+/// without a node stay float32, which is said in the changes. After patch_nodes and patch_levels.
 void store_meshes(Patch& patch);
 /// Under meshopt: puts animations, instances and bind matrices into views that can be compressed, rotations
-/// in 16 bits, translations and scales in steps of 2^-16 of their greatest extent or less.
+/// in 16 bits, translations and scales of animations in steps of 2^-16 of their greatest extent or less,
+/// those of instances within a quarter of a step of their mesh's grid, or as float32 has the largest.
 void store_streams(Patch& patch);
 
 /// The document's index for a scene material, added when it is new; -1 for none.

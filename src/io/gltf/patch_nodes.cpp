@@ -1,3 +1,4 @@
+#include "io/gltf/instances.hpp"
 #include "io/gltf/patch.hpp"
 
 #include <algorithm>
@@ -61,6 +62,16 @@ void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int pa
     if (name != placement.name) json["name"] = name;
 }
 
+/// Where the node of a part should be: where the part is, taken back by the instance that it stands at.
+Transform node_world(const Patch& patch, const Part& part) {
+    const auto found = patch.largest_instances.find(part.node);
+    if (part.document != patch.base || found == patch.largest_instances.end()) return part.transform;
+    const Transform& before = patch.frames[static_cast<std::size_t>(part.node)].world;
+    if (part.transform == before * found->second) return before;
+    const auto back = inverse(found->second);
+    return back ? part.transform * *back : part.transform;
+}
+
 /// Where each node of the document should be now: parts where they say, everything else where it was.
 std::vector<Transform> wanted_worlds(const Patch& patch) {
     std::vector<Transform> worlds;
@@ -69,7 +80,7 @@ std::vector<Transform> wanted_worlds(const Patch& patch) {
         const auto& placement = patch.placements[p];
         if (patch.claimed[p] < 0 || placement.node < 0) continue;
         const Part& part = patch.scene.parts[static_cast<std::size_t>(patch.claimed[p])];
-        if (!part.skinned) worlds[static_cast<std::size_t>(placement.node)] = part.transform;
+        if (!part.skinned) worlds[static_cast<std::size_t>(placement.node)] = node_world(patch, part);
     }
     return worlds;
 }
@@ -181,7 +192,7 @@ std::optional<Transform> place_below(const Patch& patch, const Part& part, int o
     if (!moves) return {};
     const auto up = inverse(wanted_worlds(patch)[static_cast<std::size_t>(origin)]);
     if (!up) return {};
-    const Transform local = *up * part.transform;
+    const Transform local = *up * node_world(patch, part);
     return nearly_same(local, {}) ? Transform{} : local;
 }
 
@@ -215,8 +226,11 @@ std::size_t add_node(Patch& patch, const Part& part, int mesh) {
         if (source.contains("skin")) node["skin"] = source["skin"];
     } else {
         below = place_below(patch, part, origin);
-        const Transform& at = below ? *below : part.transform;
+        const Transform at = below ? *below : node_world(patch, part);
         if (!at.identity()) node["matrix"] = matrix(at);
+        if (mesh >= 0 && patch.largest_instances.contains(origin))
+            node["extensions"][instancing_extension] =
+                document["nodes"][static_cast<std::size_t>(origin)]["extensions"][instancing_extension];
     }
     const std::size_t index = patch.builder.add("nodes", std::move(node));
     Json& siblings =
@@ -241,7 +255,10 @@ void claim_placements(Patch& patch) {
     if (patch.base < 0) return;
     patch.frames = node_frames(patch.builder.json());
     patch.placements = placements(patch.builder.json(), patch.frames);
+    stand_at_largest_instances(patch.builder.source(), patch.frames, patch.placements);
     patch.claimed.assign(patch.placements.size(), -1);
+    for (const Placement& placement : patch.placements)
+        if (placement.instances > 0) patch.largest_instances[placement.node] = placement.largest_instance;
     std::map<std::pair<int, int>, std::size_t> placement_at; // by node and mesh
     for (std::size_t p = 0; p < patch.placements.size(); ++p)
         placement_at[{patch.placements[p].node, patch.placements[p].mesh}] = p;
@@ -348,7 +365,7 @@ void patch_levels(Patch& patch, const std::vector<int>& node_of_part) {
             if (frames[node].parent >= 0) continue; // stands somewhere in the document already
             unroot(document, node);
             if (!patch.scene.parts[part].skinned)
-                place_level(document["nodes"][node], parent, patch.scene.parts[part].transform);
+                place_level(document["nodes"][node], parent, node_world(patch, patch.scene.parts[part]));
         }
         document["nodes"][static_cast<std::size_t>(node_of_part[base])]["extensions"]["MSFT_lod"] = {
             {"ids", ids}};

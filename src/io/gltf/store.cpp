@@ -2,6 +2,7 @@
 // that are left alone, points and lines among them.
 
 #include "io/gltf/encode.hpp"
+#include "io/gltf/instances.hpp"
 #include "io/gltf/patch.hpp"
 #include "io/gltf/quantise.hpp"
 
@@ -43,7 +44,7 @@ class Store {
     int bits_of(std::size_t mesh) const;
     PositionGrid grid_in(std::size_t mesh, const Box& box) const;
     std::optional<PositionGrid> grid_of(std::size_t mesh);
-    const char* reason_for_floats(std::size_t mesh) const;
+    const char* reason_for_floats(std::size_t mesh, const PositionGrid& grid);
     std::size_t position(std::size_t accessor, const std::optional<PositionGrid>& grid);
     std::size_t vector(std::size_t accessor, bool unit);
     std::size_t fraction(std::size_t accessor, const std::string& semantic);
@@ -64,7 +65,10 @@ class Store {
         return known != made_.end() ? known->second : made_.emplace(key, make()).first->second;
     }
 
+    std::optional<Attribute> instances_on_grid(std::size_t node, const PositionGrid& grid);
+    void place_origin_in_instances(std::size_t node, const PositionGrid& grid);
     void place_grid(std::size_t node, const PositionGrid& grid);
+    void place_in_node(std::size_t node, const PositionGrid& grid);
     void keep(const std::string& attribute, std::string why);
 
     Patch& patch_;
@@ -140,15 +144,15 @@ std::optional<Stored> Store::as_floats(const Attribute& numbers, int exponent, b
 // --- positions
 
 /// Why a mesh cannot have its grid in a node; null when it can.
-const char* Store::reason_for_floats(std::size_t mesh) const {
+const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid) {
     if (uses_extension(json_, "KHR_animation_pointer"))
         return "stays float32, because KHR_animation_pointer may drive its nodes";
     if (nodes_[mesh].empty()) return "stays float32, because no node could hold its grid";
     for (const std::size_t n : nodes_[mesh]) {
         const Json& node = json_["nodes"][n];
         if (node.contains("skin")) return "stays float32 where a mesh has a skin, which ignores nodes";
-        if (has_extension(node, "EXT_mesh_gpu_instancing"))
-            return "stays float32 where a mesh is instanced by EXT_mesh_gpu_instancing";
+        if (has_extension(node, instancing_extension) && !instances_on_grid(n, grid))
+            return "stays float32 where the places of its instances are not known or too far away for a grid";
     }
     return nullptr;
 }
@@ -208,7 +212,7 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     if (patch_.settings.whole_positions && box.longest_side() > 65535) return {}; // float32 has them, too
     const PositionGrid grid = patch_.settings.whole_positions ? whole_grid(box) : grid_in(mesh, box);
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
-    if (const char* why = reason_for_floats(mesh)) {
+    if (const char* why = reason_for_floats(mesh, grid)) {
         keep("POSITION", why);
         return {};
     }
@@ -416,8 +420,9 @@ void Store::store_mesh(std::size_t mesh) {
 /// Whether a node has nothing but its mesh that its transform is for.
 bool stands_alone(const Json& node) {
     if (node.contains("camera") || (node.contains("children") && !node["children"].empty())) return false;
-    return !node.contains("extensions") ||
-           (node["extensions"].size() == 1 && node["extensions"].contains("MSFT_lod"));
+    std::size_t of_mesh = 0;
+    for (const char* name : {"MSFT_lod", instancing_extension}) of_mesh += has_extension(node, name);
+    return !node.contains("extensions") || node["extensions"].size() == of_mesh;
 }
 
 /// The animation of the morph weights of a node goes with its mesh.
@@ -436,7 +441,39 @@ void move_weights(Json& document, std::size_t from, std::size_t to) {
 
 Json three(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
+const Json::json_pointer instance_attributes("/extensions/EXT_mesh_gpu_instancing/attributes");
+
+/// The translations of a node's instances; none when their numbers cannot be read or changed.
+std::optional<Attribute> Store::instances_on_grid(std::size_t n, const PositionGrid& grid) {
+    const Json& node = json_["nodes"][n];
+    if (!node.contains(instance_attributes)) return {};
+    for (const auto& item : node[instance_attributes].items())
+        if (!readable(item.value().get<std::size_t>())) return {};
+    const auto given = instances_of(builder_.current(), n);
+    return given ? translations_on_grid(*given, grid) : std::nullopt;
+}
+
+/// The origin goes to each place, since the node's own transform is outside of them.
+void Store::place_origin_in_instances(std::size_t n, const PositionGrid& grid) {
+    const Attribute moved = instances_on_grid(n, grid).value();
+    Json& attributes = json_["nodes"][n][instance_attributes];
+    const std::size_t made = made_once(fmt::format("instances {} {}", attributes.dump(), key_of(grid)), [&] {
+        return builder_.add_stored(plain(moved.data, moved.components, false, false), 0);
+    });
+    if (attributes.contains("TRANSLATION"))
+        builder_.release({{"attributes", {{"old", attributes["TRANSLATION"]}}}});
+    attributes["TRANSLATION"] = made;
+}
+
 void Store::place_grid(std::size_t n, const PositionGrid& grid) {
+    if (json_["nodes"][n].contains(instance_attributes)) {
+        place_origin_in_instances(n, grid);
+        return place_in_node(n, {{}, grid.step, grid.bits});
+    }
+    place_in_node(n, grid);
+}
+
+void Store::place_in_node(std::size_t n, const PositionGrid& grid) {
     Json& node = json_["nodes"][n];
     if (animated_.contains(n) || joints_.contains(n) || !stands_alone(node)) {
         Json below = {{"mesh", node["mesh"]},
@@ -444,6 +481,11 @@ void Store::place_grid(std::size_t n, const PositionGrid& grid) {
                       {"scale", three({grid.step, grid.step, grid.step})}};
         if (node.contains("name")) below["name"] = node["name"];
         node.erase("mesh");
+        if (has_extension(node, instancing_extension)) {
+            below["extensions"][instancing_extension] = node["extensions"][instancing_extension];
+            node["extensions"].erase(instancing_extension);
+            if (node["extensions"].empty()) node.erase("extensions");
+        }
         const std::size_t child = builder_.add("nodes", std::move(below));
         Json& children = json_["nodes"][n]["children"];
         if (!children.is_array()) children = Json::array();

@@ -79,8 +79,9 @@ class DocumentTidy {
     std::size_t flatten(const std::set<std::size_t>& nodes, std::set<std::size_t>& emptied);
 
     /// One node at the top of the scene that the first of these nodes is in, with its mesh at all of their
-    /// places in the world (EXT_mesh_gpu_instancing, required). Returns the node and where it stands; none
-    /// when a place cannot be told by a translation, a rotation and scales (within 1e-6).
+    /// places in the world (EXT_mesh_gpu_instancing, required). Returns the node and where the largest of the
+    /// places is, as float32 has it; none when a place cannot be told by a translation, a rotation and scales
+    /// (within 1e-6).
     using NodePlace = std::pair<std::size_t, Transform>;
     std::optional<NodePlace> instance(const std::vector<NodePlace>& nodes);
 

@@ -1,6 +1,7 @@
 // Nodes of a document at the top of their scene, and many in one.
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/instances.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/tidy.hpp"
 #include "mesh/transform.hpp"
@@ -134,6 +135,14 @@ std::optional<DocumentTidy::NodePlace> DocumentTidy::instance(const std::vector<
     Json node = {{"mesh", json_["nodes"][first]["mesh"]},
                  {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}};
     if (json_["nodes"][first].contains("name")) node["name"] = json_["nodes"][first]["name"];
+    Instances all;
+    all.count = nodes.size();
+    const auto numbers = [](int components, const std::vector<float>& told) {
+        return Attribute{"", Domain::wedge, Role::generic, components, false, told};
+    };
+    all.translation = numbers(3, translations);
+    if (turned) all.rotation = numbers(4, rotations);
+    if (scaled) all.scale = numbers(3, scales);
     Transform place;
     for (std::size_t c = 0; c < 3; ++c) place.m[c][3] = origin[c];
     if (!place.identity()) node["translation"] = {origin.x, origin.y, origin.z};
@@ -141,7 +150,7 @@ std::optional<DocumentTidy::NodePlace> DocumentTidy::instance(const std::vector<
     put_at_top(added, first);
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
         add_name(json_, list, "EXT_mesh_gpu_instancing");
-    return std::pair(added, place);
+    return std::pair(added, place * all.largest_place());
 }
 
 } // namespace facetmill::io

@@ -89,7 +89,8 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
     d.option("filters", &MeshoptOptions::filters,
              "Encodes normals and tangents on an octahedron, rotations of animations and instances in 16 "
              "bits, and values that stay float32 as multiples of a power of two: positions within quantize's "
-             "bits; translations, scales and morph weights within 2^-16 of their extent. "
+             "bits; translations, scales and morph weights within 2^-16 of their extent, "
+             "places of instances within a quarter of a step of the grid. "
              "Without filters, the values are "
              "compressed unchanged.");
     d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
