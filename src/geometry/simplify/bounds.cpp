@@ -14,6 +14,7 @@
 #include "geometry/spatial/group_distances.hpp"
 #include "mesh/placement.hpp"
 
+#include <array>
 #include <atomic>
 #include <utility>
 
@@ -26,25 +27,30 @@ namespace {
 constexpr double guarded_share = 0.9;
 // A face as near to a point as this share of the bound (squared) is not compared with others.
 constexpr double near_enough = 0.01;
-// Where on a face that stays, by the weights of its other two vertices, it is asked how far the surface is.
-constexpr std::pair<double, double> places_on_face[]{
-    {1.0 / 3, 1.0 / 3}, {0.5, 0}, {0.5, 0.5}, {1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
+// Of a face that takes more points, the centres are dropped: where a face stands for so many, the centres are
+// as near to it as the vertices around them.
+constexpr Index many_points = 256;
 constexpr float share_left = 1.0f / 4; // of a squared error where faces cross: half the distance
 
-/// The vertices of the surface and the centres of its faces, each with one of its faces.
-FollowedPoints follow_points(const State& s) {
+/// The vertices of the surface and the centres of its faces, each with one of its faces. input: the tree of
+/// the mesh that the state was laid out of, whose faces are numbered as in that.
+FollowedPoints follow_points(const State& s, const Mesh& from, const FaceTree& input) {
     const std::size_t vertices = s.vertex_slots(), faces = s.face_slots();
-    FollowedPoints f;
-    f.points = s.at;
+    FollowedPoints f{.input = &input, .vertices = vertices};
+    std::vector<Index> triangle_of(from.face_count(), none);
+    parallel_for(input.faces.size(),
+                 [&](std::size_t t) { triangle_of[input.faces[t]] = static_cast<Index>(t); });
+    f.triangles.resize(faces);
+    parallel_for(faces, [&](std::size_t i) { f.triangles[i] = triangle_of[s.face_source[i]]; });
     f.points.resize(vertices + faces);
-    f.next.assign(f.points.size(), none);
     f.first.assign(faces, none);
-    for (std::size_t v = 0; v < vertices; ++v)
-        f.next[v] = std::exchange(f.first[s.rings.first[v] / 3], static_cast<Index>(v));
+    const auto put = [&f](std::size_t i, std::size_t face, const Vec3& at) {
+        f.points[i] = {at, std::exchange(f.first[face], static_cast<Index>(i))};
+    };
+    for (std::size_t v = 0; v < vertices; ++v) put(v, s.rings.first[v] / 3, s.at[v]);
     parallel_for(faces, [&](std::size_t i) {
-        f.points[vertices + i] =
-            (s.at[s.tri[3 * i]] + s.at[s.tri[3 * i + 1]] + s.at[s.tri[3 * i + 2]]) * (1.0 / 3);
-        f.next[vertices + i] = std::exchange(f.first[i], static_cast<Index>(vertices + i));
+        put(vertices + i, i,
+            (s.at[s.tri[3 * i]] + s.at[s.tri[3 * i + 1]] + s.at[s.tri[3 * i + 2]]) * (1.0 / 3));
     });
     return f;
 }
@@ -57,67 +63,155 @@ void for_faces(const Around& r, Body&& body) {
         if (!k.has(r.a)) body(k);
 }
 
-bool keeps_points(const State& s, Around& r, const Vec3& to) {
+/// Lays out the faces that stay, with the new vertex.
+void lay_fan(const State& s, Around& r, const Vec3& to) {
     const FollowedPoints& followed = *s.bounds.followed;
-    r.points.clear();
-    r.taken_by.clear();
+    for_faces(r, [&](const RingCorner& k) { fetch_soon(followed.first[k.corner / 3]); });
     r.staying.clear();
+    double reach = 0;
+    const auto reaches = [&](Index v) {
+        const Vec3 off = s.at[v] - to;
+        reach = std::max({reach, std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+    };
+    reaches(r.a);
+    reaches(r.b);
     for_faces(r, [&](const RingCorner& k) {
-        if (!k.has(r.a) && !k.has(r.b)) r.staying.push_back(k);
-        const Index f = k.corner / 3;
-        for (Index p = followed.first[f]; p != none; p = followed.next[p]) r.points.push_back(p);
+        if (k.has(r.a) || k.has(r.b)) return;
+        r.staying.push_back(k);
+        reaches(k.next);
+        reaches(k.before);
     });
-    r.points_at.clear();
-    for (const Index i : r.points) r.points_at.push_back(followed.points[i]);
-    r.bounds.begin(to, r.points_at);
+    for (int i = 0; i < r.sides; ++i) reaches(r.side[static_cast<std::size_t>(i)].opposite);
+    for_faces(r, [&](const RingCorner& k) {
+        if (const Index first = followed.first[k.corner / 3]; first != none)
+            fetch_soon(followed.points[first]);
+    });
+    const double farthest = std::sqrt(followed.farthest);
+    r.bounds.begin(to, reach + farthest, farthest); // points are as near to the faces as they were
     for (const RingCorner& k : r.staying) r.bounds.add(s.at[k.next], s.at[k.before]);
-    for (std::size_t i = 0; i < r.points.size(); ++i) {
-        const Vec3& p = r.points_at[i];
-        double least = HUGE_VAL;
-        Index taker = none;
-        for (Index k = 0; k < r.staying.size() && least > near_enough * followed.farthest; ++k) {
-            if (r.bounds.square(k, i) >= least) continue;
-            const Vec3 &x = s.at[r.staying[k].next], &y = s.at[r.staying[k].before];
-            const Vec3 off = p - closest_on_triangle(p, to, x, y);
-            if (!(dot(off, off) < least)) continue;
-            least = dot(off, off);
-            taker = k;
-        }
-        if (!(least <= followed.farthest)) return false;
+}
+
+/// The nearest of the faces that stay, or one that is near enough; none when all are too far.
+Index taker_of(const State& s, const Around& r, const Vec3& to, const Vec3& p, std::size_t lane) {
+    const double farthest = s.bounds.followed->farthest;
+    const auto first = static_cast<Index>(r.bounds.nearest(lane));
+    if (r.bounds.most(lane) <= farthest) return first;
+    double least = HUGE_VAL;
+    Index taker = none;
+    const auto compare = [&](Index k) {
+        const Vec3 &x = s.at[r.staying[k].next], &y = s.at[r.staying[k].before];
+        const Vec3 off = p - closest_on_triangle(p, to, x, y);
+        if (!(dot(off, off) < least)) return;
+        least = dot(off, off);
+        taker = k;
+    };
+    if (first != none) compare(first);
+    for (Index k = 0; k < r.staying.size() && least > near_enough * farthest; ++k)
+        if (k != first && r.bounds.square(k, lane) < least && r.bounds.square(k, lane) <= farthest)
+            compare(k);
+    return least <= farthest ? taker : none;
+}
+
+/// Finds who takes the next points, up to four; false when nobody takes one, which is the next then.
+bool take_points(const State& s, Around& r, const Vec3& to) {
+    std::array<Vec3, 4> at;
+    const std::size_t begin = r.taken_by.size();
+    const std::size_t count = std::min(at.size(), r.points.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) at[i] = s.bounds.followed->points[r.points[begin + i]].at;
+    r.bounds.look(std::span(at).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const Index taker = taker_of(s, r, to, at[i], i);
+        if (taker == none) return false;
+        r.bounds.note_near(taker, i);
         r.taken_by.push_back(taker);
     }
     return true;
 }
 
+/// Makes points[lost] the first of its face. firsts: how many of the points are the first of one; those of
+/// each list follow one another behind them.
+void move_to_front(FollowedPoints& followed, const Around& r, std::size_t firsts, std::size_t lost) {
+    if (lost < firsts) return;
+    const auto next = [&](std::size_t i) -> Index& { return followed.points[r.points[i]].next; };
+    std::size_t begin = lost; // of the list
+    while (begin > firsts && next(begin - 1) == r.points[begin]) --begin;
+    std::size_t first = 0;
+    while (next(first) != r.points[begin]) ++first;
+    next(begin == lost ? first : lost - 1) = next(lost);
+    next(lost) = r.points[first];
+    for_faces(r, [&](const RingCorner& k) {
+        if (Index& f = followed.first[k.corner / 3]; f == r.points[first]) f = r.points[lost];
+    });
+}
+
+/// Whether all points of the faces around are taken. The one that is not becomes the first of its face, and
+/// the first ones are asked first: so the next attempt nearby soon finds it.
+bool keeps_points(State& s, Around& r, const Vec3& to) {
+    FollowedPoints& followed = *s.bounds.followed;
+    r.points.clear();
+    r.taken_by.clear();
+    lay_fan(s, r, to);
+    bool kept = true;
+    std::size_t firsts = 0;
+    for_faces(r, [&](const RingCorner& k) { firsts += followed.first[k.corner / 3] != none; });
+    const auto take = [&] {
+        if (take_points(s, r, to)) return;
+        kept = false;
+        move_to_front(followed, r, firsts, r.taken_by.size());
+    };
+    const auto add = [&](Index p) {
+        r.points.push_back(p);
+        if (const Index next = followed.points[p].next; next != none) fetch_soon(followed.points[next]);
+        if (r.points.size() == r.taken_by.size() + 4) take();
+    };
+    for_faces(r, [&](const RingCorner& k) {
+        if (const Index first = followed.first[k.corner / 3]; kept && first != none) add(first);
+    });
+    for_faces(r, [&](const RingCorner& k) {
+        const Index first = followed.first[k.corner / 3];
+        if (!kept || first == none) return;
+        for (Index p = followed.points[first].next; kept && p != none; p = followed.points[p].next) add(p);
+    });
+    if (kept && r.points.size() > r.taken_by.size()) take();
+    return kept;
+}
+
+/// Of the centres among the points, the triangle of the nearest, in the order of the tree; none without one.
+Index triangle_near(const FollowedPoints& followed, std::span<const Index> points, const Vec3& place) {
+    double least = HUGE_VAL;
+    Index nearest = none;
+    for (const Index p : points) {
+        if (p < followed.vertices) continue;
+        const Vec3 off = followed.points[p].at - place;
+        if (!(dot(off, off) < least)) continue;
+        least = dot(off, off);
+        nearest = p;
+    }
+    return nearest == none ? none : followed.triangles[nearest - followed.vertices];
+}
+
 /// Whether the new vertex and places on the faces at it are near the surface that came in: near a point of it
 /// that the face took, or else near any place.
-bool is_near(const State& s, Around& r, const Vec3& to) {
+bool is_near(const State& s, const Around& r, const Vec3& to) {
+    constexpr unsigned at_vertex = 3u << FanBounds::places;
     const FollowedPoints& followed = *s.bounds.followed;
-    r.places.assign(1, to);
-    for (const RingCorner& k : r.staying) {
-        const Vec3 &x = s.at[k.next], &y = s.at[k.before];
-        for (const auto& [a, b] : places_on_face) r.places.push_back(to * (1 - a - b) + x * a + y * b);
-    }
-    r.near.assign(r.places.size(), 0);
-    const auto look = [&](std::size_t place, const Vec3& p) {
-        const Vec3 off = r.places[place] - p;
-        if (dot(off, off) <= followed.farthest) r.near[place] = 1;
-    };
-    for (std::size_t i = 0; i < r.points.size(); ++i) {
-        const Vec3& p = followed.points[r.points[i]];
-        look(0, p);
-        for (std::size_t k = 0; k < std::size(places_on_face); ++k)
-            look(1 + std::size(places_on_face) * r.taken_by[i] + k, p);
-    }
     const double bound = std::sqrt(followed.farthest) / s.frame.scale;
-    Index hint = none;
-    for (std::size_t i = 0; i < r.places.size(); ++i) {
-        if (r.near[i]) continue;
-        const Closest found = closest_point(*followed.input, s.frame.outside(r.places[i]), hint, bound);
-        if (!(found.distance <= bound)) return false;
-        hint = found.triangle;
+    const auto reaches = [&](const Vec3& place) {
+        const Index hint = triangle_near(followed, r.points, place);
+        return closest_point(*followed.input, s.frame.outside(place), hint, bound).distance <= bound;
+    };
+    unsigned any = 0;
+    for (std::size_t k = 0; k < r.staying.size(); ++k) {
+        const unsigned near = r.bounds.near(k);
+        any |= near;
+        const Vec3 &x = s.at[r.staying[k].next], &y = s.at[r.staying[k].before];
+        for (std::size_t i = 0; i < FanBounds::places; ++i) {
+            if (near >> i & 1) continue;
+            const double b = FanBounds::weight_b[i], c = FanBounds::weight_c[i];
+            if (!reaches(to * (1 - b - c) + x * b + y * c)) return false;
+        }
     }
-    return true;
+    return (any & at_vertex) != 0 || reaches(to);
 }
 
 /// Whether one of the points is farther than `bound` from a surface; neighbours are looked at together.
@@ -246,16 +340,20 @@ std::vector<float> largest_errors(const Log& log, std::size_t vertices) {
 
 } // namespace
 
-bool points_stay_near(const State& s, Around& around, const Vec3& to) {
+bool points_stay_near(State& s, Around& around, const Vec3& to) {
     return keeps_points(s, around, to) && is_near(s, around, to);
 }
 
 void hand_over_points(State& s, const Around& around) {
     FollowedPoints& followed = *s.bounds.followed;
     for_faces(around, [&](const RingCorner& k) { followed.first[k.corner / 3] = none; });
-    for (std::size_t i = 0; i < around.points.size(); ++i) {
-        const Index face = around.staying[around.taken_by[i]].corner / 3;
-        followed.next[around.points[i]] = std::exchange(followed.first[face], around.points[i]);
+    std::array<Index, 2 * Ring::max_size> taken{};
+    for (const Index taker : around.taken_by) ++taken[taker];
+    for (std::size_t i = around.points.size(); i-- > 0;) { // so that the first ones stay the first
+        const Index taker = around.taken_by[i], face = around.staying[taker].corner / 3,
+                    point = around.points[i];
+        if (point >= followed.vertices && taken[taker] > many_points) continue;
+        followed.points[point].next = std::exchange(followed.first[face], point);
     }
 }
 
@@ -308,10 +406,9 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     const Origin origin(s, from.vertex_count());
     const Judge judge(from, max_error, samples);
     const double limit = guarded_share * max_error * s.frame.scale;
-    s.bounds.followed = follow_points(s);
-    s.bounds.followed->input = &judge.tree();
+    s.bounds.followed = follow_points(s, from, judge.tree());
     s.bounds.followed->farthest = limit * limit;
-    ShareOfSteps steps({4, 4, 1});
+    ShareOfSteps steps({4, 2});
     Ended end;
     end.outcome = run_passes(s, goal);
     steps.next();
@@ -322,22 +419,20 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     Log& log = *end.log;
     const std::size_t all = log.steps.size();
     end.measurements = 1;
-    bool good = false;
     {
         const Share first(0, 0.2);
-        good = judge.within(bare_after(origin, from, log, all));
+        end.measured = judge.deviation(bare_after(origin, from, log, all));
     }
-    if (!good) {
+    if (!(*end.measured <= max_error)) {
         const Share others(0.2, 1);
         end.by_error = true;
         const std::size_t steps = longest_good(origin, from, log, judge, end.measurements);
         end.rolled_back = all - steps;
         end.shape = rolled_back(origin, log, steps);
+        end.measured = judge.deviation(bare_after(origin, from, log, steps));
     } else {
         end.shape = std::move(s);
     }
-    steps.next();
-    end.measured = judge.deviation(bare_after(origin, from, log, log.steps.size()));
     end.outcome.collapses = log.steps.size();
     end.outcome.largest = 0;
     for (const Step& step : log.steps)

@@ -61,11 +61,8 @@ struct Around {
     // Only for max_error, see bounds.cpp.
     std::vector<RingCorner> staying; ///< at a or b, of each face around that stays
     std::vector<Index> points;       ///< of the faces around the edge
-    std::vector<Vec3> points_at;     ///< [points]
-    FanBounds bounds;                ///< of the distances of points to the faces of staying
     std::vector<Index> taken_by;     ///< [points] which of staying takes it
-    std::vector<Vec3> places;        ///< the new vertex, and some on the faces that stay
-    std::vector<std::uint8_t> near;  ///< [places] known to be near the surface that came in
+    FanBounds bounds;                ///< of the distances of points to the faces of staying
 };
 
 /// Collapses that one worker makes; joined into the state's totals afterwards.

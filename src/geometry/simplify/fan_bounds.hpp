@@ -1,11 +1,12 @@
 #pragma once
-// How far points are at least from the triangles around a vertex: in float32, four points at a time, so that
-// most pairs need no more.
+// How far points are from the triangles around a vertex, and places on the triangles from the points: bounds
+// in float32, four at a time, so that most pairs need no more.
 
 #include "base/simd.hpp"
 #include "base/vec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,65 +14,122 @@ namespace facetmill::simplification {
 
 class FanBounds {
   public:
-    /// The points from now on, and the vertex that the triangles share.
-    void begin(const Vec3& centre, std::span<const Vec3> points) {
+    /// Places on a triangle, by the weights of b and c; the last is the shared vertex, twice.
+    static constexpr std::size_t places = 6;
+    static constexpr std::array<double, 8> weight_b{1.0 / 3, 0.5, 0.5, 1.0 / 6, 2.0 / 3, 1.0 / 6, 0, 0};
+    static constexpr std::array<double, 8> weight_c{1.0 / 3, 0, 0.5, 1.0 / 6, 1.0 / 6, 2.0 / 3, 0, 0};
+
+    /// The vertex that the triangles share. reach: no coordinate of a point or of a triangle is farther from
+    /// it. near: the distance that places and points are to be within.
+    void begin(const Vec3& centre, double reach, double near) {
         centre_ = centre;
-        fours_ = (points.size() + 3) / 4;
-        places_.assign(3 * fours_, Float4{});
-        squares_.clear();
-        double reach = 0;
-        for (const Vec3& p : points) {
-            const Vec3 at = p - centre;
-            reach = std::max({reach, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
-        }
+        triangles_.clear();
         unit_ = reach > 1e-100 && reach < 1e100 ? reach : 0;
-        for (std::size_t i = 0; unit_ > 0 && i < points.size(); ++i)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                places_[3 * (i / 4) + axis][i % 4] =
-                    static_cast<float>((points[i][axis] - centre[axis]) / unit_);
+        const double within = unit_ > 0 ? near / unit_ - double{error} : 0;
+        near_square_ = within > 0 ? static_cast<float>(within * within * (1 - 1e-6)) : -1;
     }
 
     /// The next triangle: the shared vertex, b and c.
     void add(const Vec3& b, const Vec3& c) {
-        squares_.resize(squares_.size() + fours_, Float4{});
+        Triangle& t = triangles_.emplace_back();
+        if (!(unit_ > 0)) return;
         const Vec3 ab = (b - centre_) * (1 / unit_), ac = (c - centre_) * (1 / unit_), bc = ac - ab;
+        for (std::size_t k = 0; k < 8; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                t.place[axis][k / 4][k % 4] =
+                    static_cast<float>(ab[axis] * weight_b[k] + ac[axis] * weight_c[k]);
         const Vec3 n = cross(ab, ac);
         const double square = dot(n, n), size = dot(ab, ab) + dot(ac, ac);
-        if (!(unit_ > 0) || !(square > 1e-12 * size * size) || !(size < 1e20) || !(square > 1e-60)) return;
+        if (!(square > 1e-12 * size * size) || !(size < 1e20) || !(square > 1e-60)) return;
+        t.sliver = false;
         const Vec3 normal = n * (1 / std::sqrt(square));
         const Vec3 out[] = {unit(cross(ab, normal)), unit(cross(bc, normal)), unit(cross(normal, ac))};
-        const double reach[] = {0, dot(out[1], ab), 0};
-        Float4* const squares = &squares_[squares_.size() - fours_];
-        for (std::size_t i = 0; i < fours_; ++i) {
-            const Float4 up = along(i, normal);
-            const Float4 over = greater(greater(up, -up) - error, Float4{});
-            Float4 aside{};
-            for (std::size_t k = 0; k < 3; ++k)
-                aside = greater(aside, along(i, out[k]) - static_cast<float>(reach[k]) - error);
-            squares[i] = (over * over + aside * aside) * (1 - 1e-6F);
-        }
+        set(t.normal, normal);
+        for (std::size_t k = 0; k < 3; ++k) set(t.out[k], out[k]);
+        t.reach = static_cast<float>(dot(out[1], ab));
+    }
+
+    /// The one to four points that the next answers are about.
+    void look(std::span<const Vec3> points) {
+        squares_.resize(triangles_.size());
+        for (std::size_t axis = 0; axis < 3; ++axis) at_[axis] = Float4{};
+        for (std::size_t i = 0; unit_ > 0 && i < points.size(); ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                at_[axis][i] = static_cast<float>((points[i][axis] - centre_[axis]) / unit_);
+        least_ = over_ = all(HUGE_VALF);
+        nearest_ = Int4{} - 1;
+        for (std::size_t k = 0; k < triangles_.size(); ++k) compare(triangles_[k], static_cast<int>(k));
     }
 
     /// The squared distance of a point to a triangle is not below this; 0 for slivers.
     double square(std::size_t triangle, std::size_t point) const {
-        return double{squares_[triangle * fours_ + point / 4][point % 4]} * unit_ * unit_;
+        return double{squares_[triangle][point]} * unit_ * unit_;
     }
+    /// The triangle for which that is least; -1 when there is none, or the point is not finite.
+    std::int32_t nearest(std::size_t point) const { return nearest_[point]; }
+    /// The squared distance to the nearest triangle is not above this; infinite when the nearest place on it
+    /// may be at its edge.
+    double most(std::size_t point) const { return double{over_[point]} * unit_ * unit_; }
+
+    /// Notes which places on a triangle are near one of the points.
+    void note_near(std::size_t triangle, std::size_t point) {
+        Triangle& t = triangles_[triangle];
+        if (t.near == 255) return;
+        for (std::size_t half = 0; half < 2; ++half) {
+            Float4 square{};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const Float4 off = t.place[axis][half] - at_[axis][point];
+                square += off * off;
+            }
+            t.near |= bits_of(square <= all(near_square_)) << 4 * half;
+        }
+    }
+    /// The places that are: a bit each.
+    unsigned near(std::size_t triangle) const { return triangles_[triangle].near; }
 
   private:
     /// More than the rounding of a few float32 numbers of which those that count are below 2.
     static constexpr float error = 0x1p-20F;
 
+    struct Triangle {
+        float normal[3] = {}, out[3][3] = {}, reach = 0;
+        bool sliver = true;
+        unsigned near = 0;
+        Float4 place[3][2] = {};
+    };
+
+    static Float4 all(float x) { return Float4{} + x; }
     static Vec3 unit(const Vec3& v) { return v * (1 / std::sqrt(dot(v, v))); }
-    Float4 along(std::size_t four, const Vec3& v) const {
-        return places_[3 * four] * static_cast<float>(v.x) + places_[3 * four + 1] * static_cast<float>(v.y) +
-               places_[3 * four + 2] * static_cast<float>(v.z);
+    static void set(float (&to)[3], const Vec3& v) {
+        for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = static_cast<float>(v[axis]);
+    }
+    Float4 along(const float (&v)[3]) const { return at_[0] * v[0] + at_[1] * v[1] + at_[2] * v[2]; }
+
+    void compare(const Triangle& t, int number) {
+        Float4 square{}, over = all(HUGE_VALF);
+        if (!t.sliver) {
+            const Float4 up = along(t.normal), height = greater(up, -up);
+            const Float4 beyond =
+                greater(greater(along(t.out[0]), along(t.out[2])), along(t.out[1]) - t.reach);
+            const Float4 above = greater(height - error, Float4{}), aside = greater(beyond - error, Float4{});
+            square = (above * above + aside * aside) * (1 - 1e-6F);
+            over = beyond < all(-error) ? (height + error) * (height + error) * (1 + 1e-6F) : over;
+        }
+        squares_[static_cast<std::size_t>(number)] = square;
+        const Int4 nearer = square < least_;
+        least_ = nearer ? square : least_;
+        over_ = nearer ? over : over_;
+        nearest_ = nearer ? Int4{} + number : nearest_;
     }
 
     Vec3 centre_;
     double unit_ = 0; ///< of the frame in which float32 is enough; 0: there is none
-    std::size_t fours_ = 0;
-    std::vector<Float4> places_;  ///< x, y and z of four points each
-    std::vector<Float4> squares_; ///< [triangles][fours]
+    float near_square_ = -1;
+    std::vector<Triangle> triangles_;
+    std::vector<Float4> squares_; ///< [triangles] of the points
+    std::array<Float4, 3> at_{};  ///< the points, by axis
+    Float4 least_{}, over_{};
+    Int4 nearest_{};
 };
 
 } // namespace facetmill::simplification

@@ -73,7 +73,7 @@ Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<dou
 
 /// Finds the face that takes each point of the faces around; false when one would be farther from all than is
 /// allowed, or the new faces farther from the surface that came in.
-bool points_stay_near(const State& s, Around& around, const Vec3& to);
+bool points_stay_near(State& s, Around& around, const Vec3& to);
 /// Gives each point to the face that points_stay_near found.
 void hand_over_points(State& s, const Around& around);
 

@@ -87,13 +87,18 @@ struct AttributeError {
 
 /// Points of the surface as it came, each kept with a face near by, as a list per face: for max_error.
 struct FollowedPoints {
+    struct Point {
+        Vec3 at;
+        Index next; ///< the next one with the same face, or none
+    };
     const FaceTree* input = nullptr; ///< the surface as it came, in the mesh's units
     /// Squared, in the frame: how far a point may be from the faces around, and new vertices and places on
     /// faces from the surface as it came.
     double farthest = 0;
-    std::vector<Vec3> points; ///< [points] the vertices, then the centres of the faces
-    std::vector<Index> next;  ///< [points] the next one with the same face, or none
-    std::vector<Index> first; ///< [faces] or none
+    std::size_t vertices = 0;       ///< of the surface as it came
+    std::vector<Index> triangles{}; ///< [faces of it] where it is in the tree's order
+    std::vector<Point> points{};    ///< the vertices, then the centres of the faces
+    std::vector<Index> first{};     ///< [faces] or none
 };
 
 /// What the settings ask of every collapse.

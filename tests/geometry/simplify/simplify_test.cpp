@@ -357,6 +357,23 @@ TEST_CASE("max_error bounds the measured deviation, and nearly reaches it", "[ge
         }
 }
 
+TEST_CASE("max_error holds on surfaces of all kinds, the same for any number of threads", "[geometry]") {
+    Mesh folded = shapes::grid(60, 60); // a sharp fold, and single vertices that stick out
+    for (std::size_t v = 0; v < folded.positions.size(); ++v) {
+        Vec3& p = folded.positions[v];
+        p.z = std::abs(p.x - 30.3) + (v % 97 == 0 ? 0.6 : 0.0);
+    }
+    for (const Mesh& m : {folded, rough(shapes::icosphere(5), 0.02), shapes::cube()})
+        for (const double share : {0.0003, 0.003, 0.03}) {
+            const double bound = share * m.bounds().diagonal();
+            CAPTURE(m.face_count(), share);
+            const auto r = simplify(m, {.max_error = bound});
+            CHECK(deviation(m, r.mesh).maximum() <= bound);
+            CHECK(*r.measured == deviation(m, r.mesh).maximum());
+            CHECK(test::same_for_any_threads([&] { return simplify(m, {.max_error = bound}).mesh; }));
+        }
+}
+
 TEST_CASE("with max_error and a count only the first one met stops the work", "[geometry]") {
     const Mesh m = shapes::icosphere(4); // 5120 faces
     CHECK(simplify(m, {.faces = 4000, .max_error = 0.5}).stop == Stop::faces);
