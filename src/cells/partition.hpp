@@ -35,6 +35,7 @@ class Partition {
 
     const Tree& tree() const { return tree_; }
     const FaceSource& source() const { return *source_; }
+    std::shared_ptr<FaceSource> shared_source() const { return source_; }
     std::uint64_t faces() const { return faces_; }
     std::uint64_t faces_of(std::uint32_t leaf) const {
         return records_.size(list_[leaf]) / source_->record_size();

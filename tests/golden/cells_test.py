@@ -59,6 +59,16 @@ def triangles(path):
     return count, total
 
 
+def rows(path):
+    """The vertices of a binary PLY with all of their attributes, in an order of their own; and the bytes of the file."""
+    data = path.read_bytes()
+    head, body = data.split(b"end_header\n", 1)
+    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
+    size = sum({b"float": 4, b"double": 8}[line.split()[1]] for line in head.split(b"element face")[0].splitlines()
+               if line.startswith(b"property"))
+    return sorted(body[size * v:size * (v + 1)] for v in range(vertices)), len(data)
+
+
 class Cells(Case):
     @classmethod
     def setUpClass(cls):
@@ -104,7 +114,9 @@ class Cells(Case):
                  ("simplify --vertices 100", "the target must be faces or a ratio", "leave that option out"),
                  ("measure --areas", "measure: areas: cells do not carry attributes of faces", "leave that option out"),
                  ("measure --path o.csv", "the faces in the order of the file", "leave that option out"),
-                 ("orient", "'orient' cannot work", "(clip, load, measure, simplify, transform, validate, write can)"))
+                 ("split bisect", "split: the method bisect needs the whole mesh", "leave that option out"),
+                 ("split --max_edge 1%", "the target max_edge is decided for the whole mesh", "leave that option out"),
+                 ("orient", "'orient' cannot work", "(clip, load, measure, simplify, split, transform, validate, write can)"))
         for stages, message, way_out in cases:
             run = self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", *stages.split(), "!", "write", "o.ply",
                             expect=2)
@@ -190,6 +202,26 @@ class Cells(Case):
         for key in ("convex", "concave", "flat", "feature", "boundary", "non_manifold"):
             self.assertEqual(found["edges"][key], whole["edges"][key])
         self.assertAlmostEqual(found["solid"]["volume"] / whole["solid"]["volume"], 1, 12)
+
+    def test_a_large_mesh_is_split_in_cells(self):
+        scan = self.dir / "scan.ply"
+        self.mill("pipe", "load", SCAN, "!", "measure", "--curvature", "!", "write", scan)
+        for passes in variants(1, 2):
+            results = set()
+            for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
+                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
+                          scan, "!", "split", "midpoint", "--passes", passes, "!", "validate", "--closed",
+                          "--vertex_manifold", "!", "write", "o.ply")
+                results.add((self.dir / "o.ply").read_bytes())
+            self.assertEqual(len(results), 1)
+            self.mill("pipe", "--report", "whole.json", "load", scan, "!", "split", "midpoint", "--passes", passes, "!",
+                      "write", "whole.ply")
+            found, whole = (json.loads((self.dir / name).read_text())["stages"][1]["result"]["parts"][0]
+                            for name in ("o.json", "whole.json"))
+            self.assertEqual(found, whole)
+            self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
+        self.assertIn("E-LIMIT", self.mill("pipe", "--partition", "always", "load", scan, "!", "split", "midpoint",
+                                           "--passes", 9, "!", "write", "o.ply", expect=7).stderr)
 
     def test_a_glb_is_written_in_cells(self):
         self.large()

@@ -146,6 +146,11 @@ FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
 /// The mean over all corners of the edge that begins there; 0 without faces.
 double mean_edge(const Mesh& mesh, const Transform& to_world = {});
 
+/// Spots at counted vertices where triangles share two edges, so that new edges of theirs coincide: what
+/// SplitResult::shared counts of a pass that cuts all edges, for a mesh that comes in parts. counted:
+/// [vertices] 1 where all faces of the vertex are here; empty: all are.
+std::size_t shared_spots(const Mesh& mesh, const std::vector<std::uint8_t>& counted);
+
 /// About how many corners split would make (an upper bound but for bisect and smooth methods with max_edge;
 /// split looks again before every pass), as a real number because it may be beyond any integer.
 double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings);

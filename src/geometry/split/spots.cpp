@@ -99,7 +99,8 @@ std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edge
     return shared;
 }
 
-std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks) {
+std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks,
+                        const std::vector<std::uint8_t>& counted) {
     if (mesh.all_triangles() && !may_share(mesh, edges)) return 0;
     const std::vector<Index> faces = faces_of_corners(mesh);
     const auto is_triangle = [&](const Turn& t) {
@@ -119,11 +120,16 @@ std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vec
             for (auto e = static_cast<Index>(begin); e < end; ++e)
                 visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
                     if (turns[0].beyond < other_end(edges.edges[e], at)) return;
+                    if (!counted.empty() && !counted[at]) return;
                     found += is_cut(turns[0]) && std::count_if(turns.begin(), turns.end(), is_triangle) > 1;
                 });
             return found;
         },
         [](std::size_t a, std::size_t b) { return a + b; });
+}
+
+std::size_t shared_spots(const Mesh& mesh, const std::vector<std::uint8_t>& counted) {
+    return shared_cuts(mesh, build_edges(mesh), {}, counted);
 }
 
 std::size_t folding_faces(const Mesh& mesh, SplitMethod method) {

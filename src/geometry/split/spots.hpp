@@ -13,8 +13,9 @@ namespace facetmill {
 std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges);
 
 /// How many vertices have such corners of two triangles at least, one of whose edges is marked (no marks: all
-/// are): there the new edges of the triangles coincide.
-std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks);
+/// are): there the new edges of the triangles coincide. Of counted vertices (none given: of all).
+std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks,
+                        const std::vector<std::uint8_t>& counted = {});
 
 /// How many faces have a piece that looks the other way than the face: not convex ones where grid, halve or
 /// varignon cut between edges; those that their centre (centre_weights) does not see all of where a method

@@ -1,4 +1,5 @@
 #include "stage/grid_faces.hpp"
+#include "stages/split/cells.hpp"
 #include "stages/split/help.hpp"
 #include "stages/split/options.hpp"
 #include "stages/split/report.hpp"
@@ -74,7 +75,11 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_split, declare_split_report, run,
-    {.verify = verify_split, .may_lose = may_lose, .crossing_faces = crossing_faces});
+    {.verify = verify_split,
+     .may_lose = may_lose,
+     .crossing_faces = crossing_faces,
+     .on_cells = split_on_cells,
+     .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 

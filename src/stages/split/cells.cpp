@@ -1,0 +1,69 @@
+#include "stages/split/cells.hpp"
+
+#include "cells/split_source.hpp"
+#include "stages/split/report.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::split_stage {
+
+namespace {
+
+/// Refuses more faces than formats can count.
+void require_countable(std::uint64_t faces, int passes) {
+    constexpr double most = UINT32_MAX;
+    const double result = std::ldexp(static_cast<double>(faces), 2 * passes);
+    if (result > most)
+        throw Error(ErrorKind::limit, "E-LIMIT",
+                    fmt::format("split: the result would have about {:.3g} faces, and files that are written "
+                                "from cells have at most {:.0f}",
+                                result, most),
+                    "use fewer passes");
+}
+
+/// What a pass does to attributes, as the first cell tells it.
+AttributeChanges changes_of(const cells::Partition& partition) {
+    const Mesh mesh = partition.cell(0).mesh;
+    return split(mesh, {.method = SplitMethod::midpoint}).changes;
+}
+
+} // namespace
+
+std::optional<std::string> why_not_on_cells(const SplitOptions& o) {
+    for (const auto& [given, name] :
+         {std::pair{o.max_edge.has_value(), "max_edge"}, std::pair{o.min_angle.has_value(), "min_angle"},
+          std::pair{o.max_faces.has_value(), "max_faces"}})
+        if (given) return fmt::format("the target {} is decided for the whole mesh; passes is not", name);
+    if (o.chosen() != SplitMethod::midpoint)
+        return fmt::format("the method {} needs the whole mesh; midpoint does not", to_string(o.chosen()));
+    return {};
+}
+
+void split_on_cells(const SplitOptions& o, CellFlow& flow, Context& context) {
+    const int passes = split_settings(o).passes;
+    const std::uint64_t before = flow.partition->faces();
+    require_countable(before, passes);
+    SplitResult result;
+    result.changes = passes > 0 ? changes_of(*flow.partition) : AttributeChanges{};
+    SplitPart told;
+    told.part = flow.part;
+    told.before = cells::shape_of_cells(*flow.partition, flow.transform);
+    for (; result.passes < passes; ++result.passes) {
+        result.shared += cells::shared_spots(*flow.partition, flow.means);
+        auto source = cells::split_source(flow.partition->shared_source());
+        flow.partition.reset(); // its temporary data goes first
+        flow.partition = std::make_unique<cells::Partition>(std::move(source), flow.means);
+    }
+    told.after = cells::shape_of_cells(*flow.partition, flow.transform);
+    told.passes = result.passes;
+    told.stopped_by = stopped_by(o, result.stop);
+    told.added_faces = flow.partition->faces() - before;
+    const Scene outline = flow.outline();
+    warn_of_spots(outline.parts.front(), result, SplitMethod::midpoint, context);
+    context.attribute_changes(outline.parts.front(), result.changes);
+    SplitReport report{told.added_faces, {told}};
+    context.report(fields_of<SplitReport>(declare_split_report), &report);
+}
+
+} // namespace facetmill::split_stage
