@@ -132,6 +132,7 @@ struct WriteSettings {
     std::vector<int> part_bits{}; ///< of each part's positions; empty: as Draco or quantize say
 
     std::vector<Lattice> lattices{}; ///< of each part's positions, within its bits; empty: none has one
+    bool interleave = false;         ///< glTF, without Draco and meshopt: a vertex's attributes side by side
     bool names = true;               ///< glTF: also of what only people look for by name
 
     /// Bits of the grid that positions of a part are rounded to: its longest side is divided into 2^bits - 1

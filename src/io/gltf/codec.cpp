@@ -352,6 +352,7 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     steps.next();
     store_meshes(patch);
     store_streams(patch);
+    interleave_attributes(patch);
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);

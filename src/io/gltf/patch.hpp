@@ -69,6 +69,11 @@ void store_meshes(Patch& patch);
 /// those of instances within a quarter of a step of their mesh's grid, or as float32 has the largest.
 void store_streams(Patch& patch);
 
+/// Where the settings say so, puts the attributes of each primitive into one view, a vertex after another;
+/// into several where a vertex has more than 252 bytes. Primitives that share an attribute share the view.
+/// Morph targets, sparse attributes and those of Draco stay as they are. After store_meshes.
+void interleave_attributes(Patch& patch);
+
 /// The document's index for a scene material, added when it is new; -1 for none.
 int patch_material(Patch& patch, Index material);
 

@@ -130,6 +130,7 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
             {"drop_names", o.drop_names, &Can::lods},
+            {"interleave", o.interleave, &Can::quantize},
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
             {"normals", o.normals != NormalKind::keep, &Can::normals},
             {"origin", o.origin.kind == OriginOption::Kind::point, &Can::transforms},
@@ -160,6 +161,13 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
                                             name),
                                 "leave one of them out"},
                         "write", given, problems);
+    if (const bool meshopt = o.meshopt && o.meshopt->on; o.interleave && (draco || meshopt))
+        add_refusal(Refusal{"interleave",
+                            fmt::format("'interleave' and '{}' exclude each other, since that compresses "
+                                        "each attribute by itself",
+                                        draco ? "draco" : "meshopt"),
+                            "leave one of them out"},
+                    "write", given, problems);
     if (o.feature_angle && o.normals != NormalKind::smooth)
         add_refusal(
             Refusal{"feature_angle", "'feature_angle' goes with normals: smooth only", "add normals: smooth"},
@@ -240,6 +248,10 @@ void declare_write(Declare<WriteOptions>& d) {
          {"size", io::TriangleOrder::size,
           "the one of several, mostly strips, that meshopt compresses best"}},
         "The order of triangles and vertices in glTF.");
+    d.option("interleave", &WriteOptions::interleave,
+             "Puts the attributes of a vertex side by side in glTF, in one buffer view with a stride, which "
+             "some GPUs draw faster; morph targets stay by themselves. Without it, each attribute has a "
+             "view of its own, which gzip makes smaller.");
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
     d.choice<io::Textures>(
@@ -301,6 +313,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
     s.mesh_manifold = o.mesh_manifold;
     s.lods = o.lods;
     s.names = !o.drop_names;
+    s.interleave = o.interleave;
     s.textures = o.textures;
     s.directory = target.parent_path();
     s.double_positions = o.precision == Precision::full;

@@ -49,7 +49,8 @@ struct WriteOptions {
     std::string format;
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    bool ascii = false, big_endian = false, mesh_manifold = false, lods = false, drop_names = false;
+    bool ascii = false, big_endian = false, mesh_manifold = false, lods = false, drop_names = false,
+         interleave = false;
     Precision precision = Precision::single;
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals
