@@ -39,6 +39,16 @@ bool Comparison::complete() const {
            });
 }
 
+std::string differs_in(const Comparison& comparison) {
+    std::string sections;
+    for (const char* section : comparison_sections)
+        if (!comparison.ignored.contains(section) &&
+            std::any_of(comparison.lines.begin(), comparison.lines.end(),
+                        [&](const Difference& d) { return d.section == section && !d.same; }))
+            append_item(sections, section);
+    return sections;
+}
+
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings) {
     Comparison result;
     const Comparing with{a, b, settings, result};

@@ -84,6 +84,8 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
                     const ComparisonPictures& pictures);
 /// "agree", "differ", "agree in everything that was compared".
 std::string verdict_of(const Comparison& comparison);
+/// "counts, geometry": the sections with a line that decides and differs.
+std::string differs_in(const Comparison& comparison);
 /// Tables for the description of a change.
 std::string to_markdown(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
 Json comparison_schema();

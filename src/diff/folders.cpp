@@ -130,11 +130,7 @@ void tell(const Comparison& comparison, FolderPair& pair) {
     if (comparison.size_a) pair.bytes_a = comparison.size_a->bytes;
     if (comparison.size_b) pair.bytes_b = comparison.size_b->bytes;
     if (comparison.deviation) pair.percent = comparison.deviation->percent(comparison.deviation->maximum());
-    for (const char* section : comparison_sections)
-        if (std::any_of(comparison.lines.begin(), comparison.lines.end(), [&](const Difference& d) {
-                return d.section == section && !d.same && !comparison.ignored.contains(section);
-            }))
-            append_item(pair.differs_in, section);
+    pair.differs_in = differs_in(comparison);
 }
 
 std::vector<std::size_t> worst_first(const FolderComparison& comparison) {

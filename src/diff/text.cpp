@@ -16,6 +16,18 @@ namespace {
 /// Whether people are shown the line, without `all`.
 bool is_told(const Difference& d) { return !d.same || !d.compared || d.section == "geometry"; }
 
+/// What pages say of a line, and its colour.
+struct Outcome {
+    const char *text, *kind;
+};
+
+Outcome outcome_of(const Difference& d) {
+    if (!d.same) return {"differs", "bad"};
+    if (!d.compared) return {"not compared", "warn"};
+    if (d.a != d.b) return {"noted", "soft"}; // no limit was set, or it is within the one that was
+    return {"same", "good"};
+}
+
 std::string text_of(const Json& value) {
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
@@ -88,11 +100,16 @@ std::string to_text(const Comparison& comparison, const std::string& name_a, con
 
 namespace {
 
-/// "A and B differ", with what was not compared.
+/// "differ in counts", with what was not compared.
 std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
                                     const std::string& name_b) {
     std::vector<std::string> lines = left_out_lines(comparison, name_a, name_b);
-    lines.insert(lines.begin(), verdict_of(comparison));
+    std::string verdict = verdict_of(comparison), in = differs_in(comparison);
+    if (!in.empty()) verdict += " in " + in;
+    const auto& d = comparison.deviation;
+    if (const auto percent = d ? d->percent(d->maximum()) : 0; percent > 0)
+        verdict += fmt::format("; the surfaces are up to {:.3g} % of the diagonal apart", percent);
+    lines.insert(lines.begin(), std::move(verdict));
     if (!comparison.hint.empty()) lines.push_back("hint: " + comparison.hint);
     return lines;
 }
@@ -105,11 +122,11 @@ std::string difference_rows(const Comparison& comparison, const char* section) {
     std::string rows;
     for (const auto* d : of_section(comparison, section))
         if (is_told(*d))
-            rows += fmt::format("<tr>{}{}{}{}{}</tr>\n",
-                                cell(fmt::format("<span class=\"{}\">{}</span>", d->same ? "good" : "bad",
-                                                 d->same ? "same" : "differs")),
-                                cell(code(d->name)), cell(escaped(text_of(d->a))),
-                                cell(escaped(text_of(d->b))), cell(escaped(d->note)));
+            rows += fmt::format(
+                "<tr>{}{}{}{}{}</tr>\n",
+                cell(fmt::format("<span class=\"{}\">{}</span>", outcome_of(*d).kind, outcome_of(*d).text)),
+                cell(code(d->name)), cell(escaped(text_of(d->a))), cell(escaped(text_of(d->b))),
+                cell(escaped(d->note)));
     return rows;
 }
 
@@ -151,7 +168,7 @@ std::string to_markdown(const Comparison& comparison, const std::string& name_a,
         std::vector<std::vector<std::string>> rows;
         for (const auto* d : of_section(comparison, section))
             if (is_told(*d))
-                rows.push_back({d->same ? "same" : "differs", markdown_escaped(d->name),
+                rows.push_back({outcome_of(*d).text, markdown_escaped(d->name),
                                 markdown_escaped(text_of(d->a)), markdown_escaped(text_of(d->b)),
                                 markdown_escaped(d->note)});
         out += markdown_table(section_title(comparison, section),

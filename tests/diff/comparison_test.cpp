@@ -307,7 +307,8 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     const std::string page = report::to_html(d, "a<1>.ply", "b.ply", pictures);
     CHECK(page.starts_with("<!DOCTYPE html>"));
     CHECK(page.find("a<1>") == std::string::npos);
-    CHECK(page.find("<p class=\"verdict bad\">differ</p>") != std::string::npos);
+    CHECK(page.find("<p class=\"verdict bad\">differ in counts, geometry; the surfaces are up to ") !=
+          std::string::npos);
     REQUIRE(pictures.forward);
     REQUIRE(pictures.backward);
     for (const std::string& png :
@@ -323,6 +324,9 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     CHECK_FALSE(report::comparison_pictures(Scene{}, b, "a", "b").backward);
     CHECK_FALSE(report::comparison_pictures(b, b, "a", "b").backward);
     const std::string text = report::to_markdown(d, "a|b.ply", "b.ply");
-    CHECK(text.starts_with("## a\\|b.ply and b.ply\n\n**differ**\n"));
+    CHECK(
+        text.starts_with("## a\\|b.ply and b.ply\n\n**differ in counts, geometry; the surfaces are up to "));
     CHECK(text.find("| differs | faces | 320 | 1280 |  |\n") != std::string::npos);
+    CHECK(text.find("| noted | deviation rms |") != std::string::npos); // it has no limit
+    CHECK(text.find("| same | reversed |") != std::string::npos);
 }
