@@ -95,16 +95,19 @@ PictureSettings Page::sized_for_page(double part) const {
 }
 
 /// The camera of the picture before, so that the two can be compared, unless the scene goes far beyond it or
-/// became much smaller.
+/// became much smaller. Which way is up stays as it was in the first picture.
 const Camera& Page::camera_for(const Scene& scene) {
-    const Camera own = camera_of(scene);
+    PictureSettings as_before;
+    const Box before = camera_.seen;
+    if (!before.empty() && camera_up_ == scene.up) as_before.camera = camera_;
+    const Camera own = camera_of(scene, as_before);
     const Box& now = own.seen;
-    const Box& before = camera_.seen;
     const Vec3 size = before.extent(), left = before.min - size * 0.04, right = before.max + size * 0.04;
-    const bool inside = !before.empty() && !now.empty() && now.min.x >= left.x && now.min.y >= left.y &&
+    const bool inside = as_before.camera && !now.empty() && now.min.x >= left.x && now.min.y >= left.y &&
                         now.max.x <= right.x && now.max.y <= right.y;
     if (!inside || now.diagonal() < before.diagonal() / 3) {
         camera_ = own;
+        camera_up_ = scene.up;
         ++cameras_;
     }
     return camera_;
@@ -203,6 +206,7 @@ std::string Page::picture_of_failure(const Scene& scene, const report::Check& ch
     const std::vector<Vec3> locations = report::failing_locations(check);
     const Scene marked = with_failing_faces(scene, check);
     PictureSettings whole = report::page_settings();
+    if (!io::posed(scene)) whole.camera = camera_for(scene);
     whole.attribute = "failing";
     whole.range = {ColourRange::Kind::given, -1, 1, true};
     PictureSettings close = whole;
@@ -210,11 +214,12 @@ std::string Page::picture_of_failure(const Scene& scene, const report::Check& ch
     close.marks = {locations.front()};
     close.at = locations.front();
     look_at_first(scene, check, close);
+    if (close.camera) close.camera = camera_of(marked, close);
     close.edges = EdgeLines::all;
     return report::page_text(sheet_of({picture_of(marked, whole), picture_of(marked, close)}, 2));
 }
 
-void Page::failures(const std::string& step, const Scene& scene, std::size_t first_check) {
+bool Page::failures(const std::string& step, const Scene& scene, std::size_t first_check) {
     bool fails = false;
     for (std::size_t i = first_check; i < record_.checks.size(); ++i) {
         report::Check& check = record_.checks[i];
@@ -229,6 +234,7 @@ void Page::failures(const std::string& step, const Scene& scene, std::size_t fir
         bytes_ += check.picture.size();
     }
     if (fails) add_result(fmt::format("the scene at '{}'", step), scene);
+    return fails;
 }
 
 void Page::at_end(const Scene& scene) {

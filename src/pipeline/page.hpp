@@ -44,7 +44,8 @@ class Page {
     /// outputs from that number on.
     void after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output);
     /// Pictures of the checks from that number on that did not hold; a run that ends there shows its scene.
-    void failures(const std::string& step, const Scene& scene, std::size_t first_check);
+    /// Whether it ends there.
+    bool failures(const std::string& step, const Scene& scene, std::size_t first_check);
     /// When nothing was written.
     void at_end(const Scene& scene);
 
@@ -63,6 +64,7 @@ class Page {
     std::string shown_at_;                              ///< where these stand
     std::string last_picture_;
     Camera camera_;
+    UpAxis camera_up_{};   ///< of the scene that it is of
     int cameras_ = 0;      ///< so far
     io::LookReader looks_; ///< textures of the pictures, decoded once
     std::size_t bytes_ = 0, measured_stages_ = 0, failures_shown_ = 0;

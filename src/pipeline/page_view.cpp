@@ -1,6 +1,7 @@
 #include "pipeline/page_view.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill::pipeline {
 
@@ -62,6 +63,10 @@ void PageView::after(const Step& step, const Scene& scene, const report::RunReco
     if (step.stage->loads) return;
     for (std::size_t i = first_output; i < record.outputs.size(); ++i)
         if (io::codec_for(record.outputs[i].path)) add(scene, record.outputs[i].path, has_measured(record));
+}
+
+void PageView::failed(const std::string& name, const Scene& scene) {
+    add(scene, fmt::format("the scene at '{}'", name), false);
 }
 
 void PageView::at_end(const Scene& scene) {

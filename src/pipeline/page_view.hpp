@@ -18,6 +18,8 @@ class PageView {
     /// what was loaded is shown where the run has measured one.
     void after(const Step& step, const Scene& scene, const report::RunRecord& record,
                std::size_t first_output);
+    /// Where the run ended at a check of the stage of that name.
+    void failed(const std::string& name, const Scene& scene);
     /// Where nothing was written, the scene at the end is shown.
     void at_end(const Scene& scene);
     /// See report::viewer_section.

@@ -231,12 +231,16 @@ class Runner {
             if (step.ensure && !failures_.guarded(step.where, step.name, [&] {
                     const std::size_t first = record().checks.size();
                     check_contract(step, flow.scene, entered, reference.get());
-                    if (takes_pictures_) page_.failures(step.name, flow.scene, first);
+                    if (takes_pictures_) show_failures(step, flow.scene, first);
                 }))
                 return false;
             holds = failures_.judge_checks(checked) && holds;
         }
         return holds;
+    }
+
+    void show_failures(const Step& step, const Scene& scene, std::size_t first_check) {
+        if (page_.failures(step.name, scene, first_check)) view_.failed(step.name, scene);
     }
 
     /// Checks of what the scene is at this place. Resolved lengths are recorded in `record`.
@@ -289,7 +293,7 @@ class Runner {
             failures_.guarded({}, "a picture", [&] {
                 const Share share = beside_stages(fmt::format("picture after {}", step.name));
                 page_.after(step, flow.scene, stage, outputs);
-                page_.failures(step.name, flow.scene, checks);
+                show_failures(step, flow.scene, checks);
             });
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);

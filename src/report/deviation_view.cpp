@@ -2,6 +2,7 @@
 
 #include "base/portable_math.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
+#include "io/gltf/pose.hpp"
 #include "report/scene_picture.hpp"
 
 #include <algorithm>
@@ -38,11 +39,12 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
     settings.range = {ColourRange::Kind::given, -view.limit, view.limit, true};
     settings.edges = EdgeLines::no;
     view.picture = page_text(picture_of(scene, settings));
-    settings.camera.reset();
     settings.turn = pi;
+    if (settings.camera) settings.camera = camera_of(scene, settings);
     view.behind = page_text(picture_of(scene, settings));
     settings.turn = 0;
     if (length(normal) > 0 && is_finite(normal)) settings.from = normal;
+    if (settings.camera) settings.camera = camera_of(scene, settings);
     settings.zoom = 10;
     settings.at = view.worst;
     settings.marks = {view.worst};
@@ -57,6 +59,7 @@ DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
     const SignedDeviation d = signed_deviation(scene, from.tree);
     DeviationView view;
     view.from = from.name;
+    view.in_bind_pose = io::posed(scene).has_value();
     view.unit = scene.unit == Unit::unknown ? "" : to_string(scene.unit);
     view.diagonal = from.diagonal;
     view.points = d.looked_up;
@@ -67,6 +70,8 @@ DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
     view.worst = d.worst;
     view.worst_distance = d.worst_distance;
     view.limit = colour_limit(d);
+    constexpr double lost_by_floats = 1e-6; // of the diagonal: has no colours
+    if (std::isfinite(view.diagonal)) view.limit = std::max(view.limit, lost_by_floats * view.diagonal);
     view.counts = counted_in_bins(d.samples, view.limit);
     if (pictures && d.any()) take_pictures(d.scene, *pictures, d.worst_normal, d.is_cut, view);
     return view;

@@ -67,7 +67,8 @@ std::string beyond_text(const DeviationView& view) {
 
 std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name) {
     const std::string caption =
-        fmt::format("{}: signed distance from {}; red is outside, blue inside", name, view.from);
+        fmt::format("{}: signed distance from {}; red is outside, blue inside{}", name, view.from,
+                    view.in_bind_pose ? "; in bind pose, in which stages work" : "");
     std::string out = "<div class=\"deviation\">\n";
     if (!view.picture.empty()) out += figure(picture(id + "-colours", caption, view.picture), caption);
     if (!view.behind.empty()) {

@@ -63,7 +63,7 @@ std::string glance_section(const RunRecord& record, bool with_time) {
     row("inputs", total_of(record.inputs));
     row("outputs", total_of(record.outputs));
     row("deviation", deviation_text(record));
-    row("checks", passed_text(record) + " passed");
+    row("checks", record.checks.empty() ? "none" : passed_text(record) + " passed");
     row("warnings", grouped(counts.warnings));
     if (with_time)
         row("time", fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory)));

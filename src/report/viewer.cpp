@@ -101,7 +101,13 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
         distances = signed_distances(*from, preview.mesh.positions);
     const auto [most, largest] = spans(distances);
     PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
-    const Camera camera = camera_of(scene);
+    PictureSettings as_first; // a scene that does not say what is up keeps that of the first
+    if (first_ && first_up_ == scene.up) as_first.camera = first_;
+    const Camera camera = camera_of(scene, as_first);
+    if (!first_) {
+        first_ = camera;
+        first_up_ = scene.up;
+    }
     std::size_t points = 0;
     for (const Part& part : scene.parts) points += part.mesh.vertex_count();
     Json json = {{"name", name},

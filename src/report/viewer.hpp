@@ -2,7 +2,7 @@
 // The 3D view of a page: scenes as few triangles, packed into the page, and drawn there by viewer.js.
 
 #include "base/json.hpp"
-#include "geometry/render/texture.hpp"
+#include "geometry/render/render.hpp"
 #include "geometry/spatial/face_tree.hpp"
 #include "mesh/scene.hpp"
 
@@ -38,7 +38,9 @@ class ViewedScenes {
                const MaterialLooks* looks);
     Json texture(const Texture& texture, bool with_alpha);
 
-    std::size_t faces_; ///< of each scene
+    std::size_t faces_;           ///< of each scene
+    std::optional<Camera> first_; ///< of the first scene
+    UpAxis first_up_{};
     std::size_t bytes_ = 0, texture_bytes_ = 0, left_out_ = 0;
     Json scenes_ = Json::array(), textures_ = Json::array();
     using TextureKey = std::tuple<const TextureImage*, TextureWrap, TextureWrap, bool, bool>;

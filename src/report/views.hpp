@@ -15,6 +15,7 @@ namespace facetmill::report {
 struct DeviationView {
     std::string from;                            ///< "the scene as loaded"
     std::string unit;                            ///< empty: unknown
+    bool in_bind_pose = false;                   ///< other pictures show the pose
     double diagonal = 0;                         ///< of the earlier scene: what percentages are of
     std::size_t points = 0;                      ///< that were looked up
     double low = 0, high = 0, mean = 0, rms = 0; ///< mean and rms of the amounts over the area

@@ -9,7 +9,7 @@ import shlex
 import subprocess
 import unittest
 
-from support import SLOW, Case, main
+from support import SCAN, SLOW, Case, main
 
 try:
     import jsonschema
@@ -174,6 +174,18 @@ class Pages(Case):
         contents = report["outputs"][0]["contents"]
         self.assertEqual(sum(contents.values()), report["outputs"][0]["bytes"])
         self.assertGreater(contents["json"], 100)
+
+    def test_what_is_up_stays_so_while_stages_cut(self):
+        """A scan that does not say what is up, cut such that by itself it would be taken to lie."""
+        page, _ = self.report("load", SCAN, "!", "clip", "y=-100", "!", "validate", "--closed", expect=1)
+        text = shown(page)
+        self.assertIn("left of the slider before (load)", text)  # by one camera
+        viewed = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page, re.S)[1])
+        self.assertEqual([s["name"] for s in viewed["scenes"]], ["as loaded", "the scene at 'validate'"])
+        self.assertEqual(viewed["scenes"][0]["up"], viewed["scenes"][1]["up"])
+        # A cut moves nothing: what rounding loses, some 1e-14, is no scale.
+        ticks = re.findall(r">([+-][\d.e-]+)</text>", page)
+        self.assertIn("+0.000658", ticks)
 
     def test_names_are_text(self):
         name = "<script>alert(1)</script>"
