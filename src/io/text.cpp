@@ -21,6 +21,9 @@ namespace {
 constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
+constexpr std::uint64_t integer_powers_of_ten[] = {1,      10,      100,      1000,     10000,
+                                                   100000, 1000000, 10000000, 100000000};
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Whatever the quick way does not read: many digits, large exponents, nan, inf, and "3.1+e2".
@@ -64,11 +67,17 @@ bool scan_real(const char*& at, const char* end, double& value) {
     if (p < end && (*p == '-' || *p == '+')) ++p;
     std::uint64_t digits = 0;
     int count = 0, exponent = 0;
-    for (; p < end && is_digit(*p); ++p, ++count) digits = digits * 10 + static_cast<std::uint64_t>(*p - '0');
+    const auto take = [&] {
+        int many = 8;
+        for (std::uint64_t eight = 0; many == 8; count += many) {
+            many = take_digits(p, end, eight);
+            digits = digits * integer_powers_of_ten[many] + eight;
+        }
+    };
+    take();
     if (p < end && *p == '.') {
         const char* const point = ++p;
-        for (; p < end && is_digit(*p); ++p, ++count)
-            digits = digits * 10 + static_cast<std::uint64_t>(*p - '0');
+        take();
         exponent = static_cast<int>(point - p);
     }
     if (count == 0 || count > 19 || digits >= (std::uint64_t{1} << 53))
@@ -94,7 +103,7 @@ bool scan_real(const char*& at, const char* end, double& value) {
     return true;
 }
 
-bool scan_integer(const char*& at, const char* end, std::int64_t& value) {
+bool scan_signed_integer(const char*& at, const char* end, std::int64_t& value) {
     const char* p = at;
     if (p < end && *p == '+') ++p;
     const auto [stop, error] = std::from_chars(p, end, value);
@@ -109,7 +118,7 @@ void Text::pass_line_end() {
     ++line_;
 }
 
-void Text::skip_blanks() {
+void Text::skip_other_blanks() {
     while (at_ < end_) {
         if (is_blank(*at_)) {
             ++at_;

@@ -4,7 +4,9 @@
 
 #include "io/bytes.hpp"
 
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -20,7 +22,42 @@ namespace facetmill::io {
 /// optional sign, point and exponent, correctly rounded; nan and inf too. What follows the number is not
 /// looked at.
 bool scan_real(const char*& at, const char* end, double& value);
-bool scan_integer(const char*& at, const char* end, std::int64_t& value);
+/// Reads up to eight digits at `at`, moves behind them, and returns how many there were.
+inline int take_digits(const char*& at, const char* end, std::uint64_t& value) {
+    constexpr std::uint64_t ones = 0x0101010101010101;
+    if (std::endian::native != std::endian::little || end - at < 8) {
+        int many = 0;
+        for (value = 0; many < 8 && at < end && *at >= '0' && *at <= '9'; ++at, ++many)
+            value = value * 10 + static_cast<std::uint64_t>(*at - '0');
+        return many;
+    }
+    std::uint64_t bytes;
+    std::memcpy(&bytes, at, 8);
+    bytes ^= ones * '0'; // a digit is its value now; with 0x76 it stays below 0x80, others do not
+    const std::uint64_t others = ((bytes + ones * 0x76) | bytes) & (ones * 0x80);
+    const int many = std::countr_zero(others) / 8;
+    if (many == 0) {
+        value = 0;
+        return 0;
+    }
+    bytes <<= 64 - 8 * many; // zeros in front of the first, which is the lowest byte
+    bytes = (bytes * 10 + (bytes >> 8)) & 0x00ff00ff00ff00ff; // of each two
+    bytes = (bytes * 100 + (bytes >> 16)) & 0x0000ffff0000ffff;
+    value = (bytes * 10000 + (bytes >> 32)) & 0xffffffff;
+    at += many;
+    return many;
+}
+/// Any integer, with a sign or without.
+bool scan_signed_integer(const char*& at, const char* end, std::int64_t& value);
+inline bool scan_integer(const char*& at, const char* end, std::int64_t& value) {
+    const char* p = at;
+    std::uint64_t digits = 0;
+    const int many = take_digits(p, end, digits);
+    if (many == 0 || many == 8) return scan_signed_integer(at, end, value);
+    at = p;
+    value = static_cast<std::int64_t>(digits);
+    return true;
+}
 
 /// A text file, read word by word. Lines end in LF, CR LF or CR.
 class Text {
@@ -63,6 +100,17 @@ class Text {
 
     /// Parts of a word, read where the text stands: an integer, or one character; false when it is not there.
     bool take(std::int64_t& value) { return scan_integer(at_, end_, value); }
+    /// A number from 1 to 9999999 that is a word by itself; false, without moving, when there is none.
+    bool take_natural(std::int32_t& value) {
+        const char* p = at_;
+        std::uint64_t digits = 0;
+        if (take_digits(p, end_, digits) == 8 || digits == 0 || p == end_ ||
+            (*p != ' ' && *p != '\n' && *p != '\r'))
+            return false;
+        at_ = p;
+        value = static_cast<std::int32_t>(digits);
+        return true;
+    }
     bool take(char c) {
         const bool there = at_ < end_ && *at_ == c;
         if (there) ++at_;
@@ -82,11 +130,18 @@ class Text {
   private:
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-    void skip_blanks();
+    /// False for all that is or begins something else than a word, and for some that a word has.
+    bool is_in_word(char c) const { return c > ' ' && c != '\\' && c != comment_; }
+    void skip_blanks() {
+        if (at_ < end_ && *at_ == ' ') ++at_;
+        if (at_ == end_ || !is_in_word(*at_)) skip_other_blanks();
+    }
+    void skip_other_blanks();
     void skip_space();
     void pass_line_end();
     std::string_view take_word();
     bool ends_word() const {
+        if (at_ < end_ && is_in_word(*at_)) return false;
         if (at_ == end_ || is_blank(*at_) || is_line_end(*at_) || (comment_ && *at_ == comment_)) return true;
         return *at_ == '\\' && at_ + 1 < end_ && is_line_end(at_[1]);
     }

@@ -12,13 +12,17 @@ namespace {
 
 constexpr std::size_t max_zeros = std::size_t{256} << 20;
 
-/// Copies count elements of `components` numbers, `stride` bytes apart, to where they belong.
-template <class T, class Where>
-void gather(const std::byte* from, std::size_t count, std::size_t stride, int components, std::vector<T>& to,
-            Where&& where) {
-    const std::size_t width = static_cast<std::size_t>(components);
-    parallel_for(count, [&](std::size_t i) {
-        std::memcpy(to.data() + where(i) * width, from + i * stride, width * sizeof(T));
+/// Copies count elements of `components` numbers, `stride` bytes apart.
+template <class T>
+void gather(const std::byte* from, std::size_t count, std::size_t stride, int components,
+            std::vector<T>& to) {
+    const std::size_t width = static_cast<std::size_t>(components), bytes = width * sizeof(T);
+    parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
+        if (stride == bytes)
+            std::memcpy(to.data() + begin * width, from + begin * bytes, (end - begin) * bytes);
+        else
+            for (std::size_t i = begin; i < end; ++i)
+                std::memcpy(to.data() + i * width, from + i * stride, bytes);
     });
 }
 
@@ -187,7 +191,7 @@ AttributeData decode(Source& source, const Accessor& a) {
     std::visit(
         [&](auto& numbers) {
             numbers.resize(a.count * static_cast<std::size_t>(a.components));
-            if (from) gather(from, a.count, stride, a.components, numbers, [](std::size_t i) { return i; });
+            if (from) gather(from, a.count, stride, a.components, numbers);
             apply_sparse(source, a, numbers);
         },
         data);
@@ -199,13 +203,17 @@ std::vector<Index> decode_indices(Source& source, const Place& reference, std::s
     const bool unsigned_type =
         a.component_type == uint8 || a.component_type == uint16 || a.component_type == uint32;
     if (a.components != 1 || !unsigned_type) a.place.fail("indices must be unsigned scalars");
-    const AttributeData data = decode(source, a);
-    std::vector<Index> indices(a.count);
-    std::visit(
-        [&](const auto& numbers) {
-            parallel_for(a.count, [&](std::size_t i) { indices[i] = static_cast<Index>(numbers[i]); });
-        },
-        data);
+    AttributeData data = decode(source, a);
+    std::vector<Index> indices;
+    if (auto* whole = std::get_if<std::vector<Index>>(&data))
+        indices = std::move(*whole);
+    else
+        std::visit(
+            [&](const auto& numbers) {
+                indices.resize(a.count);
+                parallel_for(a.count, [&](std::size_t i) { indices[i] = static_cast<Index>(numbers[i]); });
+            },
+            data);
     const std::size_t bad = parallel_reduce(
         a.count, a.count,
         [&](std::size_t begin, std::size_t end) {

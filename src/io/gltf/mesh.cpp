@@ -46,9 +46,15 @@ struct Merge {
 
 std::vector<Vec3> to_positions(const Attribute& a) {
     std::vector<Vec3> positions(a.size());
-    parallel_for(positions.size(), [&](std::size_t i) {
-        positions[i] = {a.value(i, 0), a.value(i, 1), a.value(i, 2)};
-    });
+    if (const auto* floats = std::get_if<std::vector<float>>(&a.data))
+        parallel_for(positions.size(), [&](std::size_t i) {
+            const float* const p = floats->data() + 3 * i;
+            positions[i] = {p[0], p[1], p[2]};
+        });
+    else
+        parallel_for(positions.size(), [&](std::size_t i) {
+            positions[i] = {a.value(i, 0), a.value(i, 1), a.value(i, 2)};
+        });
     return positions;
 }
 
@@ -251,7 +257,9 @@ void add_primitive(Merge& merge, const Place& primitive) {
         throw Error(ErrorKind::limit, "E-LIMIT", merge.mesh_place.path() + ": more than 4294967294 corners");
     merge.need((sizeof(Index) + sizeof(Index) / 3.0) * static_cast<double>(indices.size()));
     const Index first = static_cast<Index>(merge.blocks[b].first);
-    for (const Index i : indices) mesh.corners.push_back(first + i);
+    const std::size_t before = mesh.corners.size();
+    mesh.corners.resize(before + indices.size());
+    parallel_for(indices.size(), [&](std::size_t i) { mesh.corners[before + i] = first + indices[i]; });
     merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }

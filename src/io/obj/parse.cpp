@@ -23,13 +23,43 @@ struct Corner {
     std::int32_t index[3] = {absent, absent, absent}; ///< position, uv, normal
 };
 
+/// The corners of faces, as most files have them: nothing but positions, or all three.
+struct Corners {
+    std::vector<std::int32_t> index[3]; ///< as in Corner; empty when all are absent, for uv and normal
+    /// A bit for each index of each corner; empty when all count from the start.
+    std::vector<std::uint8_t> relative;
+    bool has_more = false; ///< than positions
+
+    std::size_t size() const { return index[0].size(); }
+    void push_back(const Corner& corner, std::uint8_t bits) {
+        index[0].push_back(corner.index[0]);
+        if (!has_more && !bits && corner.index[1] == absent && corner.index[2] == absent) return;
+        has_more = true;
+        const std::size_t before = size() - 1;
+        for (int k = 1; k < 3; ++k)
+            if (corner.index[k] != absent || !index[k].empty()) {
+                index[k].resize(before, absent);
+                index[k].push_back(corner.index[k]);
+            }
+        if (bits || !relative.empty()) {
+            relative.resize(before);
+            relative.push_back(bits);
+        }
+    }
+    void shrink(std::size_t to) {
+        for (auto& indices : index)
+            if (!indices.empty()) indices.resize(to);
+        if (!relative.empty()) relative.resize(to);
+    }
+    std::int32_t at(std::size_t corner, int k) const { return index[k].empty() ? absent : index[k][corner]; }
+    std::uint8_t bits(std::size_t corner) const { return relative.empty() ? 0 : relative[corner]; }
+};
+
 /// What one chunk of lines holds; counts and relative indices are the chunk's own.
 struct Chunk {
     Statements own; ///< without corners
-    std::vector<Corner> corners;
-    std::vector<std::uint8_t>
-        relative; ///< a bit for each index of each corner; empty when all count from the start
-    std::vector<Corner> line_corners;
+    Corners corners;
+    std::vector<std::int32_t> line_corners;
     std::vector<std::uint8_t> line_relative; ///< whether the position's index counts from the chunk
     int lines = 0;
     std::optional<Error> error;
@@ -52,8 +82,9 @@ class ChunkParser {
   private:
     void statement(std::string_view word) {
         if (word.empty()) return;
-        if (word == "v") return vertex();
-        if (word == "f" || word == "fo") return face();
+        if (word.size() == 1 && word[0] == 'v') return vertex();
+        if (word.size() == 1 && word[0] == 'f') return face();
+        if (word == "fo") return face();
         if (word == "l" && lines_) return line();
         if (word == "vn") return numbers(out_.normals, 3, "normal");
         if (word == "vt") return texture_point();
@@ -102,19 +133,14 @@ class ChunkParser {
             {kind, out_.faces(), out_.positions.size(), out_.lines(), std::string(text_.rest_of_line())});
     }
 
-    void forget_corners(std::size_t first) {
-        chunk_.corners.resize(first);
-        if (!chunk_.relative.empty()) chunk_.relative.resize(first);
-    }
-
     void line() {
         const std::size_t first = chunk_.corners.size();
         while (!text_.at_line_end()) corner();
         for (std::size_t i = first; i < chunk_.corners.size(); ++i) {
-            chunk_.line_corners.push_back(chunk_.corners[i]);
-            chunk_.line_relative.push_back(!chunk_.relative.empty() && (chunk_.relative[i] & 1));
+            chunk_.line_corners.push_back(chunk_.corners.at(i, 0));
+            chunk_.line_relative.push_back(chunk_.corners.bits(i) & 1);
         }
-        forget_corners(first);
+        chunk_.corners.shrink(first);
         out_.line_offsets.push_back(static_cast<Index>(chunk_.line_corners.size()));
     }
 
@@ -122,7 +148,7 @@ class ChunkParser {
         const std::size_t first = chunk_.corners.size();
         while (!text_.at_line_end()) corner();
         if (chunk_.corners.size() - first < 3) {
-            forget_corners(first);
+            chunk_.corners.shrink(first);
             ++out_.short_faces;
         } else {
             out_.face_offsets.push_back(static_cast<Index>(chunk_.corners.size()));
@@ -131,8 +157,12 @@ class ChunkParser {
 
     /// v, v/vt, v//vn, v/vt/vn; a slash with nothing behind it is let pass.
     void corner() {
-        const Text start = text_;
         Corner corner;
+        if (text_.take_natural(corner.index[0])) { // as most files have them
+            --corner.index[0];
+            return chunk_.corners.push_back(corner, 0);
+        }
+        const Text start = text_;
         std::uint8_t relative = 0;
         const std::size_t counts[3] = {out_.positions.size(), out_.uvs.size() / 2, out_.normals.size() / 3};
         for (int k = 0; k < 3; ++k) {
@@ -153,9 +183,7 @@ class ChunkParser {
             Text again = start;
             again.expected("a corner (v, v/vt, v//vn or v/vt/vn)");
         }
-        if (relative && chunk_.relative.empty()) chunk_.relative.resize(chunk_.corners.size());
-        chunk_.corners.push_back(corner);
-        if (relative || !chunk_.relative.empty()) chunk_.relative.push_back(relative);
+        chunk_.corners.push_back(corner, relative);
     }
 
     Text text_;
@@ -243,8 +271,8 @@ class Joiner {
         bool coloured = false, keyed = false;
         for (const auto& chunk : chunks_) coloured |= !chunk.own.colours.empty();
         for (const auto& chunk : chunks_)
-            for (const auto& corner : chunk.corners)
-                keyed |= corner.index[1] != absent || corner.index[2] != absent;
+            for (const auto* indices : {&chunk.corners.index[1], &chunk.corners.index[2]})
+                keyed |= std::any_of(indices->begin(), indices->end(), [](auto i) { return i != absent; });
         out_.positions.resize(all.element[0]);
         out_.uvs.resize(all.element[1] * 2);
         out_.normals.resize(all.element[2] * 3);
@@ -283,20 +311,32 @@ class Joiner {
         for (std::size_t f = 0; f < own.faces(); ++f)
             out_.face_offsets[base.faces + f + 1] =
                 static_cast<Index>(base.corners + own.face_offsets[f + 1]);
-        for (std::size_t i = 0; i < chunks_[c].corners.size(); ++i)
-            if (!resolve(c, i)) return base.corners + i;
-        return SIZE_MAX;
+        const std::size_t corners = chunks_[c].corners.size();
+        std::size_t i = 0;
+        if (!chunks_[c].corners.has_more && out_.corner_keys.empty())
+            while (i < corners && resolve_position(c, i)) ++i;
+        else
+            while (i < corners && resolve(c, i)) ++i;
+        return i < corners ? base.corners + i : SIZE_MAX;
+    }
+
+    /// The same as resolve, of a chunk that has nothing but positions, counted from the file's first.
+    bool resolve_position(std::size_t c, std::size_t i) {
+        const auto vertex = static_cast<Index>(chunks_[c].corners.index[0][i]);
+        out_.corners[before_[c].corners + i] = vertex;
+        return vertex < out_.positions.size();
     }
 
     bool resolve(std::size_t c, std::size_t i) {
-        const Corner& corner = chunks_[c].corners[i];
-        const std::uint8_t relative = chunks_[c].relative.empty() ? 0 : chunks_[c].relative[i];
+        const Corners& corners = chunks_[c].corners;
+        const std::uint8_t relative = corners.bits(i);
         Index found[3] = {none, none, none};
         for (int k = 0; k < 3; ++k) {
             const bool from_here = relative >> k & 1;
-            if (corner.index[k] == absent && !from_here) continue;
+            const std::int32_t given = corners.at(i, k);
+            if (given == absent && !from_here) continue;
             const std::int64_t index =
-                corner.index[k] + (from_here ? static_cast<std::int64_t>(before_[c].element[k]) : 0);
+                given + (from_here ? static_cast<std::int64_t>(before_[c].element[k]) : 0);
             if (index >= 0 && index < static_cast<std::int64_t>(before_.back().element[k]))
                 found[k] = static_cast<Index>(index);
             else if (k == 0)
@@ -315,7 +355,7 @@ class Joiner {
         for (std::size_t l = 0; l < chunk.own.lines(); ++l) {
             for (Index i = chunk.own.line_offsets[l]; i < chunk.own.line_offsets[l + 1]; ++i) {
                 const std::int64_t index =
-                    chunk.line_corners[i].index[0] +
+                    chunk.line_corners[i] +
                     (chunk.line_relative[i] ? static_cast<std::int64_t>(before_[c].element[0]) : 0);
                 if (index < 0 || index >= static_cast<std::int64_t>(before_.back().element[0]))
                     refuse("a line", line_of(input_, {"l"}, 0, before_[c].lines + l));
