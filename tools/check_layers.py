@@ -55,6 +55,7 @@ PUBLIC = {
     "io/gltf/pose.hpp": "scenes as pictures show them",
     "io/gltf/textures.hpp": "the images of documents, for textures",
     "io/gltf/tidy.hpp": "documents without what nothing uses, for optimize and tangents",
+    "io/tileset/tiles.hpp": "the files of a tileset, for cells, which write them one by one",
 }
 
 # First path component (or whole name) of a library's headers, and the only places that may include it.

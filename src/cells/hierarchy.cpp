@@ -1,13 +1,10 @@
 #include "cells/hierarchy.hpp"
 
 #include "base/memory.hpp"
-#include "base/parallel.hpp"
-#include "base/progress.hpp"
 #include "base/readable_numbers.hpp"
-#include "cache/fields.hpp"
+#include "cells/stations.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -29,55 +26,10 @@ constexpr std::uint64_t slack[] = {1, 2, 4};
 /// ... and for each vertex that is held, since those need faces of their own.
 constexpr std::uint64_t faces_of_held = 3;
 
-/// What is simplified as one: a leaf of the tree, or what is left of up to four nodes below.
-struct Station {
-    std::uint32_t node = 0, leaf = Tree::no_node;
-    std::vector<std::size_t> children;
-    std::size_t level = 0;   ///< 0: the root
-    std::uint64_t faces = 0; ///< of the mesh as it came
-};
-
-/// What a station leaves behind, on disk.
-struct Left {
-    Block block;
+/// What was done at a station, and below it.
+struct Done {
     double error = 0;
-    std::size_t collapses = 0, turned = 0, vertices = 0, faces = 0;
-};
-
-/// Every other level of the tree, and its leaves; each after its children.
-class Stations {
-  public:
-    explicit Stations(const Partition& partition) : partition_(partition) { add(0, 0); }
-    std::vector<Station> all;
-
-  private:
-    std::size_t add(std::uint32_t node, std::size_t level) {
-        Station station;
-        station.node = node;
-        station.level = level;
-        collect(node, true, station);
-        all.push_back(std::move(station));
-        return all.size() - 1;
-    }
-
-    void collect(std::uint32_t node, bool first, Station& station) {
-        const Tree::Node& n = partition_.tree().nodes[node];
-        if (n.is_leaf() && first) {
-            station.leaf = n.leaf;
-            station.faces = partition_.faces_of(n.leaf);
-            return;
-        }
-        for (const std::uint32_t child : n.child) {
-            if (first && !partition_.tree().nodes[child].is_leaf()) {
-                collect(child, false, station);
-                continue;
-            }
-            station.children.push_back(add(child, station.level + 1));
-            station.faces += all[station.children.back()].faces;
-        }
-    }
-
-    const Partition& partition_;
+    std::size_t collapses = 0, turned = 0;
 };
 
 std::uint64_t target_of(std::uint64_t faces, const SimplifySettings& settings) {
@@ -91,23 +43,19 @@ std::uint64_t target_of(std::uint64_t faces, const SimplifySettings& settings) {
 class Hierarchy {
   public:
     Hierarchy(const Partition& partition, const SimplifySettings& settings, const Means& means)
-        : partition_(partition), settings_(settings), means_(means), stations_(Stations(partition).all),
-          left_(stations_.size()), file_(means.scratch), target_(target_of(partition.faces(), settings)),
+        : partition_(partition), settings_(settings), means_(means), stations_(stations_of(partition)),
+          done_(stations_.size()), left_(stations_, means.scratch),
+          target_(target_of(partition.faces(), settings)),
           diagonal_(partition.source().contents().bounds.diagonal()) {}
 
     HierarchyResult run() {
-        std::size_t deepest = 0;
-        for (const Station& s : stations_) deepest = std::max(deepest, s.level);
-        std::vector<std::size_t> leaves;
-        for (std::size_t s = 0; s + 1 < stations_.size(); ++s)
-            if (stations_[s].leaf != Tree::no_node) leaves.push_back(s);
-        work(leaves);
-        for (std::size_t level = deepest; level > 0; --level) {
-            std::vector<std::size_t> joins;
-            for (std::size_t s = 0; s + 1 < stations_.size(); ++s)
-                if (stations_[s].level == level && stations_[s].leaf == Tree::no_node) joins.push_back(s);
-            work(joins);
-        }
+        settle_below_root(
+            stations_, means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0,
+            [&](std::size_t s) {
+                require_room(s);
+                return bytes_given(s);
+            },
+            [&](std::size_t s) { settle(s); });
         const std::size_t root = stations_.size() - 1;
         require_room(root);
         Cell cell = cell_of(root);
@@ -121,107 +69,61 @@ class Hierarchy {
         result.blocked = r.blocked;
         result.collapses = r.collapses;
         result.turned = r.turned;
-        for (const Left& left : left_) {
-            result.collapses += left.collapses;
-            result.turned += left.turned;
+        for (const Done& done : done_) {
+            result.collapses += done.collapses;
+            result.turned += done.turned;
         }
         result.cells = partition_.tree().leaves.size();
-        result.levels = deepest + 1;
+        result.levels = levels_of(stations_);
         result.faces_before = partition_.faces();
         return result;
     }
 
   private:
-    /// The stations, as many at a time as memory and threads allow.
-    void work(const std::vector<std::size_t>& stations) {
-        if (stations.empty()) return;
-        std::uint64_t largest = 0;
-        for (const std::size_t s : stations) {
-            require_room(s);
-            largest = std::max(largest, bytes_given(s));
-        }
-        const std::uint64_t free = means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0;
-        const std::size_t workers = static_cast<std::size_t>(std::clamp<std::uint64_t>(
-            free / std::max<std::uint64_t>(1, largest), 1,
-            std::min<std::uint64_t>(static_cast<std::uint64_t>(threads()), stations.size())));
-        std::atomic<std::size_t> next{0};
-        parallel_for(
-            workers,
-            [&](std::size_t) {
-                for (std::size_t i = next++; i < stations.size(); i = next++) settle(stations[i]);
-            },
-            1);
-    }
-
     /// Bytes that simplifying the station takes.
     std::uint64_t bytes_given(std::size_t station) const {
         const Station& s = stations_[station];
-        if (s.leaf != Tree::no_node)
+        if (s.is_leaf())
             return s.faces * bytes_of_face_alone +
                    s.faces * partition_.vertices() / partition_.faces() * bytes_of_vertex;
-        std::uint64_t bytes = 0;
-        for (const std::size_t child : s.children)
-            bytes += left_[child].faces * bytes_of_face_alone + left_[child].vertices * bytes_of_vertex;
-        return bytes;
+        return left_.faces_below(station) * bytes_of_face_alone +
+               left_.vertices_below(station) * bytes_of_vertex;
     }
 
     /// Throws limit (E-MEMORY) where cells did not get small enough to be joined.
     void require_room(std::size_t station) const {
         const std::uint64_t needed = bytes_of_process + bytes_given(station);
-        if (stations_[station].leaf != Tree::no_node || needed <= means_.memory) return;
-        std::uint64_t faces = 0;
-        for (const std::size_t child : stations_[station].children) faces += left_[child].faces;
+        if (stations_[station].is_leaf() || needed <= means_.memory) return;
         throw out_of_memory(
             fmt::format(
                 "cells of {} triangles were simplified to {} and not further (non-manifold places, many "
                 "components and max_quadric_error hold edges); joining them needs {}, --memory gives {}",
-                grouped(stations_[station].faces), grouped(faces), sized(needed), sized(means_.memory)),
+                grouped(stations_[station].faces), grouped(left_.faces_below(station)), sized(needed),
+                sized(means_.memory)),
             "give more memory, ask for more faces, or set max_quadric_error: off");
     }
 
     void settle(std::size_t station) {
         Cell cell = cell_of(station);
-        Left& left = left_[station];
-        left.error = error_below(station);
+        Done& done = done_[station];
+        done.error = error_below(station);
         SimplifyResult r = simplified(station, cell);
-        left.error += r.largest_error.value_or(0);
-        left.collapses = r.collapses;
-        left.turned = r.turned;
-        left.vertices = r.mesh.vertex_count();
-        left.faces = r.mesh.face_count();
-        Cell done;
-        for (const Index source : r.sources) {
-            const bool held = cell.home[source] != Cell::inner;
-            done.names.push_back(held ? cell.names[source] : 0);
-            done.home.push_back(cell.home[source]);
-        }
-        cell = {};
-        done.mesh = std::move(r.mesh);
-        cache::ByteWriter writer;
-        writer(done.mesh, done.names, done.home);
-        done = {};
-        left.block = file_.put(writer.bytes);
+        done.error += r.largest_error.value_or(0);
+        done.collapses = r.collapses;
+        done.turned = r.turned;
+        left_.put(station, reduced(std::move(r.mesh), r.sources, cell));
     }
 
     double error_below(std::size_t station) const {
         double error = 0;
         for (const std::size_t child : stations_[station].children)
-            error = std::max(error, left_[child].error);
+            error = std::max(error, done_[child].error);
         return error;
     }
 
     Cell cell_of(std::size_t station) const {
         const Station& s = stations_[station];
-        const std::uint8_t depth = partition_.tree().nodes[s.node].depth;
-        std::vector<Cell> cells;
-        if (s.leaf != Tree::no_node) cells.push_back(partition_.cell(s.leaf));
-        for (const std::size_t child : s.children) {
-            const io::Bytes bytes = file_.get(left_[child].block);
-            cache::ByteReader reader(bytes);
-            Cell& cell = cells.emplace_back();
-            reader(cell.mesh, cell.names, cell.home);
-        }
-        return joined(std::move(cells), depth);
+        return s.is_leaf() ? partition_.cell(s.leaf) : left_.joined_at(station, partition_.tree());
     }
 
     /// The cell's mesh is taken.
@@ -251,8 +153,8 @@ class Hierarchy {
     const SimplifySettings& settings_;
     const Means& means_;
     std::vector<Station> stations_; ///< the root is the last
-    std::vector<Left> left_;        ///< [stations]
-    BlockFile file_;
+    std::vector<Done> done_;        ///< [stations]
+    LeftCells left_;
     std::uint64_t target_;
     double diagonal_;
 };

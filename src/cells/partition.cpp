@@ -1,13 +1,10 @@
 #include "cells/partition.hpp"
 
 #include "base/progress.hpp"
-#include "base/random.hpp"
 #include "cells/unite.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
-#include <map>
 #include <numeric>
 
 namespace facetmill::cells {
@@ -15,33 +12,6 @@ namespace facetmill::cells {
 namespace {
 
 constexpr std::uint32_t resolution = 128; // of the grid: 2 million places, 8 MB
-
-/// A vertex of a leaf.
-struct Owned {
-    std::uint64_t key;
-    std::uint32_t leaf;
-    bool operator<(const Owned& other) const {
-        return key != other.key ? key < other.key : leaf < other.leaf;
-    }
-};
-
-/// A vertex that other leaves have too.
-struct Shared {
-    std::uint64_t key;
-    std::uint8_t depth;
-};
-
-template <class T>
-io::Span as_record(const T& value) {
-    return std::as_bytes(std::span(&value, 1));
-}
-
-template <class T>
-std::vector<T> records_of(io::Span bytes) {
-    std::vector<T> all(bytes.size() / sizeof(T));
-    if (!all.empty()) std::memcpy(static_cast<void*>(all.data()), bytes.data(), all.size() * sizeof(T));
-    return all;
-}
 
 } // namespace
 
@@ -163,55 +133,17 @@ void Partition::refine(std::uint64_t most) {
     }
 }
 
-/// Finds vertices of several leaves: all that have the same key meet in one of some buckets that fit into
-/// memory.
+/// Finds vertices of several leaves.
 void Partition::find_shared(const Means& means) {
-    const auto leaves = static_cast<std::uint32_t>(tree_.leaves.size());
-    borders_ = std::make_unique<Spool>(means.scratch, leaves, static_cast<std::size_t>(means.memory / 16));
-    if (leaves == 1) {
-        vertices_ = source_->names(records_.read(list_[0])).size();
-        return;
-    }
-    const std::uint64_t estimate = faces_ * 2 * sizeof(Owned); // of vertices, with those that are shared
-    const std::uint64_t buckets = 1 + estimate / std::max<std::uint64_t>(1, means.memory / 8);
-    Spool owned(means.scratch, static_cast<std::size_t>(buckets),
-                static_cast<std::size_t>(means.memory / 16));
-    for (std::uint32_t leaf = 0; leaf < leaves; ++leaf)
-        for (const std::uint64_t key : source_->names(records_.read(list_[leaf])))
-            owned.add(static_cast<std::size_t>(hashed(0, key) % buckets), as_record(Owned{key, leaf}));
-    owned.flush();
-    for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
-        auto all = records_of<Owned>(owned.read(bucket));
-        std::sort(all.begin(), all.end());
-        for (auto first = all.begin(); first != all.end();) {
-            const auto last =
-                std::find_if(first, all.end(), [&](const Owned& o) { return o.key != first->key; });
-            ++vertices_;
-            if (last - first > 1) {
-                const Shared shared{first->key, tree_.common_depth(first->leaf, std::prev(last)->leaf)};
-                for (auto one = first; one != last; ++one) borders_->add(one->leaf, as_record(shared));
-            }
-            first = last;
-        }
-    }
-    borders_->flush();
+    borders_ = std::make_unique<Borders>(tree_, means.scratch, means.memory, faces_, [&](std::uint32_t leaf) {
+        return source_->names(records_.read(list_[leaf]));
+    });
 }
 
 Cell Partition::cell(std::uint32_t leaf) const {
     Piece piece = source_->piece(records_.read(list_[leaf]));
-    auto shared = records_of<Shared>(borders_->read(leaf));
-    std::sort(shared.begin(), shared.end(), [](const Shared& a, const Shared& b) { return a.key < b.key; });
-    Cell cell;
-    cell.home.assign(piece.mesh.vertex_count(), Cell::inner);
-    for (Index v = 0; v < piece.mesh.vertex_count() && !shared.empty(); ++v) {
-        const std::uint64_t key = piece.names[v];
-        const auto at = std::lower_bound(shared.begin(), shared.end(), key,
-                                         [](const Shared& s, std::uint64_t k) { return s.key < k; });
-        if (at != shared.end() && at->key == key) cell.home[v] = at->depth;
-    }
-    cell.mesh = std::move(piece.mesh);
-    cell.names = std::move(piece.names);
-    return cell;
+    std::vector<std::uint8_t> home = borders_->homes(leaf, piece.names);
+    return {std::move(piece.mesh), std::move(piece.names), std::move(home)};
 }
 
 Cell joined(std::vector<Cell> cells, std::uint8_t depth) {
@@ -230,6 +162,17 @@ Cell joined(std::vector<Cell> cells, std::uint8_t depth) {
         all.home[v] = all.home[kept[v]] >= depth ? Cell::inner : all.home[kept[v]];
     all.home.resize(kept.size());
     return all;
+}
+
+Cell reduced(Mesh mesh, const std::vector<Index>& sources, const Cell& from) {
+    Cell some;
+    some.mesh = std::move(mesh);
+    for (const Index source : sources) {
+        const std::uint8_t home = source == none ? Cell::inner : from.home[source];
+        some.names.push_back(home == Cell::inner ? 0 : from.names[source]);
+        some.home.push_back(home);
+    }
+    return some;
 }
 
 } // namespace facetmill::cells

@@ -2,7 +2,7 @@
 // A mesh of any size as cells on disk: whole faces, by a k-d tree over their centres, so nothing is cut and
 // there are no T-junctions; and which vertices cells have in common.
 
-#include "cells/block_file.hpp"
+#include "cells/borders.hpp"
 #include "cells/face_source.hpp"
 #include "cells/tree.hpp"
 
@@ -16,7 +16,7 @@ struct Means {
 
 /// A part of a mesh. Vertices that other parts have too stay known by name and position.
 struct Cell {
-    static constexpr std::uint8_t inner = UINT8_MAX;
+    static constexpr std::uint8_t inner = Borders::inner;
     Mesh mesh;                        ///< triangles
     std::vector<std::uint64_t> names; ///< [vertices] see Piece
     /// [vertices] The depth of the node of the tree that all cells with this vertex have in common; inner:
@@ -40,7 +40,7 @@ class Partition {
     std::uint64_t faces_of(std::uint32_t leaf) const {
         return records_.size(list_[leaf]) / source_->record_size();
     }
-    std::uint64_t vertices() const { return vertices_; } ///< that faces use
+    std::uint64_t vertices() const { return borders_->count(); } ///< that faces use
     /// Any thread. Throws output (E-SCRATCH).
     Cell cell(std::uint32_t leaf) const;
 
@@ -56,13 +56,17 @@ class Partition {
 
     std::shared_ptr<FaceSource> source_;
     Tree tree_;
-    std::uint64_t faces_ = 0, vertices_ = 0;
-    Spool records_;                  ///< by list
-    std::vector<std::size_t> list_;  ///< [leaves] of records_
-    std::unique_ptr<Spool> borders_; ///< [leaves] keys and depths of shared vertices
+    std::uint64_t faces_ = 0;
+    Spool records_;                    ///< by list
+    std::vector<std::size_t> list_;    ///< [leaves] of records_
+    std::unique_ptr<Borders> borders_; ///< by names of vertices
 };
 
 /// The cells as one, vertices that they share joined. depth: of the node that they make up together.
 Cell joined(std::vector<Cell> cells, std::uint8_t depth);
+
+/// What a cell became: a mesh with the names and homes of those vertices that are shared. sources: [vertices]
+/// of the mesh, those of the cell, or none.
+Cell reduced(Mesh mesh, const std::vector<Index>& sources, const Cell& from);
 
 } // namespace facetmill::cells

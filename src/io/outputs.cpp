@@ -169,8 +169,7 @@ const Outputs::File& Outputs::add(const fs::path& target, const std::function<vo
     auto file = file_for(target, where);
     const fs::path self = identity(file->resolved);
     if (inputs_.contains(self)) refuse_input(target, where);
-    for (const auto& other : files_)
-        if (!is_streamed(*other) && self == identity(other->resolved)) refuse_twice(target);
+    if (by_identity_.contains(self)) refuse_twice(target);
     make_place(*file);
     Sha256 sum;
     stage(*file, [&](const Put& put) {
@@ -181,7 +180,7 @@ const Outputs::File& Outputs::add(const fs::path& target, const std::function<vo
         });
     });
     file->sha256 = sum.digest();
-    return *files_.emplace_back(std::move(file));
+    return hold(std::move(file), self);
 }
 
 const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark& where) {
@@ -195,10 +194,10 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     const auto input = inputs_.find(self);
     file->is_input = input != inputs_.end();
     if (file->is_input && input->second != file->sha256) refuse_input(target, where);
-    for (const auto& other : files_) {
-        if (self != (is_streamed(*other) ? other->target : identity(other->resolved))) continue;
+    if (const auto there = by_identity_.find(self); there != by_identity_.end()) {
+        const File& other = *there->second;
         // Two glTF files in one folder share their textures.
-        if (!stream && other->bytes == file->bytes && other->sha256 == file->sha256) return *other;
+        if (!stream && other.bytes == file->bytes && other.sha256 == file->sha256) return other;
         refuse_twice(target);
     }
     if (stream) {
@@ -207,6 +206,11 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
         make_place(*file);
         stage(*file, [&](const Put& put) { put(bytes); });
     }
+    return hold(std::move(file), self);
+}
+
+const Outputs::File& Outputs::hold(std::unique_ptr<File> file, const fs::path& self) {
+    by_identity_.emplace(self, file.get());
     return *files_.emplace_back(std::move(file));
 }
 
@@ -357,6 +361,7 @@ void Outputs::forget(bool remove) {
         keep(file->clean_up);
     }
     files_.clear();
+    by_identity_.clear();
     for (auto it = made_directories_.rbegin(); it != made_directories_.rend(); ++it) {
         if (remove) ::rmdir(it->path.c_str());
         keep(it->clean_up);

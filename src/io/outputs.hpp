@@ -80,6 +80,7 @@ class Outputs {
     std::unique_ptr<File> file_for(const std::filesystem::path& target, const Mark& where) const;
     void make_place(const File& file);
     void stage(File& file, const std::function<void(const Put&)>& produce);
+    const File& hold(std::unique_ptr<File> file, const std::filesystem::path& self);
     void leave_unchanged();
     void sync_contents() const;
     void sync_names() const;
@@ -89,6 +90,7 @@ class Outputs {
 
     CommitSettings settings_;
     std::vector<std::unique_ptr<File>> files_;
+    std::map<std::filesystem::path, const File*> by_identity_; ///< of what each replaces; streams by name
     std::vector<Directory> made_directories_;
     std::set<std::filesystem::path> swept_;
     std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum

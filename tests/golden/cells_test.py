@@ -234,6 +234,32 @@ class Cells(Case):
         self.mill("pipe", "load", "whole.glb", "!", "transform", "--bake", "!", "write", "whole.ply")
         self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
 
+    def test_tiles_are_written_in_cells(self):
+        self.large()
+        load = ("load", "large.ply", "--unit", "m", "--up", "z", "!", "write")
+        for more in ((), ("--draco",), ("--meshopt",))[:1 if SLOW else 3]:
+            results = set()
+            for threads, memory in variants((1, "64M"), (2, "128M"), (5, "1G")):
+                shutil.rmtree(self.dir / "o", ignore_errors=True)
+                run = self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", *load, "o/tileset.json",
+                                "--tiles.faces", 5000, *more)
+                self.assertIn("in cells on disk: ", run.stderr)
+                results.add(tuple((p.name, p.read_bytes()) for p in sorted(self.dir.glob("o/**/*.*"))))
+            self.assertEqual(len(results), 1)
+            names = [name for name, _ in results.pop()]
+            self.assertGreater(len(names), 80)
+            self.assertEqual(names.count("tileset.json"), 1)
+            self.mill("pipe", "load", "o/tileset.json", "!", "validate", "--closed", "--edge_manifold", "--euler", 2,
+                      "--faces", 280000)
+        self.assertIn("normals and tangents need the whole mesh", self.mill(
+            "pipe", "--memory", "64M", *load, "p/tileset.json", "--normals", "smooth", expect=2).stderr)
+        self.assertIn("set tiles.faces to fewer", self.mill("pipe", "--memory", "50M", *load, "p/tileset.json",
+                                                            expect=7).stderr)
+        self.write("q/tileset/r.glb/taken", "")  # a tile cannot have its name
+        self.assertIn("E-DIRECTORY", self.mill("pipe", "--memory", "64M", *load, "q/tileset.json", expect=4).stderr)
+        self.assertEqual([p.name for p in self.dir.glob("q/**/*") if p.is_file()], ["taken"])
+        self.assertFalse((self.dir / "p").exists())
+
     def test_a_clip_brings_what_it_keeps_into_memory(self):
         self.large()
         for clip in variants(("z=60%",), ("--planes", "[x=60%,y=60%]", "--cap"), ("z=60%", "--cap"),
@@ -279,18 +305,27 @@ class Cells(Case):
     @unittest.skipIf(SLOW, "sanitizers take memory of their own")
     def test_four_million_faces_in_64_megabytes(self):
         scan = self.large(3)
+        self.assertLess(self.peak("load", scan, "!", "simplify", "--faces", "40000", "!", "validate", "--closed",
+                                  "--edge_manifold", "!", "write", "o.ply"), 64 * MEGABYTE)
+
+    @unittest.skipIf(SLOW, "sanitizers take memory of their own")
+    def test_a_tileset_of_a_million_faces_in_64_megabytes(self):
+        self.assertLess(self.peak("load", self.large(2), "--unit", "m", "--up", "z", "!", "write", "o/tileset.json"),
+                        64 * MEGABYTE)
+
+    def peak(self, *stages):
+        """Bytes that a run takes with a limit of 64 MB."""
         # By a process of its own: what it starts counts the memory that it had itself.
         code = ("import os, subprocess, sys\n"
                 "run = subprocess.Popen(sys.argv[1:])\n"
                 "_, status, usage = os.wait4(run.pid, 0)\n"
                 "run.returncode = os.waitstatus_to_exitcode(status)\n"
                 "print(run.returncode, usage.ru_maxrss * 1024)")
-        run = subprocess.run([sys.executable, "-c", code, str(FACETMILL), "pipe", "-q", "--memory", "64M", "load", scan, "!",
-                              "simplify", "--faces", "40000", "!", "validate", "--closed", "--edge_manifold", "!", "write",
-                              "o.ply"], cwd=self.dir, capture_output=True, text=True)
+        run = subprocess.run([sys.executable, "-c", code, str(FACETMILL), "pipe", "-q", "--memory", "64M", *stages],
+                             cwd=self.dir, capture_output=True, text=True)
         code, peak = map(int, run.stdout.split()[-2:])
         self.assertEqual(code, 0, run.stderr)
-        self.assertLess(peak, 64 * MEGABYTE)
+        return peak
 
 
 if __name__ == "__main__":

@@ -119,4 +119,23 @@ inline Mesh random_triangles(std::size_t count, double size, std::uint64_t seed)
     return mesh;
 }
 
+/// The six sides of a cube as grids of n by n, which touch and share no vertices.
+inline Mesh touching_sides(int n) {
+    Mesh mesh;
+    const Mesh side = shapes::grid(n, n);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const bool far : {false, true}) {
+            Transform t;
+            for (auto& row : t.m) row[0] = row[1] = row[2] = row[3] = 0;
+            const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+            t.m[far ? u : v][0] = t.m[far ? v : u][1] = 1;
+            t.m[axis][2] = far ? 1 : -1;
+            t.m[axis][3] = far ? n : 0;
+            Mesh one = side;
+            apply(one, t);
+            append(mesh, one);
+        }
+    return mesh;
+}
+
 } // namespace facetmill::test

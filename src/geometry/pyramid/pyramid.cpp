@@ -116,9 +116,9 @@ SimplifyResult simplified(const Mesh& mesh, std::vector<std::uint8_t> held, std:
 
 class PyramidMaker {
   public:
-    PyramidMaker(const Mesh& mesh, const PyramidSettings& settings)
-        : settings_(settings), cuts_(cut_faces(mesh, settings.faces)), tiles_(cuts_.tiles.size()),
-          pieces_(tiles_.size()), leaves_(mesh, cuts_.leaf_of_face) {
+    PyramidMaker(const Mesh& mesh, const PyramidSettings& settings, const std::vector<std::uint8_t>& held)
+        : settings_(settings), held_(held), cuts_(cut_faces(mesh, settings.faces)),
+          tiles_(cuts_.tiles.size()), pieces_(tiles_.size()), leaves_(mesh, cuts_.leaf_of_face) {
         std::vector<TilePiece> at_leaves = pieces_of(mesh, cuts_.leaf_of_face, cuts_.leaves);
         for (std::size_t t = 0; t < tiles_.size(); ++t) {
             const FaceCut& cut = cuts_.tiles[t];
@@ -140,7 +140,10 @@ class PyramidMaker {
             parallel_for(
                 here.size(), [&](std::size_t i) { join(here[i]); }, 1);
         }
-        for (std::size_t t = 0; t < tiles_.size(); ++t) tiles_[t].mesh = std::move(pieces_[t].mesh);
+        for (std::size_t t = 0; t < tiles_.size(); ++t) {
+            tiles_[t].mesh = std::move(pieces_[t].mesh);
+            tiles_[t].numbers = std::move(pieces_[t].numbers);
+        }
         return std::move(tiles_);
     }
 
@@ -155,19 +158,20 @@ class PyramidMaker {
         }
         const TilePiece all = joined(below);
         std::vector<std::uint8_t> held(all.numbers.size());
-        for (std::size_t v = 0; v < held.size(); ++v)
-            held[v] = all.numbers[v] != none && leaves_.shared(all.numbers[v], cuts_.tiles[t]);
-        SimplifyResult r = simplified(all.mesh, held, settings_.faces);
-        put_on_steps(r.mesh, settings_.step);
-        DeviationSettings measured;
-        measured.samples = all.mesh.face_count();
-        tile.error = error + (r.unchanged ? 0 : deviation(all.mesh, r.mesh, measured).maximum());
-        for (const Index source : r.sources)
+        for (std::size_t v = 0; v < held.size(); ++v) held[v] = is_held(all.numbers[v], cuts_.tiles[t]);
+        CoarserTile coarser = coarser_tile(all.mesh, held, error, settings_);
+        tile.error = coarser.error;
+        for (const Index source : coarser.sources)
             pieces_[t].numbers.push_back(held[source] ? all.numbers[source] : none);
-        pieces_[t].mesh = std::move(r.mesh);
+        pieces_[t].mesh = std::move(coarser.mesh);
+    }
+
+    bool is_held(Index number, const FaceCut& tile) const {
+        return number != none && ((!held_.empty() && held_[number]) || leaves_.shared(number, tile));
     }
 
     PyramidSettings settings_;
+    const std::vector<std::uint8_t>& held_; ///< [vertices] by others, or empty
     FaceCuts cuts_;
     std::vector<PyramidTile> tiles_;
     std::vector<TilePiece> pieces_; ///< [tiles]
@@ -176,8 +180,19 @@ class PyramidMaker {
 
 } // namespace
 
-std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings) {
-    return PyramidMaker(mesh, settings).run();
+std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings,
+                                      const std::vector<std::uint8_t>& held) {
+    return PyramidMaker(mesh, settings, held).run();
+}
+
+CoarserTile coarser_tile(const Mesh& joined, const std::vector<std::uint8_t>& held, double error_below,
+                         const PyramidSettings& settings) {
+    SimplifyResult r = simplified(joined, held, settings.faces);
+    put_on_steps(r.mesh, settings.step);
+    DeviationSettings measured;
+    measured.samples = joined.face_count();
+    const double own = r.unchanged ? 0 : deviation(joined, r.mesh, measured).maximum();
+    return {std::move(r.mesh), error_below + own, std::move(r.sources)};
 }
 
 } // namespace facetmill

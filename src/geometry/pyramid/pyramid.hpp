@@ -24,6 +24,8 @@ struct PyramidTile {
     double error = 0;
     std::vector<std::size_t> children; ///< four, or two of the root; none for a leaf
     std::string name;                  ///< the way from the root, a digit for each child: "" for the root
+    /// [vertices] Their numbers in the mesh that came in; none: made above, and no other tile has them.
+    std::vector<Index> numbers;
 };
 
 /// Cuts a mesh of triangles into whole faces, halved by count along the longest side until `faces` are
@@ -41,6 +43,21 @@ struct PyramidTile {
 ///
 /// Attributes: as simplify has them; wedges that tiles have in common are one again above. Vertices that no
 /// face uses are dropped. The same bytes for any number of threads. About O(n log n).
-std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings);
+///
+/// held: [vertices] those that what stands beside this mesh has, too, which stay in every tile; empty: none.
+std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings,
+                                      const std::vector<std::uint8_t>& held = {});
+
+/// A tile that stands for others.
+struct CoarserTile {
+    Mesh mesh;
+    double error = 0;           ///< see PyramidTile
+    std::vector<Index> sources; ///< [vertices] of the joined mesh
+};
+
+/// The tile above some that are joined to one mesh, the vertices made one that they have in common. held:
+/// [vertices] of it, those that tiles outside have. error_below: the largest of the tiles'.
+CoarserTile coarser_tile(const Mesh& joined, const std::vector<std::uint8_t>& held, double error_below,
+                         const PyramidSettings& settings);
 
 } // namespace facetmill

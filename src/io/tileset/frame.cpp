@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <fmt/format.h>
+#include <limits>
 
 namespace facetmill::io {
 
@@ -33,27 +34,41 @@ std::size_t count_places(std::vector<Vec3> positions) {
 
 } // namespace
 
-TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings) {
+TilesetFrame usual_frame(const Box& box, const WriteSettings& settings) {
     constexpr int float_bits = 24;
-    const Box box = box_of(positions);
-    TilesetFrame frame{near_centre(box, 0), 1};
+    if (!(box.diagonal() <= std::numeric_limits<float>::max()))
+        throw Error(ErrorKind::stage, "E-RANGE",
+                    fmt::format("the scene measures {:.3g}, which float32 cannot hold", box.diagonal()),
+                    "bring it near 1 with transform: {scale: ...}, or write PLY with precision: full");
+    TilesetFrame frame{near_centre(box, 0)};
     double reach = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
         reach = std::max({reach, box.max[axis] - frame.origin[axis], frame.origin[axis] - box.min[axis]});
-    const double finest = power_below(reach) / (std::int64_t{1} << (float_bits - 1));
-    frame.step = finest;
+    frame.step = frame.finest = power_below(reach) / (std::int64_t{1} << (float_bits - 1));
     if (!settings.draco.on && !settings.quantize.on) return frame;
     const int bits = settings.draco.on ? settings.draco.position_bits : settings.quantize.position_bits;
     const double steps = static_cast<double>((std::int64_t{1} << bits) - 1);
-    frame.step = std::max(finest, power_below(box.longest_side() / steps));
-    if (settings.tiles.given_bits) return frame;
+    frame.step = std::max(frame.finest, power_below(box.longest_side() / steps));
+    if (settings.tiles.given_bits) frame.finest = frame.step;
+    return frame;
+}
+
+double distinct_step(const std::vector<Vec3>& positions, const TilesetFrame& frame) {
+    if (frame.step <= frame.finest) return frame.step;
     const auto places = [&](double step) {
         std::vector<Vec3> moved = positions;
         put_into_frame(moved, {frame.origin, step});
         return count_places(std::move(moved));
     };
-    const std::size_t all = places(finest);
-    while (frame.step > finest && places(frame.step) < all) frame.step /= 2;
+    const std::size_t all = places(frame.finest);
+    double step = frame.step;
+    while (step > frame.finest && places(step) < all) step /= 2;
+    return step;
+}
+
+TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings) {
+    TilesetFrame frame = usual_frame(box_of(positions), settings);
+    frame.step = distinct_step(positions, frame);
     return frame;
 }
 

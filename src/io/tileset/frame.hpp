@@ -8,13 +8,21 @@
 namespace facetmill::io {
 
 struct TilesetFrame {
-    Vec3 origin;     ///< in the world
-    double step = 1; ///< a power of two
+    Vec3 origin;       ///< in the world
+    double step = 1;   ///< a power of two
+    double finest = 1; ///< that the step may become, where vertices would come to lie on each other
 };
 
-/// For the positions, by the longest side that the bits of Draco or quantize divide; finer, where vertices
-/// would come to lie on each other and the bits were not given, up to what float32 holds from the middle to
-/// the ends.
+/// For positions in the box, by the longest side that the bits of Draco or quantize divide. The step may
+/// become finer, unless the bits were given, up to what float32 holds from the middle to the ends. Throws
+/// stage (E-RANGE) for a box that float32 cannot hold.
+TilesetFrame usual_frame(const Box& box, const WriteSettings& settings);
+
+/// The frame's step, or the first finer one at which no more of these vertices lie on each other than at the
+/// finest.
+double distinct_step(const std::vector<Vec3>& positions, const TilesetFrame& frame);
+
+/// The usual frame with the distinct step.
 TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings);
 
 /// The nearest numbers of the frame.

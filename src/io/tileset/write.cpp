@@ -2,29 +2,20 @@
 #include "base/progress.hpp"
 #include "geometry/pyramid/pyramid.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "io/convert.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/textures.hpp"
 #include "io/image_files.hpp"
-#include "io/tileset/frame.hpp"
+#include "io/tileset/tiles.hpp"
 #include "io/tileset/tileset.hpp"
 #include "mesh/skin.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <set>
 
 namespace facetmill::io::tileset {
 
 namespace {
-
-Bytes bytes_of(const std::string& text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
 
 AttributeChanges drop_morph_targets(Mesh& mesh) {
     AttributeChanges changes;
@@ -82,29 +73,14 @@ std::shared_ptr<const Document> materials_only(const Document& document, bool sh
     return std::make_shared<const Document>(std::move(kept));
 }
 
-/// A tile on its way to a file: boxes are in the tileset's frame.
-struct TileFile {
-    Box own, all; ///< around its content; and around that of the tiles below it, too
-    std::vector<OutputFile> files;
-    std::vector<Diagnostic> warnings;
-    std::size_t faces = 0, dropped_faces = 0;
-    VertexCacheUse cache;
-};
-
 class TilesetWriter {
   public:
-    TilesetWriter(const Scene& scene, const WriteSettings& settings) : settings_(settings) {
-        const bool share = settings.textures == Textures::automatic || settings.textures == Textures::copy;
+    TilesetWriter(const Scene& scene, const WriteSettings& settings)
+        : settings_(settings_of_tiles(settings)) {
         for (const auto& document : scene.documents)
-            outline_.documents.push_back(materials_only(*document, share, written_));
+            outline_.documents.push_back(
+                materials_only(*document, settings_.textures == Textures::copy, written_));
         outline_.materials = scene.materials;
-        outline_.unit = Unit::m;
-        outline_.up = UpAxis::y;
-        settings_.title = settings.title.empty() ? "tileset" : settings.title;
-        settings_.textures = share ? Textures::copy : settings.textures;
-        settings_.directory = settings.directory / settings_.title;
-        settings_.whole_positions = settings.draco.on || settings.quantize.on;
-        settings_.lattices.clear(); // of the parts, not of the tiles
     }
 
     Written run(const Scene& scene) {
@@ -112,120 +88,46 @@ class TilesetWriter {
         Mesh mesh = as_one(scene, written_);
         if (mesh.face_count() == 0)
             throw Error(ErrorKind::stage, "E-EMPTY", "a tileset needs at least one face");
-        const double size = mesh.bounds().diagonal();
-        if (!(size <= std::numeric_limits<float>::max()))
-            throw Error(ErrorKind::stage, "E-RANGE",
-                        fmt::format("the scene measures {:.3g}, which float32 cannot hold", size),
-                        "bring it near 1 with transform: {scale: ...}, or write PLY with precision: full");
-        frame_ = tileset_frame(mesh.positions, settings_);
-        put_into_frame(mesh.positions, frame_);
+        const TilesetFrame frame = tileset_frame(mesh.positions, settings_);
+        put_into_frame(mesh.positions, frame);
         steps.next();
-        tiles_ = make_pyramid(mesh, {settings_.tiles.faces, frame_.step});
+        std::vector<PyramidTile> pyramid = make_pyramid(mesh, {settings_.tiles.faces, frame.step});
         mesh = {};
         steps.next();
-        files_.resize(tiles_.size());
+        std::vector<TreeTile> tiles(pyramid.size());
+        std::vector<Written> written(pyramid.size());
         Share::loop_tells();
         parallel_for(
-            tiles_.size(), [&](std::size_t t) { encode(t); }, 1);
-        for (std::size_t t = tiles_.size(); t-- > 0;) {
-            files_[t].all = files_[t].own;
-            for (const std::size_t child : tiles_[t].children) files_[t].all.add(files_[child].all);
-        }
-        finish();
+            tiles.size(),
+            [&](std::size_t t) {
+                tiles[t] = {pyramid[t].name, pyramid[t].children, pyramid[t].error, {}, {}, 0, 0, {}};
+                written[t] = encode_tile(std::move(pyramid[t].mesh), tiles[t], outline_, settings_, frame);
+            },
+            1);
+        finish(summary_of(tiles, frame, settings_.title), written);
         return std::move(written_);
     }
 
   private:
-    std::string uri_of_tile(std::size_t t) const {
-        return fmt::format("{}/r{}.glb", settings_.title, tiles_[t].name);
-    }
-
-    /// The tile as a GLB; its mesh is taken.
-    void encode(std::size_t t) {
-        TileFile& file = files_[t];
-        Mesh mesh = std::move(tiles_[t].mesh);
-        file.own = mesh.bounds();
-        file.faces = mesh.face_count();
-        const Vec3 origin = tile_origin(file.own, frame_);
-        const double unit = settings_.whole_positions ? frame_.step : 1;
-        for (Vec3& p : mesh.positions) p = (p - origin) * (1 / unit);
-        const Transform turn = turn_up(UpAxis::z, UpAxis::y);
-        apply(mesh, turn);
-        Scene scene = outline_;
-        Part& part = scene.parts.emplace_back();
-        part.name = settings_.title;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            part.transform.m[axis][axis] = unit;
-            part.transform.m[axis][3] = turn.point(origin)[axis] + 0.0;
-        }
-        WriteSettings settings = settings_;
-        const auto reach =
-            static_cast<std::uint64_t>(settings.whole_positions ? mesh.bounds().longest_side() : 0);
-        if (settings.whole_positions)
-            settings.part_bits = {std::max(1, static_cast<int>(std::bit_width(reach)))};
-        part.mesh = std::move(mesh);
-        Written one = codec_named("glb")->write(scene, settings);
-        one.files.front().name = uri_of_tile(t);
-        for (std::size_t i = 1; i < one.files.size(); ++i)
-            one.files[i].name = settings_.title / one.files[i].name;
-        file.files = std::move(one.files);
-        file.warnings = std::move(one.warnings);
-        file.dropped_faces = one.dropped_faces;
-        file.cache = one.cache;
-        if (t == 0) written_.changes.insert(written_.changes.end(), one.changes.begin(), one.changes.end());
-    }
-
-    static Json box_json(const Box& box) {
-        const Vec3 c = box.centre(), h = box.extent() * 0.5;
-        return {{"box", {c.x, c.y, c.z, h.x, 0.0, 0.0, 0.0, h.y, 0.0, 0.0, 0.0, h.z}}};
-    }
-
-    Json tile_json(std::size_t t) const {
-        Json json = {{"boundingVolume", box_json(files_[t].all)}, {"geometricError", tiles_[t].error}};
-        if (t == 0) json["refine"] = "REPLACE";
-        const Vec3& o = frame_.origin;
-        if (t == 0 && o != Vec3{})
-            json["transform"] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0,
-                                 0.0, 0.0, 1.0, 0.0, o.x, o.y, o.z, 1.0};
-        json["content"] = {{"uri", uri_of(uri_of_tile(t))}};
-        if (files_[t].own.min != files_[t].all.min || files_[t].own.max != files_[t].all.max)
-            json["content"]["boundingVolume"] = box_json(files_[t].own);
-        for (const std::size_t child : tiles_[t].children) json["children"].push_back(tile_json(child));
-        return json;
-    }
-
-    void finish() {
-        const Json json = {
-            {"asset", {{"version", "1.1"}, {"extras", {{"generator", "facetmill " FACETMILL_VERSION}}}}},
-            {"geometricError", std::max(files_[0].all.diagonal(), tiles_[0].error)},
-            {"root", tile_json(0)}};
-        written_.files.push_back({settings_.title + ".json", bytes_of(json.dump(1) + "\n")});
-        TilesWritten& told = written_.tiles.emplace();
-        told.tiles = tiles_.size();
-        told.error = tiles_[0].error;
+    void finish(TilesetSummary summary, std::vector<Written>& tiles) {
+        written_.files.push_back(std::move(summary.json));
+        written_.tiles = summary.told;
+        written_.cache = summary.cache;
+        written_.dropped_faces = summary.dropped_faces;
+        const AttributeChanges& changes = tiles.front().changes;
+        written_.changes.insert(written_.changes.end(), changes.begin(), changes.end());
         std::set<std::filesystem::path> names;
         std::set<std::string> said;
-        for (std::size_t t = 0; t < tiles_.size(); ++t) {
-            TileFile& file = files_[t];
-            told.levels = std::max(told.levels, tiles_[t].name.size() + 1);
-            told.largest = std::max(told.largest, file.faces);
-            if (tiles_[t].children.empty()) {
-                ++told.leaves;
-                written_.dropped_faces += file.dropped_faces;
-            }
-            written_.cache.add(file.cache);
-            for (OutputFile& one : file.files)
+        for (Written& tile : tiles) {
+            for (OutputFile& one : tile.files)
                 if (names.insert(one.name).second) written_.files.push_back(std::move(one));
-            for (Diagnostic& warning : file.warnings)
+            for (Diagnostic& warning : tile.warnings)
                 if (said.insert(warning.message).second) written_.warnings.push_back(std::move(warning));
         }
     }
 
     WriteSettings settings_;
     Scene outline_; ///< of every tile: materials and documents
-    TilesetFrame frame_;
-    std::vector<PyramidTile> tiles_;
-    std::vector<TileFile> files_;
     Written written_;
 };
 

@@ -1,6 +1,7 @@
 #include "stages/write/cells.hpp"
 
 #include "cells/write_cells.hpp"
+#include "cells/write_tiles.hpp"
 #include "io/output_files.hpp"
 #include "io/packing.hpp"
 #include "mesh/power_scale.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill::write_stage {
 
@@ -39,6 +41,44 @@ void warn_of_rounding(double rounding, const WriteOptions& o, const io::Codec& c
                                  : "write PLY with precision: full, or transform: {centre: true} first");
 }
 
+struct Staged {
+    const io::Outputs::File* file = nullptr;
+    report::FileRecord told;
+};
+
+/// Stages one file of bytes, told as the pipeline names it.
+Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& context) {
+    const auto& staged =
+        context.run().outputs.add(context.places().output(name.string()), bytes, context.where());
+    const std::string told = name.lexically_normal().string();
+    return {&staged, {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, bytes)}};
+}
+
+/// The cells as a tileset, each tile staged as soon as it is made.
+void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, CellFlow& flow,
+                   const Scene& outline, WriteReport& report, Context& context) {
+    const std::filesystem::path path = o.path.text, folder = path.parent_path();
+    std::map<std::string, Staged> tiles;
+    const Transform transform = outline.parts.front().transform;
+    cells::WrittenTiles written =
+        cells::write_tiles(*flow.partition, transform, settings, flow.means, [&](const io::OutputFile& file) {
+            tiles.emplace(file.name.string(), stage_one(folder / file.name, file.bytes, context));
+        });
+    std::vector<const io::Outputs::File*> staged;
+    const auto tell = [&](const Staged& one) {
+        staged.push_back(one.file);
+        context.run().record.outputs.push_back(one.told);
+    };
+    tell(stage_one(path, written.json.bytes, context));
+    for (const std::string& name : written.names) tell(tiles.at(name));
+    if (written.cache.triangles > 0) report.order = written.cache;
+    report.tiles = written.told;
+    for (const Diagnostic& w : written.warnings) context.warn(w.id, w.message, w.hint);
+    context.attribute_changes(outline.parts.front(), written.changes);
+    if (!context.run().read_back) return;
+    for (const io::Outputs::File* file : staged) read_again(*file, context);
+}
+
 /// A point near the middle of the cells, where float32 would round positions by more than a millionth.
 Vec3 origin_of(const WriteOptions& o, const io::Codec& codec, const CellFlow& flow) {
     constexpr double tolerable = 1e-6, step = 1.0 / (1 << 24); // of the diagonal; of a float32
@@ -63,6 +103,7 @@ std::optional<std::string> why_not_on_cells(const WriteOptions& o) {
     if (o.normals != NormalKind::keep || o.tangents != Tangents::keep)
         return "normals and tangents need the whole mesh";
     if (o.origin.kind == OriginOption::Kind::point) return "origin is automatic or kept in cells";
+    if (codec->can.tiles) return {};
     return cells::why_not_written(*codec, settings_of(o, *codec, o.path.text));
 }
 
@@ -72,7 +113,12 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
     Scene outline = flow.outline();
     to_convention(outline, o, codec, context, report);
     const std::filesystem::path target = context.places().output(o.path.text);
-    const io::WriteSettings settings = settings_of(o, codec, target);
+    io::WriteSettings settings = settings_of(o, codec, target);
+    if (codec.can.tiles) {
+        settings.tiles.given_bits = bits_are_given(settings, o);
+        write_tileset(o, settings, flow, outline, report, context);
+        return context.report(fields_of<WriteReport>(declare_write_report), &report);
+    }
     const cells::WritePlace place{outline.parts.front().transform, origin_of(o, codec, flow)};
     double rounding = 0;
     const auto& staged = context.run().outputs.add(

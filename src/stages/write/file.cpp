@@ -170,11 +170,15 @@ bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_mat
     return true;
 }
 
+bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o) {
+    return s.draco.on ? o.draco && o.draco->position_bits : o.quantize && o.quantize->position;
+}
+
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report) {
     if (!s.draco.on && !s.quantize.on) return;
     const int usual = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
-    const bool given = s.draco.on ? o.draco && o.draco->position_bits : o.quantize && o.quantize->position;
+    const bool given = bits_are_given(s, o);
     const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::scene
                       : o.quantize ? o.quantize->grid
                                    : Grid::scene;

@@ -33,6 +33,9 @@ std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
 bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
                    Context& context);
 
+/// Whether the user gave the bits of positions of a file with a grid.
+bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o);
+
 /// Bits of position for a file with a grid (Draco, quantize), part by part: those that are given or usual, of
 /// the scene or of each mesh, and, unless given, as many as keep vertices apart.
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,

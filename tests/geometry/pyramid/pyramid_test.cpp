@@ -7,6 +7,7 @@
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/meshes.hpp"
 
 using namespace facetmill;
 
@@ -111,20 +112,7 @@ TEST_CASE("errors fall from the root to 0 at the leaves, which have all faces", 
 }
 
 TEST_CASE("borders are held by place, whoever has the vertices", "[pyramid]") {
-    Mesh mesh; // six sides of a cube that only touch
-    const Mesh side = shapes::grid(16, 16);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const bool far : {false, true}) {
-            Transform t;
-            for (auto& row : t.m) row[0] = row[1] = row[2] = row[3] = 0;
-            const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-            t.m[far ? u : v][0] = t.m[far ? v : u][1] = 1;
-            t.m[axis][2] = far ? 1 : -1;
-            t.m[axis][3] = far ? 16 : 0;
-            Mesh one = side;
-            apply(one, t);
-            append(mesh, one);
-        }
+    const Mesh mesh = test::touching_sides(16);
     REQUIRE_FALSE(inspect(mesh).closed);
     Mesh welded = mesh;
     weld_exact(welded);

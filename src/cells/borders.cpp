@@ -1,0 +1,87 @@
+#include "cells/borders.hpp"
+
+#include "base/random.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace facetmill::cells {
+
+namespace {
+
+/// A key of a leaf.
+struct Owned {
+    std::uint64_t key;
+    std::uint32_t leaf;
+    bool operator<(const Owned& other) const {
+        return key != other.key ? key < other.key : leaf < other.leaf;
+    }
+};
+
+/// A key that other leaves have too.
+struct Shared {
+    std::uint64_t key;
+    std::uint8_t depth;
+};
+
+template <class T>
+io::Span as_record(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+template <class T>
+std::vector<T> records_of(io::Span bytes) {
+    std::vector<T> all(bytes.size() / sizeof(T));
+    if (!all.empty()) std::memcpy(static_cast<void*>(all.data()), bytes.data(), all.size() * sizeof(T));
+    return all;
+}
+
+} // namespace
+
+/// All leaves that have the same key meet in one of some buckets that fit into memory.
+Borders::Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
+                 std::uint64_t estimate,
+                 const std::function<std::vector<std::uint64_t>(std::uint32_t)>& keys_of)
+    : shared_(scratch, tree.leaves.size(), static_cast<std::size_t>(memory / 16)) {
+    const auto leaves = static_cast<std::uint32_t>(tree.leaves.size());
+    if (leaves == 1) {
+        count_ = keys_of(0).size();
+        return;
+    }
+    const std::uint64_t size = estimate * 2 * sizeof(Owned); // with those that are shared
+    const std::uint64_t buckets = 1 + size / std::max<std::uint64_t>(1, memory / 8);
+    Spool owned(scratch, static_cast<std::size_t>(buckets), static_cast<std::size_t>(memory / 16));
+    for (std::uint32_t leaf = 0; leaf < leaves; ++leaf)
+        for (const std::uint64_t key : keys_of(leaf))
+            owned.add(static_cast<std::size_t>(hashed(0, key) % buckets), as_record(Owned{key, leaf}));
+    owned.flush();
+    for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+        auto all = records_of<Owned>(owned.read(bucket));
+        std::sort(all.begin(), all.end());
+        for (auto first = all.begin(); first != all.end();) {
+            const auto last =
+                std::find_if(first, all.end(), [&](const Owned& o) { return o.key != first->key; });
+            ++count_;
+            if (last - first > 1) {
+                const Shared shared{first->key, tree.common_depth(first->leaf, std::prev(last)->leaf)};
+                for (auto one = first; one != last; ++one) shared_.add(one->leaf, as_record(shared));
+            }
+            first = last;
+        }
+    }
+    shared_.flush();
+}
+
+std::vector<std::uint8_t> Borders::homes(std::uint32_t leaf, const std::vector<std::uint64_t>& keys) const {
+    auto shared = records_of<Shared>(shared_.read(leaf));
+    std::sort(shared.begin(), shared.end(), [](const Shared& a, const Shared& b) { return a.key < b.key; });
+    std::vector<std::uint8_t> homes(keys.size(), inner);
+    for (std::size_t k = 0; k < keys.size() && !shared.empty(); ++k) {
+        const auto at = std::lower_bound(shared.begin(), shared.end(), keys[k],
+                                         [](const Shared& s, std::uint64_t key) { return s.key < key; });
+        if (at != shared.end() && at->key == keys[k]) homes[k] = at->depth;
+    }
+    return homes;
+}
+
+} // namespace facetmill::cells
