@@ -21,8 +21,8 @@ void measure_on_cells(const MeasureOptions& o, CellFlow& flow, Context& context)
     warn_of_inside_out(flow.part, all.mass, context);
     const auto solid = all.mass.solid ? std::optional(measured(*all.mass.solid, o.density)) : std::nullopt;
     MeasureReport report{to_string(flow.unit), o.density, {all.mass.shell, solid}, {}};
-    report.parts.push_back({flow.part, all.mass.shell, solid, std::move(all.faces), std::move(all.edges),
-                            std::move(all.curvature)});
+    report.parts.push_back(
+        {flow.part, all.mass.shell, solid, std::move(all.faces), all.edges, std::move(all.curvature)});
     write_results(o, report, "", context);
     context.report(fields_of<MeasureReport>(declare_measure_report), &report);
 }
