@@ -109,6 +109,37 @@ void warn_of_instancing(const Placement& placement, ReadLog& log) {
          false});
 }
 
+/// Says of nodes without triangles, beside parts, that they are no parts.
+void warn_of_nodes_without_faces(const Source& source, const std::vector<NodeFrame>& frames, bool lines_read,
+                                 ReadLog& log) {
+    std::size_t count = 0, first = 0;
+    bool lines = false;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+        if (frames[n].mesh < 0) continue;
+        const Place mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
+        if (has_triangles(mesh)) continue;
+        bool any = false, only = true;
+        const Place primitives = mesh.at("primitives");
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            (makes_lines(primitives.at(i)) ? any : only) = makes_lines(primitives.at(i));
+        if (lines_read && any && only) continue;
+        lines |= any;
+        if (count++ == 0) first = n;
+    }
+    if (count == 0) return;
+    const std::string more = count > 1 ? fmt::format(" and {} more have", count - 1) : " has";
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-SKIPPED",
+         fmt::format(
+             "nodes[{}]{} no triangles: kept in the document as written, which stages do not move and "
+             "other formats do not get",
+             first, more),
+         {},
+         lines ? hint_for_lines : "",
+         false});
+}
+
 void read_parts(Scene& scene, Source& source, const ReadSettings& settings, ReadLog& log) {
     const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
@@ -147,6 +178,7 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
         scene.parts.push_back(std::move(part));
         steps.next();
     }
+    if (!all.empty()) warn_of_nodes_without_faces(source, frames, settings.lines, log);
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 

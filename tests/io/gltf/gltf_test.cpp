@@ -340,3 +340,24 @@ TEST_CASE("Draco takes meshes and attributes smaller than a millionth", "[io]") 
         CHECK(read.find("TANGENT", Domain::wedge)->value(0, 0) == Approx(1));
     }
 }
+
+TEST_CASE("a node of lines beside parts is named", "[io]") {
+    const char* const text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+ "nodes":[{"mesh":0},{"mesh":1},{"mesh":1}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},
+ {"primitives":[{"attributes":{"POSITION":0},"mode":3}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    io::ReadLog log;
+    CHECK(test::read_text(text, &log).parts.size() == 1);
+    REQUIRE(log.warnings.size() == 1);
+    CHECK(log.warnings[0].id == "W-SKIPPED");
+    CHECK(log.warnings[0].message.starts_with("nodes[1] and 1 more have no triangles"));
+    CHECK(log.warnings[0].hint == io::hint_for_lines);
+    io::ReadSettings settings;
+    settings.lines = true; // they become tubes
+    log = {};
+    io::codec_named("gltf")->read(io::Input::of("t", test::to_bytes(text)), settings, log);
+    CHECK(log.warnings.empty());
+    CHECK(log.lines.size() == 2);
+}
