@@ -3,6 +3,8 @@
 #include "base/random.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <unordered_map>
 
 namespace facetmill {
@@ -128,8 +130,19 @@ namespace {
 
 double largest_part(const Vec3& n) { return std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}); }
 
-/// Planes by two numbers that do not depend on how a plane is written, but for rounding: its distance from
-/// the origin, and how far its normal leans to some direction.
+/// The axis and the place on it of a plane across an axis, where the plane's numbers say so without rounding.
+std::optional<std::pair<int, double>> exact_place(const Plane& plane) {
+    const int axis = axis_of(plane);
+    if (axis < 0) return {};
+    const auto i = static_cast<std::size_t>(axis);
+    if (plane.offset == 0) return std::pair{axis, plane.through[i] + 0.0}; // 0 for -0
+    if (plane.through[i] == 0 && std::fabs(plane.normal[i]) == 1)
+        return std::pair{axis, -plane.offset * plane.normal[i]};
+    return {};
+}
+
+/// Planes by their exact place, as most are; else by two numbers that do not depend on how a plane is
+/// written, but for rounding: its distance from the origin, and how far its normal leans to some direction.
 class PlaneBuckets {
   public:
     /// reach: the largest coordinate of the points through which the planes are written, and offset.
@@ -137,6 +150,21 @@ class PlaneBuckets {
 
     /// The first plane put in that is the same; or this one, which is put in.
     std::size_t first(std::span<const Plane> planes, std::size_t number) {
+        const auto place = exact_place(planes[number]);
+        if (!place) return first_of_others(planes, number);
+        const auto [at, is_new] = places_.try_emplace(*place, number);
+        if (!is_new) return at->second;
+        for (const std::size_t other : across_)
+            if (same_plane(planes[other], planes[number])) return at->second = other;
+        return number;
+    }
+
+  private:
+    std::size_t first_of_others(std::span<const Plane> planes, std::size_t number) {
+        const bool is_across = axis_of(planes[number]) >= 0;
+        if (is_across)
+            for (const auto& [place, other] : places_)
+                if (same_plane(planes[other], planes[number])) return other;
         const auto [distance, leaning] = numbers(planes[number]);
         for (const double d : {distance - cell / 2, distance + cell / 2})
             for (const double l : {leaning - cell / 2, leaning + cell / 2})
@@ -144,10 +172,10 @@ class PlaneBuckets {
                     for (const std::size_t other : at->second)
                         if (same_plane(planes[other], planes[number])) return other;
         buckets_[key(distance, leaning)].push_back(number);
+        if (is_across) across_.push_back(number);
         return number;
     }
 
-  private:
     /// Far above the rounding of the numbers, which are of the size of 1.
     static constexpr double cell = 1e-12;
 
@@ -168,6 +196,8 @@ class PlaneBuckets {
     }
 
     double scale_;
+    std::map<std::pair<int, double>, std::size_t> places_;
+    std::vector<std::size_t> across_; ///< an axis, at a place that their numbers do not say exactly
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> buckets_;
 };
 
