@@ -201,9 +201,9 @@ class TileMaker {
         gather(stations_.size() - 1, all);
         WrittenTiles written;
         for (const TreeTile& tile : all)
-            written.names.push_back(io::tileset::uri_of_tile(settings_.title, tile.name));
-        io::tileset::TilesetSummary summary = io::tileset::summary_of(all, frame_, settings_.title);
-        written.json = std::move(summary.json);
+            written.names.push_back(io::tileset::uri_of_tile(settings_, tile.name));
+        io::tileset::TilesetSummary summary = io::tileset::summary_of(all, frame_, settings_);
+        written.index = std::move(summary.files);
         written.told = summary.told;
         written.cache = summary.cache;
         written.changes = std::move(changes_);

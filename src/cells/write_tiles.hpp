@@ -15,8 +15,8 @@ namespace facetmill::cells {
 
 /// A tileset whose files were handed over.
 struct WrittenTiles {
-    io::OutputFile json;            ///< the tileset
-    std::vector<std::string> names; ///< of the tiles' files, each tile before those below it
+    std::vector<io::OutputFile> index; ///< the tileset, then what it names beside tiles
+    std::vector<std::string> names;    ///< of the tiles' files, each tile before those below it
     io::TilesWritten told;
     io::VertexCacheUse cache;
     AttributeChanges changes;

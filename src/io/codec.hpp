@@ -78,6 +78,7 @@ struct MeshoptSettings {
 /// A tree of tiles, from the whole in few triangles to all of them.
 struct TileSettings {
     std::size_t faces = 20000; ///< that a tile has at the most, but where borders need more
+    bool implicit = false;     ///< implicit tiling, else explicit
     bool given_bits = false;   ///< the bits of positions are not to be more than Draco or quantize say
 };
 

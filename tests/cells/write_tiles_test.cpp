@@ -59,7 +59,7 @@ Written written(const std::filesystem::path& path, const Wanted& wanted = {}) {
     all.tiles = write_tiles(partition, wanted.transform, settings, means, [&](const io::OutputFile& file) {
         CHECK(all.files.emplace(file.name.string(), file.bytes).second);
     });
-    all.tileset = parse_json(io::as_text(all.tiles.json.bytes));
+    all.tileset = parse_json(io::as_text(all.tiles.index.front().bytes));
     return all;
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("tiles from cells: errors fall to 0 at the leaves, which have all face
     CHECK(all.tiles.told.error == all.tileset["root"]["geometricError"]);
     for (auto& [name, bytes] : all.files) CHECK(all.tileset.dump().find(name) != std::string::npos);
     std::map<std::string, io::Bytes> files = all.files;
-    files["tileset.json"] = all.tiles.json.bytes;
+    files["tileset.json"] = all.tiles.index.front().bytes;
     for (const auto& [name, bytes] : files) {
         std::filesystem::create_directories((folder / name).parent_path());
         io::write_now(folder / name, bytes);
@@ -210,7 +210,7 @@ TEST_CASE("tiles from cells depend on the mesh and the settings alone", "[cells]
     const auto path = ply_of(folder, test::noisy_torus(150, 60, 0.002, 3));
     const Written one = written(path, {.cell = 1500, .tile = 500});
     const auto same = [&](const Written& other) {
-        return one.files == other.files && one.tiles.json.bytes == other.tiles.json.bytes &&
+        return one.files == other.files && one.tiles.index.front().bytes == other.tiles.index.front().bytes &&
                one.tiles.names == other.tiles.names;
     };
     CHECK(same(written(path, {.cell = 1500, .tile = 500, .memory = std::uint64_t{48} << 20})));

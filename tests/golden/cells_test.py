@@ -237,7 +237,7 @@ class Cells(Case):
     def test_tiles_are_written_in_cells(self):
         self.large()
         load = ("load", "large.ply", "--unit", "m", "--up", "z", "!", "write")
-        for more in ((), ("--draco",), ("--meshopt",))[:1 if SLOW else 3]:
+        for more in ((), ("--draco",), ("--meshopt",), ("--tiles.tiling", "implicit"))[:1 if SLOW else 4]:
             results = set()
             for threads, memory in variants((1, "64M"), (2, "128M"), (5, "1G")):
                 shutil.rmtree(self.dir / "o", ignore_errors=True)

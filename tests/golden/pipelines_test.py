@@ -154,6 +154,20 @@ class Tilesets(Case):
         self.assertIn("tileset/r.glb (", run.stderr)
         self.mill("pipe", "load", "1/tileset.json", "!", "validate", "--closed", "--edge_manifold", "--vertex_manifold")
 
+    def test_an_implicit_tileset_is_read_with_the_files_that_say_what_it_has(self):
+        files = self.tiled(1, "--tiles.tiling", "implicit")[1]
+        self.assertEqual(files, self.tiled(2, "--tiles.tiling", "implicit")[1])
+        self.assertLess(len(files["tileset.json"]), 2000)
+        subtrees = [name for name in files if name.endswith(".subtree")]
+        self.write("check.yaml", "facetmill: 1\nstages: [{load: 1/tileset.json}, {validate: {closed: true, faces: 70000}}]\n")
+        inputs = self.mill("plan", "check.yaml", "--inputs").stdout.split()
+        self.assertTrue(subtrees)
+        for name in subtrees:
+            self.assertIn(f"1/{name}", inputs)
+        self.mill("run", "check.yaml")
+        (self.dir / "1" / subtrees[0]).write_bytes(b"subt")
+        self.assertIn(f"{subtrees[0]}: error[E-TILESET]", self.mill("run", "check.yaml", expect=6).stderr)
+
     def test_what_cannot_be_tiled_is_refused_by_name_and_leaves_nothing(self):
         self.write("points.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n")
         for stages, expected in ((("load", "points.off", "!", "write", "o/tileset.json"), "E-EMPTY"),

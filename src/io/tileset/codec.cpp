@@ -19,7 +19,9 @@ int sniff(Span bytes) {
 /// The tiles beside it.
 void peek(const Input& input, FileHeader& header) {
     gltf::in_file(input, [&] {
-        for (const auto& uri : uris_of(gltf::parse_document(as_text(input.bytes())))) {
+        const NamedFiles named = named_files(input);
+        header.files.insert(header.files.end(), named.read.begin(), named.read.end());
+        for (const auto& uri : named.uris) {
             const auto relative = gltf::decoded_path(uri);
             const auto path = relative ? path_below(input, *relative) : std::nullopt;
             if (path) header.files.push_back(*path);

@@ -6,6 +6,8 @@
 #include "io/gltf/container.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/image_files.hpp"
+#include "io/tileset/files.hpp"
+#include "io/tileset/implicit.hpp"
 #include "io/tileset/tileset.hpp"
 #include "mesh/transform.hpp"
 
@@ -20,8 +22,7 @@ namespace {
 using gltf::Place;
 
 [[noreturn]] void not_read(const Place& place, const char* what) {
-    place.fail(fmt::format("{} are not read", what), "E-TILESET",
-               "tilesets of GLB files with explicit tiling are: load the files one by one");
+    place.fail(fmt::format("{} are not read", what), "E-TILESET", "load the files of its tiles one by one");
 }
 
 Transform transform_of(const Place& tile) {
@@ -43,22 +44,24 @@ struct Content {
 /// What is shown when every tile is refined.
 class Contents {
   public:
-    explicit Contents(const Json& json) {
-        const Place tileset(json, "");
+    explicit Contents(const Input& input)
+        : input_(input), json_(gltf::parse_document(as_text(input.bytes()))) {
+        const Place tileset(json_, "");
         if (const auto required = tileset.find("extensionsRequired"); required && required->size() > 0)
             not_read(*required, "tilesets that require extensions");
         visit(tileset.at("root"), {}, true);
     }
     std::vector<Content> all;
+    std::vector<Input> subtrees; ///< files that say which implicit tiles there are
 
   private:
     /// Nesting is as deep as that of the JSON, which is limited.
     void visit(const Place& tile, const Transform& above, bool replaces) {
-        if (const auto implicit = tile.find("implicitTiling")) not_read(*implicit, "implicit tilings");
         const Transform here = above * transform_of(tile);
         const std::string refine = tile.text_or("refine", replaces ? "REPLACE" : "ADD");
         if (refine != "REPLACE" && refine != "ADD")
             tile.at("refine").fail("expected REPLACE or ADD", "E-TILESET");
+        if (tile.find("implicitTiling")) return add_implicit(tile, here, refine == "REPLACE");
         const auto children = tile.find("children");
         if (!children || children->size() == 0 || refine == "ADD") {
             if (const auto content = tile.find("content")) add(*content, here);
@@ -73,6 +76,15 @@ class Contents {
         const Place uri = content.at("uri");
         all.push_back({uri.text(), uri.path(), here});
     }
+
+    void add_implicit(const Place& tile, const Transform& here, bool replaces) {
+        ImplicitContents found = read_implicit(tile, replaces, input_);
+        for (std::string& uri : found.uris) all.push_back({std::move(uri), tile.path() + ".content", here});
+        subtrees.insert(subtrees.end(), found.files.begin(), found.files.end());
+    }
+
+    const Input& input_;
+    Json json_;
 };
 
 /// Materials of several files that are the same in what they look like are one.
@@ -106,14 +118,12 @@ class MaterialsOfTiles {
     std::map<std::string, Index> known_;
 };
 
+void log_file(const Input& file, ReadLog& log) {
+    log.files.push_back({file.path(), file.stored().size(), sha256(file.stored())});
+}
+
 Scene read_tile(const Input& input, const Content& content, const ReadSettings& settings, ReadLog& log) {
-    const auto relative = gltf::decoded_path(content.uri);
-    if (!relative || !path_below(input, *relative))
-        throw Error(ErrorKind::malformed, "E-URI",
-                    fmt::format("{}: \"{}\" is not a file in the tileset's folder or below", content.place,
-                                content.uri),
-                    hint_for_asset_root(input, relative));
-    const Input file = input.beside(*relative).with_asset_roots(input.asset_roots());
+    const Input file = file_below(input, content.uri, content.place);
     if (!gltf::is_glb(file.bytes()))
         throw Error(ErrorKind::malformed, "E-TILESET",
                     fmt::format("{}: '{}' is no GLB, and other contents of tiles are not read", content.place,
@@ -123,22 +133,25 @@ Scene read_tile(const Input& input, const Content& content, const ReadSettings& 
     inner.unit.reset();
     inner.up.reset();
     Scene tile = codec_named("glb")->read(file, inner, log);
-    log.files.push_back({file.path(), file.stored().size(), sha256(file.stored())});
+    log_file(file, log);
     return tile;
 }
 
 } // namespace
 
-std::vector<std::string> uris_of(const Json& json) {
-    std::vector<std::string> uris;
-    for (const Content& content : Contents(json).all) uris.push_back(content.uri);
-    return uris;
+NamedFiles named_files(const Input& tileset) {
+    const Contents contents(tileset);
+    NamedFiles named;
+    for (const Content& content : contents.all) named.uris.push_back(content.uri);
+    for (const Input& file : contents.subtrees) named.read.push_back(file.path());
+    return named;
 }
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     return gltf::in_file(input, [&] {
-        const Json json = gltf::parse_document(as_text(input.bytes()));
-        const std::vector<Content> contents = Contents(json).all;
+        const Contents named(input);
+        const std::vector<Content>& contents = named.all;
+        for (const Input& file : named.subtrees) log_file(file, log);
         Scene scene;
         scene.unit = settings.unit.value_or(Unit::m);
         scene.up = settings.up.value_or(UpAxis::z);

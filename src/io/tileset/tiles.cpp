@@ -2,7 +2,8 @@
 
 #include "base/json.hpp"
 #include "io/convert.hpp"
-#include "io/gltf/container.hpp"
+#include "io/image_files.hpp"
+#include "io/tileset/implicit.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -17,24 +18,22 @@ Bytes bytes_of(const std::string& text) {
     return {bytes.begin(), bytes.end()};
 }
 
-Json box_json(const Box& box) {
-    const Vec3 c = box.centre(), h = box.extent() * 0.5;
-    return {{"box", {c.x, c.y, c.z, h.x, 0.0, 0.0, 0.0, h.y, 0.0, 0.0, 0.0, h.z}}};
-}
+Json box_json(const Box& box) { return {{"box", numbers_of_box(box)}}; }
 
 Json tile_json(const std::vector<TreeTile>& tiles, std::size_t t, const TilesetFrame& frame,
-               const std::string& title) {
+               const WriteSettings& settings) {
     const TreeTile& tile = tiles[t];
     Json json = {{"boundingVolume", box_json(tile.all)}, {"geometricError", tile.error}};
     if (t == 0) json["refine"] = "REPLACE";
     const Vec3& o = frame.origin;
     if (t == 0 && o != Vec3{})
         json["transform"] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, o.x, o.y, o.z, 1.0};
-    json["content"] = {{"uri", uri_of(uri_of_tile(title, tile.name))}};
+    json["content"] = {{"uri", uri_of(uri_of_tile(settings, tile.name))}};
+    if (settings.tiles.implicit) return json;
     if (tile.own.min != tile.all.min || tile.own.max != tile.all.max)
         json["content"]["boundingVolume"] = box_json(tile.own);
     for (const std::size_t child : tile.children)
-        json["children"].push_back(tile_json(tiles, child, frame, title));
+        json["children"].push_back(tile_json(tiles, child, frame, settings));
     return json;
 }
 
@@ -50,8 +49,14 @@ WriteSettings settings_of_tiles(const WriteSettings& settings) {
     return own;
 }
 
-std::string uri_of_tile(const std::string& title, const std::string& name) {
-    return fmt::format("{}/r{}.glb", title, name);
+std::string uri_of_tile(const WriteSettings& settings, const std::string& name) {
+    return fmt::format("{}/{}.glb", settings.title,
+                       settings.tiles.implicit ? implicit_name(name) : "r" + name);
+}
+
+std::array<double, 12> numbers_of_box(const Box& box) {
+    const Vec3 c = box.centre(), h = box.extent() * 0.5;
+    return {c.x, c.y, c.z, h.x, 0, 0, 0, h.y, 0, 0, 0, h.z};
 }
 
 Written encode_tile(Mesh mesh, TreeTile& tile, const Scene& outline, const WriteSettings& given,
@@ -78,14 +83,15 @@ Written encode_tile(Mesh mesh, TreeTile& tile, const Scene& outline, const Write
     if (settings.whole_positions) settings.part_bits = {std::max(1, static_cast<int>(std::bit_width(reach)))};
     part.mesh = std::move(mesh);
     Written one = codec_named("glb")->write(scene, settings);
-    one.files.front().name = uri_of_tile(settings.title, tile.name);
+    one.files.front().name = uri_of_tile(settings, tile.name);
     for (std::size_t i = 1; i < one.files.size(); ++i) one.files[i].name = settings.title / one.files[i].name;
     tile.dropped_faces = one.dropped_faces;
     tile.cache = one.cache;
     return one;
 }
 
-TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& frame, const std::string& title) {
+TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& frame,
+                          const WriteSettings& settings) {
     TilesetSummary summary;
     TilesWritten& told = summary.told;
     for (std::size_t t = tiles.size(); t-- > 0;) {
@@ -100,11 +106,14 @@ TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& fram
     }
     told.tiles = tiles.size();
     told.error = tiles[0].error;
-    const Json json = {
-        {"asset", {{"version", "1.1"}, {"extras", {{"generator", "facetmill " FACETMILL_VERSION}}}}},
-        {"geometricError", std::max(tiles[0].all.diagonal(), tiles[0].error)},
-        {"root", tile_json(tiles, 0, frame, title)}};
-    summary.json = {title + ".json", bytes_of(json.dump(1) + "\n")};
+    Json json = {{"asset", {{"version", "1.1"}, {"extras", {{"generator", "facetmill " FACETMILL_VERSION}}}}},
+                 {"geometricError", std::max(tiles[0].all.diagonal(), tiles[0].error)},
+                 {"root", tile_json(tiles, 0, frame, settings)}};
+    if (settings.tiles.implicit) {
+        add_implicit_tiling(json, tiles, settings.title);
+        summary.files = subtree_files(tiles, settings.title);
+    }
+    summary.files.insert(summary.files.begin(), {settings.title + ".json", bytes_of(json.dump(1) + "\n")});
     return summary;
 }
 

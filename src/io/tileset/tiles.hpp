@@ -3,6 +3,8 @@
 
 #include "io/tileset/frame.hpp"
 
+#include <array>
+
 namespace facetmill::io::tileset {
 
 /// A tile in the tree: boxes are in the tileset's frame.
@@ -19,8 +21,11 @@ struct TreeTile {
 /// share unless they are embedded or named.
 WriteSettings settings_of_tiles(const WriteSettings& settings);
 
-/// The path of a tile's file, relative to the tileset's.
-std::string uri_of_tile(const std::string& title, const std::string& name);
+/// The path of a tile's file, relative to the tileset's. settings: settings_of_tiles.
+std::string uri_of_tile(const WriteSettings& settings, const std::string& name);
+
+/// The twelve numbers of a bounding volume: the centre and the half sides, which lie along the axes.
+std::array<double, 12> numbers_of_box(const Box& box);
 
 /// The tile as a GLB, the first of the files, and the images of materials beside it. mesh: in the frame.
 /// settings: settings_of_tiles. outline: materials and documents of all tiles, and no parts. Sets what of
@@ -31,11 +36,12 @@ Written encode_tile(Mesh mesh, TreeTile& tile, const Scene& outline, const Write
 /// A tileset, and what it came to. tiles: each before its children, the root first; `all` of those that have
 /// children is set.
 struct TilesetSummary {
-    OutputFile json;
+    std::vector<OutputFile> files; ///< the tileset, then what it names beside tiles
     TilesWritten told;
     VertexCacheUse cache;
     std::size_t dropped_faces = 0;
 };
-TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& frame, const std::string& title);
+TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& frame,
+                          const WriteSettings& settings);
 
 } // namespace facetmill::io::tileset

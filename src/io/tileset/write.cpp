@@ -104,13 +104,13 @@ class TilesetWriter {
                 written[t] = encode_tile(std::move(pyramid[t].mesh), tiles[t], outline_, settings_, frame);
             },
             1);
-        finish(summary_of(tiles, frame, settings_.title), written);
+        finish(summary_of(tiles, frame, settings_), written);
         return std::move(written_);
     }
 
   private:
     void finish(TilesetSummary summary, std::vector<Written>& tiles) {
-        written_.files.push_back(std::move(summary.json));
+        written_.files = std::move(summary.files);
         written_.tiles = summary.told;
         written_.cache = summary.cache;
         written_.dropped_faces = summary.dropped_faces;

@@ -69,7 +69,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
         staged.push_back(one.file);
         context.run().record.outputs.push_back(one.told);
     };
-    tell(stage_one(path, written.json.bytes, context));
+    for (const io::OutputFile& file : written.index) tell(stage_one(folder / file.name, file.bytes, context));
     for (const std::string& name : written.names) tell(tiles.at(name));
     if (written.cache.triangles > 0) report.order = written.cache;
     report.tiles = written.told;

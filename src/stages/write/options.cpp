@@ -108,6 +108,13 @@ void declare_tiles(Declare<TilesOptions>& d) {
     d.option("faces", &TilesOptions::faces,
              "Triangles that a tile has at the most, but where its borders need more (a count).")
         .between(100, 10000000);
+    d.choice<bool>(
+        "tiling", &TilesOptions::implicit,
+        {{"explicit", false, "the tileset lists every tile"},
+         {"implicit", true,
+          "tiles are known by level and place in a quadtree; binary files of some levels each say which "
+          "there are, with their boxes and errors, so that a viewer reads no list of all"}},
+        "How the tileset names its tiles.");
 }
 
 /// An option that only some formats know, and whether it asks for something.
@@ -339,7 +346,10 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                       .uv_bits = static_cast<int>(quantize.uv),
                       .colour_bits = static_cast<int>(quantize.colour),
                       .weight_bits = static_cast<int>(quantize.weights)};
-    if (o.tiles) s.tiles.faces = static_cast<std::size_t>(o.tiles->faces);
+    if (o.tiles) {
+        s.tiles.faces = static_cast<std::size_t>(o.tiles->faces);
+        s.tiles.implicit = o.tiles->implicit;
+    }
     s.draco.on |= codec.can.draco == io::Capabilities::Draco::always;
     return s;
 }

@@ -37,6 +37,7 @@ struct TilesOptions {
 
     Kind format = Kind::three_d;
     std::int64_t faces = 20000;
+    bool implicit = false;
 };
 
 /// Which parts with a map of normals get tangents.

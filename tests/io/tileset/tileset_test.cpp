@@ -10,7 +10,11 @@
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
+#include <cstdio>
+#include <cstring>
 #include <functional>
+#include <map>
+#include <set>
 #include <tuple>
 
 namespace tileset_test {
@@ -91,6 +95,73 @@ void add_cut(const OnDisk& disk, const Json& tile, const Vec3& at, int depth, Me
     CHECK(found.max == box.max);
 }
 
+/// Box and error of each tile, by level and place.
+void add_tiles(const Json& tile, std::map<std::string, Json>& all) {
+    const std::string uri = tile["content"]["uri"];
+    std::uint64_t x = 0, y = 0;
+    const std::string digits = uri.substr(9, uri.size() - 13); // tileset/r....glb
+    for (const char digit : digits) {
+        x = 2 * x + (digit == '1' || digit == '3');
+        y = 2 * y + (digit == '2' || digit == '3');
+    }
+    all[std::to_string(digits.size()) + "-" + std::to_string(x) + "-" + std::to_string(y)] = {
+        tile["boundingVolume"]["box"], tile["geometricError"]};
+    if (tile.contains("children"))
+        for (const Json& child : tile["children"]) add_tiles(child, all);
+}
+
+double double_at(io::Span bytes, std::size_t at) {
+    double value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+/// The same of what subtree files say, for tiles whose files there are; checked against nothing else of ours.
+std::map<std::string, Json> tiles_of_subtrees(const io::Written& written, std::size_t levels) {
+    std::map<std::string, Json> all;
+    std::set<std::string> names;
+    for (const io::OutputFile& file : written.files) names.insert(file.name.string());
+    for (const io::OutputFile& file : written.files) {
+        if (file.name.extension() != ".subtree") continue;
+        const io::Span bytes = file.bytes;
+        std::uint64_t text = 0;
+        std::memcpy(&text, bytes.data() + 8, sizeof text);
+        const Json json = parse_json(io::as_text(bytes.subspan(24, text)));
+        const io::Span binary = bytes.subspan(24 + text);
+        const auto view = [&](const Json& index) {
+            const Json& v = json["bufferViews"][index.get<std::size_t>()];
+            return binary.subspan(v["byteOffset"], v["byteLength"]);
+        };
+        const io::Span bits = view(json["tileAvailability"]["bitstream"]);
+        const Json& columns = json["propertyTables"][0]["properties"];
+        const io::Span boxes = view(columns["boundingBox"]["values"]),
+                       errors = view(columns["geometricError"]["values"]);
+        std::uint64_t level = 0, x = 0, y = 0;
+        REQUIRE(std::sscanf(file.name.stem().c_str(), "%lu-%lu-%lu", &level, &x, &y) == 3);
+        std::size_t place = 0, row = 0;
+        for (std::uint64_t down = 0; down < levels; ++down)
+            for (std::uint64_t m = 0; m < std::uint64_t{1} << (2 * down); ++m, ++place) {
+                if ((std::to_integer<int>(bits[place / 8]) >> (place % 8) & 1) == 0) continue;
+                std::uint64_t mx = 0, my = 0;
+                for (std::uint64_t bit = 0; bit < down; ++bit) {
+                    mx |= (m >> (2 * bit) & 1) << bit;
+                    my |= (m >> (2 * bit + 1) & 1) << bit;
+                }
+                const std::string name = std::to_string(level + down) + "-" +
+                                         std::to_string((x << down) + mx) + "-" +
+                                         std::to_string((y << down) + my);
+                CHECK(names.count("tileset/" + name + ".glb") == 1);
+                Json box;
+                for (std::size_t i = 0; i < 12; ++i) box.push_back(double_at(boxes, 8 * (12 * row + i)));
+                all[name] = {box, double_at(errors, 8 * row)};
+                ++row;
+            }
+        CHECK(json["propertyTables"][0]["count"] == row);
+        CHECK(json["tileAvailability"]["availableCount"] == row);
+    }
+    return all;
+}
+
 Vec3 origin_of(const Json& tileset) {
     if (!tileset["root"].contains("transform")) return {};
     const Json& t = tileset["root"]["transform"];
@@ -156,6 +227,116 @@ TEST_CASE("a tileset is read as its finest tiles, one closed part", "[io][tilese
     CHECK(result.losses.empty());
 }
 
+TEST_CASE("an implicit tileset names the tiles of the explicit one, with their boxes and errors",
+          "[io][tileset]") {
+    Scene scene = ball({500000, 5800000, 100});
+    scene.parts[0].mesh = shapes::icosphere(5);
+    io::WriteSettings settings;
+    settings.tiles.faces = 100; // five levels
+    settings.tiles.implicit = true;
+    for (const bool many_levels : {false, true}) {
+        if (many_levels) scene.parts[0].mesh = shapes::icosphere(7); // more than one subtree file has
+        settings.title = "tileset";
+        const io::Written implicit = io::codec_named("3d-tiles")->write(scene, settings);
+        settings.tiles.implicit = false;
+        const io::Written explicitly = io::codec_named("3d-tiles")->write(scene, settings);
+        settings.tiles.implicit = true;
+        std::size_t subtrees = 0;
+        for (const io::OutputFile& file : implicit.files) subtrees += file.name.extension() == ".subtree";
+        CHECK((subtrees > 1) == many_levels);
+        CHECK(implicit.files.size() - subtrees == explicitly.files.size());
+        const OnDisk disk(implicit);
+        const Scene back = disk.read();
+        CHECK(back.face_count() == scene.face_count());
+        CHECK(inspect(back.parts[0].mesh).closed);
+        CHECK(back.bounds().min == OnDisk(explicitly).read().bounds().min);
+        const Json root = json_of(implicit)["root"];
+        CHECK(root["implicitTiling"]["subdivisionScheme"] == "QUADTREE");
+        CHECK(!root.contains("children"));
+        CHECK(!root["content"].contains("boundingVolume"));
+        std::map<std::string, Json> listed;
+        add_tiles(json_of(explicitly)["root"], listed);
+        CHECK(tiles_of_subtrees(implicit, root["implicitTiling"]["subtreeLevels"]) == listed);
+    }
+}
+
+TEST_CASE("implicit tilings of others: octrees, JSON subtrees, constants, several contents, ADD",
+          "[io][tileset]") {
+    const TemporaryDirectory folder;
+    const io::Written one = io::codec_named("glb")->write(ball(), {});
+    for (const char* name : {"a-0-0-0-0.glb", "a-1-1-0-1.glb", "a-1-0-0-0.glb", "b-1-0-0-0.glb"})
+        put(folder.path() / name, io::as_text(one.files.front().bytes));
+    put(folder.path() / "bits.bin", std::string("\x43\0\x43\0", 4)); // places 0, 1 and 6
+    put(folder.path() / "s-0-0-0-0.json", R"({
+        "buffers": [{"uri": "bits.bin", "byteLength": 4}],
+        "bufferViews": [{"buffer": 0, "byteLength": 2}, {"buffer": 0, "byteOffset": 2, "byteLength": 2}],
+        "tileAvailability": {"bitstream": 0}, "contentAvailability": [{"bitstream": 1}, {"constant": 1}],
+        "childSubtreeAvailability": {"constant": 0}})");
+    const auto faces = [&](const std::string& refine, const std::string& contents) {
+        const auto path = folder.path() / "tileset.json";
+        put(path,
+            R"({"asset": {"version": "1.1"}, "geometricError": 1, "root": {"refine": ")" + refine +
+                R"(", "boundingVolume": {"box": [0,0,0,1,0,0,0,1,0,0,0,1]}, "geometricError": 1, )" +
+                contents +
+                R"("implicitTiling": {"subdivisionScheme": "OCTREE", "subtreeLevels": 2, "availableLevels": 2,
+                         "subtrees": {"uri": "s-{level}-{x}-{y}-{z}.json"}}}})");
+        io::ReadLog log;
+        return io::read_scene(io::Input::open(path), {}, log).face_count();
+    };
+    const std::string a = R"("content": {"uri": "a-{level}-{x}-{y}-{z}.glb"}, )";
+    CHECK(faces("REPLACE", a) == 2 * 5120);
+    CHECK(faces("ADD", a) == 3 * 5120);
+    put(folder.path() / "b-1-1-0-1.glb", io::as_text(one.files.front().bytes));
+    const std::string both =
+        R"("contents": [{"uri": "a-{level}-{x}-{y}-{z}.glb"}, {"uri": "b-{level}-{x}-{y}-{z}.glb"}], )";
+    CHECK(faces("REPLACE", both) == 4 * 5120);
+    const auto refused = [&](const std::string& contents) {
+        return failure([&] { faces("REPLACE", contents); });
+    };
+    CHECK(refused(R"("content": {"uri": "a-{level}-{x}-{y}.glb"}, )").find("expected {z} in the template") !=
+          std::string::npos);
+    CHECK(refused(R"("content": {"uri": "../a-{level}-{x}-{y}-{z}.glb"}, )").find("E-URI") !=
+          std::string::npos);
+}
+
+TEST_CASE("subtree files that are too short, lie or ask for too much are refused", "[io][tileset]") {
+    const TemporaryDirectory folder;
+    const auto refused = [&](const std::string& subtree, const std::string& levels = "2") {
+        put(folder.path() / "s-0-0-0.subtree", subtree);
+        const auto path = folder.path() / "tileset.json";
+        put(path, R"({"asset": {"version": "1.1"}, "geometricError": 1, "root": {
+            "content": {"uri": "{level}-{x}-{y}.glb"}, "implicitTiling": {"subdivisionScheme": "QUADTREE",
+            "subtreeLevels": )" +
+                      levels +
+                      R"(, "availableLevels": 9, "subtrees": {"uri": "s-{level}-{x}-{y}.subtree"}}}})");
+        return failure([&] {
+            io::ReadLog log;
+            io::read_scene(io::Input::open(path), {}, log);
+        });
+    };
+    const auto has = [](const std::string& message, const char* part) {
+        return message.find(part) != std::string::npos;
+    };
+    const auto json = [](const std::string& tiles) {
+        return R"({"buffers": [{"byteLength": 8}], "bufferViews": [{"buffer": 0, "byteLength": 0}],
+                   "contentAvailability": [{"constant": 1}], "childSubtreeAvailability": {"constant": 1},
+                   "tileAvailability": )" +
+               tiles + "}";
+    };
+    CHECK(has(refused("subt"), "has 24 bytes"));
+    CHECK(has(refused(std::string("subt\2\0\0\0", 8) + std::string(16, 0)), "version 1"));
+    CHECK(has(refused(std::string("subt\1\0\0\0", 8) + std::string(16, '\xff')), "follow its header"));
+    CHECK(has(refused("{"), "E-JSON"));
+    CHECK(has(refused("{}"), "tileAvailability"));
+    CHECK(has(refused(json(R"({"constant": 0})")), "leaves out the first tile"));
+    CHECK(has(refused(json(R"({"bitstream": 0})")), "has 0 bytes, 5 places need 1"));
+    CHECK(has(refused(json(R"({"bitstream": 1})")), "E-GLTF"));
+    CHECK(has(refused(json(R"({"constant": 2})")), "E-GLTF"));
+    CHECK(has(refused(json(R"({"constant": 1})")), "E-FILE")); // the subtrees below
+    CHECK(has(refused(json(R"({"constant": 1})"), "40"), "E-LIMIT"));
+    CHECK(has(refused(json(R"({"constant": 1})"), "0"), "at least one level"));
+}
+
 TEST_CASE("what is not read of a tileset is refused by name", "[io][tileset]") {
     const TemporaryDirectory folder;
     const auto refused = [&](const std::string& root) {
@@ -166,7 +347,7 @@ TEST_CASE("what is not read of a tileset is refused by name", "[io][tileset]") {
             io::read_scene(io::Input::open(path), {}, log);
         });
     };
-    CHECK(refused(R"({"implicitTiling": {}})").find("E-TILESET") != std::string::npos);
+    CHECK(refused(R"({"implicitTiling": {}})").find("E-GLTF") != std::string::npos);
     CHECK(refused(R"({"content": {"uri": "../a.glb"}})").find("E-URI") != std::string::npos);
     CHECK(refused(R"({"content": {"uri": "none.glb"}})").find("E-FILE") != std::string::npos);
     CHECK(refused(R"({"content": {}})").find("E-GLTF") != std::string::npos);
