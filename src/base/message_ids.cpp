@@ -400,10 +400,9 @@ std::span<const MessageId> message_ids() {
          "Choose a larger size."},
         {"E-TILESET",
          {Kind::malformed},
-         "A tileset of 3D Tiles has something that facetmill does not read: implicit tiling, a tileset in a "
-         "tileset, a required extension, or contents other than GLB.",
-         "Load the files of its tiles one by one; facetmill reads what it writes, and explicit tilesets of "
-         "GLB."},
+         "A tileset of 3D Tiles has something that facetmill does not read: a tileset in a tileset, a "
+         "required extension, or contents other than GLB; or a subtree file of an implicit tiling is broken.",
+         "Load the files of its tiles one by one; facetmill reads tilesets of GLB, explicit and implicit."},
         {"E-TRANSFORM",
          {Kind::usage, Kind::stage},
          "A transform is invalid: it flattens the parts, or has the wrong number of values.",
