@@ -13,25 +13,28 @@ install(DIRECTORY pipelines examples docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES man/facetmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES man/facetmill-pipeline.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
 
-# The pages of the stages and of the messages come from their declarations, so the executable writes them.
-set(pages)
-foreach(page stages:stages messages:explain)
-  string(REGEX REPLACE ":.*" "" name ${page})
-  string(REGEX REPLACE ".*:" "" command ${page})
-  set(file ${CMAKE_CURRENT_BINARY_DIR}/man/facetmill-${name}.7)
+# What comes from the declarations is written by the executable itself: the pages of the stages and of the messages, and
+# completions of the shells that load them from a folder.
+set(written)
+function(write_text file)
+  get_filename_component(folder ${file} DIRECTORY)
   add_custom_command(OUTPUT ${file}
-    COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
-    COMMAND $<TARGET_FILE:facetmill> ${command} --man > ${file}.part
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+    COMMAND $<TARGET_FILE:facetmill> ${ARGN} > ${file}.part
     COMMAND ${CMAKE_COMMAND} -E rename ${file}.part ${file}
-    DEPENDS facetmill COMMENT "Writing the manual page facetmill-${name}(7)" VERBATIM)
-  list(APPEND pages ${file})
-endforeach()
-add_custom_target(manual ALL DEPENDS ${pages})
-install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
-
-install(FILES tools/completion/facetmill.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-        RENAME facetmill)
-install(FILES tools/completion/facetmill.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    DEPENDS facetmill COMMENT "Writing ${file}" VERBATIM)
+  set(written ${written} ${file} PARENT_SCOPE)
+endfunction()
+write_text(${CMAKE_CURRENT_BINARY_DIR}/man/facetmill-stages.7 stages --man)
+write_text(${CMAKE_CURRENT_BINARY_DIR}/man/facetmill-messages.7 explain --man)
+install(FILES ${written} DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
+write_text(${CMAKE_CURRENT_BINARY_DIR}/completions/facetmill completions bash)
+write_text(${CMAKE_CURRENT_BINARY_DIR}/completions/facetmill.fish completions fish)
+add_custom_target(manual ALL DEPENDS ${written})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/completions/facetmill
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/completions/facetmill.fish
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
 set(CPACK_PACKAGE_NAME facetmill)
 set(CPACK_PACKAGE_VENDOR facetmill)
