@@ -374,7 +374,8 @@ std::span<const MessageId> message_ids() {
         {"E-SPACE",
          {Kind::output},
          "There is no space left to write.",
-         "Free some space, or write elsewhere with `--output-dir`."},
+         "Free some space, or write elsewhere: under another path, or (run, batch, pipe) with another "
+         "`--output-dir`."},
         {"E-STAGE",
          {Kind::usage},
          "There is no stage with this name, or an item of the pipeline has no stage or several.",
@@ -450,7 +451,9 @@ std::span<const MessageId> message_ids() {
         {"E-WRITE",
          {Kind::output},
          "A file or standard output cannot be written.",
-         "Check the permissions and the disk, or write elsewhere with `--output-dir`."},
+         "Check the permissions and the disk, or write elsewhere: under another path, or (run, batch, pipe) "
+         "with "
+         "another `--output-dir`."},
         {"E-YAML",
          {Kind::usage},
          "The text of a pipeline is not valid YAML, or uses YAML that pipelines do not support.",

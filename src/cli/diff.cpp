@@ -23,17 +23,17 @@ up axis (their own, or that of --unit and --up), B is first converted to A's. At
 element, in the order of the files.
 Exit code 0: the files agree. 1: they differ in a section that is not ignored. 3 or 6: a file cannot be read.
 Of two folders the mesh files below them are compared by their paths: a file that only one has differs. The worst
-come first; F.html is an index, with a page for each pair in the folder F beside it.
+come first; --html F.html is then an index, with a page for each pair in the folder F beside it.
 What cannot be compared (lines, attributes of different sizes) is listed, and makes "complete" false in JSON.
 
 Examples
   facetmill diff scan.ply scan.glb
   facetmill diff scan.ply web.glb --unit mm --max 0.5% --rms 0.05% --ignore counts,attributes
-  facetmill diff old.glb new.glb --report changes.html
+  facetmill diff old.glb new.glb --html changes.html
   facetmill diff a.stl b.stl --json | jq .deviation.maximum
   facetmill diff part.obj part.glb --max 0.01mm --certify --all
   facetmill diff cloud.ply scan.ply --max 1mm --ignore counts,topology,attributes
-  facetmill diff assets.before/ assets/ --report changes.html --report changes.md
+  facetmill diff assets.before/ assets/ --html changes.html --markdown changes.md
 )";
 
 std::vector<std::string> stated_units() {
@@ -41,6 +41,19 @@ std::vector<std::string> stated_units() {
     for (const auto& unit : unit_choices("", ""))
         if (unit.value != Unit::unknown) names.push_back(unit.name);
     return names;
+}
+
+/// Takes the file of --html or --markdown among the reports. A mesh file that follows the option is not taken
+/// for its value, and not overwritten.
+Argument::Target report_named(const std::shared_ptr<DiffOptions>& options, const char* option,
+                              const char* ending) {
+    return [=](const std::string& path) {
+        if (!path.ends_with(ending))
+            throw Error(ErrorKind::usage, "E-REPORT",
+                        fmt::format("{} is followed by the file to write, found '{}'", option, path),
+                        fmt::format("facetmill diff A B {} changes{}", option, ending));
+        options->reports.push_back(path);
+    };
 }
 
 /// Refuses, before anything is read, what is no report of a comparison.
@@ -156,9 +169,11 @@ Command diff_command() {
             arguments.add("--unit", &options->unit, "The unit of a file that states none.")
                 .one_of(stated_units());
             arguments.add("--up", &options->up, "The up axis of a file that states none.").one_of({"y", "z"});
-            arguments.add(
-                "--report", &options->reports,
-                "Also writes F.html, a page with pictures of both files and of the distances, or F.md.");
+            arguments.add("--html", report_named(options, "--html", ".html"),
+                          "Also writes F.html, a page with pictures of both files and of the distances.");
+            arguments.add("--markdown", report_named(options, "--markdown", ".md"),
+                          "Also writes F.md, for a pull request.");
+            arguments.add("--report", &options->reports, "The same for either: F.html or F.md.");
             arguments.add("--all", &options->all, "Also shows what is equal.");
             arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
             arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")

@@ -17,17 +17,24 @@ namespace facetmill::io {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Commands without an output folder write files too: diff, render, info, new.
+constexpr const char* write_elsewhere =
+    "write elsewhere: under another path, or (run, batch, pipe) with another --output-dir";
+
+} // namespace
+
 std::string hint_to_write(const fs::path& target, int error) {
     const std::string hint = sandbox_hint(target, error);
-    return hint.empty() ? "write elsewhere: --output-dir sets the folder that written paths start from"
-                        : hint;
+    return hint.empty() ? write_elsewhere : hint;
 }
 
 void cannot_write(const fs::path& target, int error) {
     const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.string());
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
         throw Error(ErrorKind::output, "E-SPACE", fmt::format("no space left to write {}", name),
-                    "free some there, or write elsewhere with --output-dir");
+                    fmt::format("free some there, or {}", write_elsewhere));
     if (error == EPIPE)
         throw Error(ErrorKind::output, "E-WRITE",
                     fmt::format("{} cannot be written: its reader went away", name));

@@ -228,7 +228,8 @@ class Pages(Case):
         (self.dir / "file").write_text("")
         run = self.mill("pipe", "--report", "file/r.html", "load", "o.off", "!", "write", "x.ply", expect=4)
         self.assertIn("file", run.stderr)
-        self.mill("diff", "o.off", "o.off", "--report", "file/d.html", expect=4)
+        run = self.mill("diff", "o.off", "o.off", "--html", "file/d.html", expect=4)
+        self.assertIn("hint: write elsewhere: under another path", run.stderr)
         (self.dir / "m").mkdir()
         self.write("m/o.off", OPEN)
         self.mill("diff", "m", "m", "--report", "file/i.html", expect=4)
@@ -312,6 +313,20 @@ class Pages(Case):
                       r"verdict\s+\d+ of \d+ sound", r"of geometry"):
             self.assertRegex(text, words)
         self.assertIn("| removed | left |", (self.dir / "d.md").read_text())
+
+    def test_diff_names_its_reports_by_kind(self):
+        self.write("a.off", OPEN)
+        self.write("b.off", OPEN)
+        self.mill("diff", "--report", "r.html", "a.off", "b.off", "--report", "r.md")
+        self.mill("diff", "--html", "h.html", "--markdown", "h.md", "a.off", "b.off")
+        for kind in ("html", "md"):
+            self.assertEqual((self.dir / f"h.{kind}").read_text(), (self.dir / f"r.{kind}").read_text())
+        # What follows the option is never taken for the page: a mesh would be overwritten.
+        for words in (("--html", "a.off", "b.off"), ("--html", "a.off", "b.off", "b.off"), ("--markdown", "a.off", "b.off")):
+            run = self.mill("diff", *words, expect=2)
+            self.assertIn(f"{words[0]} is followed by the file to write, found 'a.off'", run.stderr)
+            self.assertIn(f"facetmill diff A B {words[0]} changes.", run.stderr)
+        self.assertEqual((self.dir / "a.off").read_text(), OPEN)
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ TEST_CASE("targets that cannot be written are refused before anything is", "[io]
               (dir / "folder").string()));
     CHECK(failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
           fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name | write "
-                      "elsewhere: --output-dir sets the folder that written paths start from",
+                      "elsewhere: under another path, or (run, batch, pipe) with another --output-dir",
                       (dir / "file").string()));
     outputs.add(dir / "once", bytes_of("x"));
     CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
@@ -127,7 +127,7 @@ TEST_CASE("a full device is told from other failures", "[io]") {
     outputs.add("/dev/full", bytes_of("x"));
     CHECK(failure([&] { outputs.commit(); }) ==
           "output [E-SPACE] no space left to write '/dev/full' | free some there, or "
-          "write elsewhere with --output-dir");
+          "write elsewhere: under another path, or (run, batch, pipe) with another --output-dir");
 }
 
 TEST_CASE("links stay links and permissions stay", "[io]") {
