@@ -63,6 +63,7 @@ Command schema_command();
 Command formats_command();
 Command cache_command();
 Command explain_command();
+Command docs_command();
 Command completions_command();
 
 /// --quiet, -v, --log.

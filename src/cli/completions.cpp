@@ -4,6 +4,7 @@
 #include "base/words.hpp"
 #include "cli/command.hpp"
 #include "cli/completion_scripts.hpp"
+#include "cli/topics.hpp"
 #include "docs/describe.hpp"
 #include "docs/ready.hpp"
 #include "geometry/inspect/inspect.hpp"
@@ -62,6 +63,8 @@ Words values_of_command(const std::string& command, const Argument& argument) {
         words.push_back({files_row, ""});
     }
     if (command == "stages") words = stage_words();
+    if (command == "docs")
+        for (const auto& topic : topics()) words.push_back({topic.name, brief_help(topic.about)});
     if (command == "explain")
         for (const auto& id : message_ids())
             words.push_back({std::string(id.id), brief_help(std::string(id.meaning))});

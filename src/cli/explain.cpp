@@ -22,8 +22,7 @@ struct ExplainOptions {
 };
 
 const MessageId& message_asked_for(const std::string& text, const CommandLine& line) {
-    std::string id = text;
-    for (char& c : id) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+    const std::string id = docs::id_of(text);
     if (const auto* known = message_id(id)) return *known;
     std::vector<std::string> ids; // of the same letter, when one is given
     for (const auto& m : message_ids())

@@ -15,10 +15,10 @@ namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        run_command(),     batch_command(),      export_command(),  plan_command(),    pipe_command(),
-        new_command(),     check_command(),      migrate_command(), info_command(),    render_command(),
-        diff_command(),    stages_command(),     schema_command(),  formats_command(), cache_command(),
-        explain_command(), completions_command()};
+        run_command(),     batch_command(),  export_command(),     plan_command(),    pipe_command(),
+        new_command(),     check_command(),  migrate_command(),    info_command(),    render_command(),
+        diff_command(),    stages_command(), schema_command(),     formats_command(), cache_command(),
+        explain_command(), docs_command(),   completions_command()};
     return all;
 }
 
@@ -57,7 +57,7 @@ Examples
   facetmill diff scan.ply web.glb --unit mm --max 0.5%
   facetmill stages simplify
 
-See also facetmill COMMAND --help and the manual pages facetmill(1), facetmill-pipeline(5),
+See also facetmill COMMAND --help, facetmill docs, and the manual pages facetmill(1), facetmill-pipeline(5),
 facetmill-stages(7) and facetmill-messages(7).
 
 Exit codes: 0 done, 1 a check did not hold, 2 the command line or the pipeline is wrong, 3 an input is

@@ -19,6 +19,11 @@ std::string severity_text(const MessageId& message) {
 
 } // namespace
 
+std::string id_of(std::string text) {
+    for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+    return text;
+}
+
 std::string message_list() {
     std::size_t widest = 0;
     for (const auto& m : message_ids()) widest = std::max(widest, m.id.size());

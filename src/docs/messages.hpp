@@ -7,6 +7,8 @@
 
 namespace facetmill::docs {
 
+/// An id as people may type it: "w-units" -> "W-UNITS".
+std::string id_of(std::string text);
 /// One line per id.
 std::string message_list();
 /// All of one id: what it means, its exit code, what to do.

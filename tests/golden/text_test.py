@@ -25,7 +25,7 @@ class Text(Case):
     def test_help_everywhere(self):
         self.assertIn("Examples", self.mill("--help").stdout)
         for command in ("run", "batch", "export", "plan", "pipe", "new", "check", "info", "diff", "stages", "schema", "formats", "cache", "explain",
-                        "completions"):
+                        "docs", "completions"):
             text = self.mill(command, "--help").stdout
             self.assertIn("Examples", text, command)
             self.assertIn(f"facetmill {command}", text)
@@ -78,6 +78,24 @@ class Text(Case):
         self.assertIn("did you mean 'W-UNITS'?", self.mill("explain", "W-UNIT", expect=2).stderr)
         run = self.mill("run", "quickstart", "-D", "input=a.ply", "--strict=W-UNIT", expect=2)
         self.assertIn("did you mean 'W-UNITS'?", run.stderr)
+
+    def test_docs(self):
+        listed = self.mill("docs").stdout
+        topics = re.findall(r"^  (\S+)  ", listed, flags=re.M)
+        pages = {path.stem: path for path in (SOURCE / "docs").rglob("*.md")}
+        self.assertLessEqual(set(pages), set(topics))
+        for name, path in pages.items():
+            self.assertEqual(self.mill("docs", name).stdout, path.read_text(), name)
+        for stage in json.loads(self.mill("stages", "--json").stdout):
+            self.assertIn(stage["name"], topics)
+        for name in topics:
+            self.assertTrue(self.mill("docs", name).stdout, name)
+        self.assertEqual(self.mill("docs", "simplify").stdout, self.mill("stages", "simplify").stdout)
+        self.assertEqual(self.mill("docs", "Diff").stdout, self.mill("diff", "--help").stdout)
+        self.assertEqual(self.mill("docs", "w-units").stdout, self.mill("explain", "W-UNITS").stdout)
+        self.assertIn("did you mean 'simplify'?", self.mill("docs", "simplfy", expect=2).stderr)
+        self.assertRegex(self.mill("docs", "draco", expect=2).stderr, r"it occurs in: .*\bscan-to-web\b.*\bwrite\b")
+        self.assertIn("facetmill docs lists the topics", self.mill("docs", "xyzzy-12", expect=2).stderr)
 
     def test_manual_pages_are_clean(self):
         mandoc = self.need("mandoc")

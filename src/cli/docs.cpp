@@ -1,0 +1,113 @@
+// facetmill docs: the manual, from the executable alone.
+
+#include "base/spelling.hpp"
+#include "base/words.hpp"
+#include "cli/command.hpp"
+#include "cli/topics.hpp"
+#include "docs/manual.hpp"
+#include "docs/messages.hpp"
+#include "docs/stages.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* docs_examples =
+    R"(A guide or a page is printed in Markdown, a command as its --help, a stage as by facetmill stages, the id of
+an error or a warning as by facetmill explain. A word that is no topic gives those that it occurs in.
+
+Examples
+  facetmill docs
+  facetmill docs scan-to-web
+  facetmill docs simplify | less
+  facetmill docs W-UNITS
+)";
+
+void add_pages(Topic::Kind kind, const std::vector<docs::ManualPage>& pages, std::vector<Topic>& all) {
+    for (const auto& page : pages)
+        all.push_back({kind, std::string(page.name), docs::title_of(page), page.text});
+}
+
+std::string topic_list() {
+    static constexpr std::pair<Topic::Kind, const char*> groups[] = {{Topic::Kind::guide, "Guides"},
+                                                                     {Topic::Kind::page, "Pages"},
+                                                                     {Topic::Kind::command, "Commands"},
+                                                                     {Topic::Kind::stage, "Stages"}};
+    std::string text = "facetmill docs TOPIC prints one of these, or what an id (E-KEY, W-UNITS) means.\n";
+    const auto all = topics();
+    for (const auto& [kind, title] : groups) {
+        text += fmt::format("\n{}\n", title);
+        for (const Topic& topic : all)
+            if (topic.kind == kind) text += fmt::format("  {:<16}  {}\n", topic.name, topic.about);
+    }
+    return text +
+           "\nfacetmill explain lists the ids of errors and warnings, facetmill formats the formats.\n";
+}
+
+/// The guides, pages and stages that a word occurs in.
+std::string topics_with(const std::string& word) {
+    std::vector<std::string> names;
+    for (const Topic& topic : topics()) {
+        if (topic.kind == Topic::Kind::command) continue;
+        const std::string text = topic.kind == Topic::Kind::stage ? docs::stage_page(*stage_named(topic.name))
+                                                                  : std::string(topic.text);
+        if (lower_case(text).find(lower_case(word)) != std::string::npos) names.push_back(topic.name);
+    }
+    if (names.empty()) return "facetmill docs lists the topics";
+    return fmt::format("it occurs in: {}", fmt::join(names, ", "));
+}
+
+std::string names_near(const std::string& word) {
+    std::vector<std::string> names;
+    for (const Topic& topic : topics()) names.push_back(topic.name);
+    for (const auto& m : message_ids()) names.emplace_back(m.id);
+    const std::string near = did_you_mean(word, names);
+    return near.empty() ? topics_with(word) : near;
+}
+
+int print_docs(const std::string& name, const CommandLine& line, Console& console) {
+    if (name.empty()) {
+        print(topic_list());
+        return 0;
+    }
+    const auto all = topics();
+    const auto topic =
+        std::find_if(all.begin(), all.end(), [&](const Topic& t) { return same_word(t.name, name); });
+    if (topic == all.end()) {
+        const MessageId* message = message_id(docs::id_of(name));
+        if (!message)
+            throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no topic '{}'", name),
+                        names_near(name), line.find(name));
+        print(docs::message_page(*message));
+        return 0;
+    }
+    if (topic->kind == Topic::Kind::command) return program({topic->name, "--help"}, console);
+    print(topic->kind == Topic::Kind::stage ? docs::stage_page(*stage_named(topic->name))
+                                            : std::string(topic->text));
+    return 0;
+}
+
+} // namespace
+
+std::vector<Topic> topics() {
+    std::vector<Topic> all;
+    add_pages(Topic::Kind::guide, docs::guides(), all);
+    add_pages(Topic::Kind::page, docs::manual_pages(), all);
+    for (const auto& command : commands()) all.push_back({Topic::Kind::command, command.name, command.about});
+    for (const auto& stage : stages()) all.push_back({Topic::Kind::stage, stage.name, stage.about});
+    return all;
+}
+
+Command docs_command() {
+    return {"docs", "Prints the manual: guides, pages, commands, stages, messages.", docs_examples, false,
+            [](Arguments& arguments, Console& console) {
+                auto name = std::make_shared<std::string>();
+                arguments.add("TOPIC", name.get(), "A topic, or the id of a message. Without it: the list.");
+                return [=, &console](const Invocation& i) { return print_docs(*name, i.line, console); };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,21 @@
+#pragma once
+// The topics of `facetmill docs`, which are its list, its suggestions and its completions.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facetmill::cli {
+
+struct Topic {
+    enum class Kind { guide, page, command, stage };
+    Kind kind;
+    std::string name, about;
+    std::string_view text{}; ///< of a guide or a page, in Markdown
+};
+
+/// Guides, pages, commands and stages, in the order of the list; of two that have one name the first is
+/// meant.
+std::vector<Topic> topics();
+
+} // namespace facetmill::cli
