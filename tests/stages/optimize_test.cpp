@@ -118,6 +118,26 @@ TEST_CASE("meshes that are equal to the bit become one, which stays shared", "[s
     CHECK(json_again(apart.scene)["accessors"].size() == 3);
 }
 
+TEST_CASE("meshes that stand together wherever they stand become one, which stays shared", "[stages]") {
+    const std::string meshes = mesh(0) + "," + mesh(0, 2), red = R"("materials":[)" + colour("red", 1) + "]";
+    const Scene scene =
+        document(R"({"mesh":0},{"mesh":1},{"mesh":0,"translation":[5,0,0]},{"mesh":1,"translation":[5,0,0]})",
+                 meshes, red);
+    const auto run = run_stage("optimize", "{dedup: false}", scene);
+    CHECK(run.scene.parts.size() == 2);
+    CHECK(run.record.result["joined_parts"] == 2);
+    CHECK(drawn_in_world(run.scene) == drawn_in_world(scene));
+    const Json json = json_again(run.scene);
+    CHECK(json["meshes"].size() == 1);
+    CHECK(json["nodes"].size() == 2);
+    CHECK(json["nodes"][1]["mesh"] == 0);
+    const auto apart = run_stage(
+        "optimize", "{dedup: false}",
+        document(R"({"mesh":0},{"mesh":1},{"mesh":0,"translation":[5,0,0]},{"mesh":1,"translation":[6,0,0]})",
+                 meshes, red));
+    CHECK(apart.scene.parts.size() == 4);
+}
+
 TEST_CASE("images of equal bytes become one, with their textures and materials", "[stages]") {
     const std::string uri = "data:image/png;base64," + io::base64(to_bytes(red_png()));
     const auto textured = [](int texture) {

@@ -28,7 +28,8 @@ its mesh once, so it comes last. `load: {instances: expand}` is its reverse.
 
 Parts stay by themselves, where they are, that are skinned, animated or joints, have morph targets,
 a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share
-their mesh with another part (unless join_shared); so do those that `only` leaves out.
+their mesh with another part (unless join_shared, or the same meshes stand together at each of their
+places: then they become one mesh, which stays shared); so do those that `only` leaves out.
 
 Names are lost with what was joined or made one; keep_names keeps apart what has different names.
 Nothing is erased from a document with an extension whose references are not known, and nothing in

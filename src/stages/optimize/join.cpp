@@ -76,6 +76,28 @@ std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<st
     return groups;
 }
 
+std::vector<JoinedParts>
+groups_standing_together(const Scene& scene, const std::vector<std::vector<std::size_t>>& parts_of_meshes) {
+    std::map<std::string, std::vector<const std::vector<std::size_t>*>> by_kind;
+    for (const std::vector<std::size_t>& parts : parts_of_meshes) {
+        std::string kind = kind_of(scene.parts[parts.front()].mesh);
+        if (kind.empty()) continue;
+        for (const std::size_t i : parts)
+            for (const auto& row : scene.parts[i].transform.m)
+                for (const double x : row) kind += fmt::format(" {}", x);
+        by_kind[kind].push_back(&parts);
+    }
+    std::vector<JoinedParts> groups;
+    for (const auto& [kind, meshes] : by_kind)
+        for (std::size_t place = 0; meshes.size() > 1 && place < meshes.front()->size(); ++place) {
+            JoinedParts& group = groups.emplace_back(JoinedParts{(*meshes.front())[place], {}});
+            for (std::size_t m = 1; m < meshes.size(); ++m) group.others.push_back((*meshes[m])[place]);
+        }
+    std::sort(groups.begin(), groups.end(),
+              [](const JoinedParts& a, const JoinedParts& b) { return a.first < b.first; });
+    return groups;
+}
+
 void join(Scene& scene, const JoinedParts& group) {
     Part& first = scene.parts[group.first];
     const auto into = inverse(first.transform);

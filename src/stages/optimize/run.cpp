@@ -307,13 +307,43 @@ class Optimizing {
         return all;
     }
 
+    /// Of each mesh that several parts share the parts, where all of them may be joined and still have the
+    /// same mesh, each at a node of its own.
+    std::vector<std::vector<std::size_t>> shared_candidates() const {
+        std::map<std::pair<int, int>, std::size_t> of_node;
+        for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
+        std::map<std::pair<int, int>, std::vector<std::size_t>> of_mesh;
+        for (std::size_t i = 0; i < scene_.parts.size(); ++i)
+            of_mesh[{scene_.parts[i].document, scene_.parts[i].source_mesh}].push_back(i);
+        const auto first = first_with_equal_mesh(scene_);
+        std::vector<std::vector<std::size_t>> all;
+        for (const auto& [mesh, parts] : of_mesh) {
+            const Part& example = scene_.parts[parts.front()];
+            const auto fits = [&](std::size_t i) {
+                const Part& part = scene_.parts[i];
+                return !bound_[i] && part.mesh.face_count() > 0 && inverse(part.transform) &&
+                       context_.selects(part, scene_) && part.node >= 0 &&
+                       of_node.at({part.document, part.node}) == 1 && first[i] == first[parts.front()] &&
+                       part.changed == example.changed;
+            };
+            if (mesh.second >= 0 && parts.size() > 1 && std::all_of(parts.begin(), parts.end(), fits))
+                all.push_back(parts);
+        }
+        return all;
+    }
+
     void join_parts() {
         const auto able = candidates();
         for (const std::size_t i : changeable())
             if (join_primitives(scene_.parts[i].mesh)) scene_.parts[i].changed = true;
         if (o_.keep_names) return;
         std::set<std::size_t> gone;
-        for (const JoinedParts& group : groups_to_join(scene_, able)) {
+        auto groups = groups_to_join(scene_, able);
+        if (!o_.join_shared) {
+            const auto together = groups_standing_together(scene_, shared_candidates());
+            groups.insert(groups.end(), together.begin(), together.end());
+        }
+        for (const JoinedParts& group : groups) {
             report_.joined.push_back(scene_.parts[group.first].name);
             report_.joined_parts += group.others.size();
             join(scene_, group);
