@@ -42,13 +42,14 @@ class Streams {
 /// step is below a hundred-thousandth.
 constexpr int path_bits = 16;
 
-/// Numbers from 0 to 1 in 65535ths, plainly, where that takes less than the stream of floats would.
+/// Numbers that round to some from 0 to 1 in 65535ths, plainly, where that takes less than the stream of
+/// floats would.
 std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
     std::vector<std::uint16_t> all;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const double x = a.value(i, 0);
-        if (a.components != 1 || !(x >= 0 && x <= 1)) return {};
-        all.push_back(static_cast<std::uint16_t>(std::floor(x * 65535 + 0.5)));
+        const double x = std::floor(a.value(i, 0) * 65535 + 0.5);
+        if (a.components != 1 || !(x >= 0 && x <= 65535)) return {};
+        all.push_back(static_cast<std::uint16_t>(x));
     }
     const Packing packing{"ATTRIBUTES", floats.filter, sizeof(float), all.size()};
     constexpr std::size_t json_bytes = 160; // that the extension's object takes

@@ -365,6 +365,52 @@ TEST_CASE("rotations and paths of animations are compressed within 16 bits", "[i
     }
 }
 
+TEST_CASE("morph weights that round to some from 0 to 1 are stored as 65535ths", "[io]") {
+    Mesh mesh = shapes::cube();
+    mesh.attributes.push_back({"TARGET_0_POSITION", Domain::wedge, Role::morph_vector, 3, false,
+                               std::vector<float>(3 * mesh.vertex_count(), 0.25F)});
+    const auto stored = [&](float least) {
+        std::vector<float> numbers;
+        for (int i = 0; i < 20; ++i) numbers.push_back(static_cast<float>(i));
+        for (int i = 0; i < 20; ++i) numbers.push_back(i == 7 ? least : static_cast<float>(i * i % 20) / 19);
+        Scene scene = test::again(test::scene_in_metres(mesh));
+        auto document = std::make_shared<Document>(*scene.documents.at(0));
+        Json json = Json::parse(document->json);
+        const auto bytes = std::as_bytes(std::span(numbers));
+        document->buffers.emplace_back(bytes.begin(), bytes.end());
+        const std::size_t view = json["bufferViews"].size(), accessor = json["accessors"].size();
+        json["buffers"].push_back({{"byteLength", bytes.size()}});
+        for (const int offset : {0, 80}) {
+            json["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", offset}, {"byteLength", 80}});
+            json["accessors"].push_back({{"bufferView", view + (offset > 0)},
+                                         {"componentType", 5126},
+                                         {"count", 20},
+                                         {"type", "SCALAR"}});
+        }
+        json["accessors"][accessor]["min"] = {0};
+        json["accessors"][accessor]["max"] = {19};
+        json["animations"] = {
+            {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
+             {"samplers", {{{"input", accessor}, {"output", accessor + 1}}}}}};
+        document->json = json.dump();
+        scene.documents[0] = document;
+        io::WriteSettings settings;
+        settings.meshopt.on = true;
+        const Scene back = test::again(scene, settings);
+        const Json written = Json::parse(back.documents.at(0)->json);
+        io::gltf::Source source(written, back.documents[0]->buffers);
+        const io::gltf::Place place(written["animations"][0]["samplers"][0]["output"], "");
+        const io::gltf::Accessor a = io::gltf::accessor(source, place);
+        const Attribute weights{"", {}, {}, a.components, a.normalised, io::gltf::decode(source, a)};
+        for (std::size_t i = 0; i < 20; ++i)
+            CHECK(std::abs(weights.value(i, 0) - numbers[20 + i]) <= 0.5 / 65535 + 1e-7);
+        return std::string(weights.type());
+    };
+    CHECK(stored(0) == "uint16");
+    CHECK(stored(-1.5e-7F) == "uint16"); // as exporters round
+    CHECK(stored(-0.125F) == "float32");
+}
+
 TEST_CASE("KHR_meshopt_compression is read, colours and streams of version 1, too", "[io]") {
     // Two colours of 8 bits: luma, two chrominances, alpha below a bit.
     const std::vector<std::uint8_t> coded = {100, 10, 246, 0x80 | 0x7F, 50, 0, 0, 0x80 | 0x00};
