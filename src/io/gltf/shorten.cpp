@@ -156,6 +156,7 @@ void drop_names(Json& document) {
     for (const char* list : {"nodes", "meshes", "accessors", "bufferViews", "buffers", "images", "textures",
                              "samplers", "skins"})
         for (std::size_t i = 0; i < count_of(document, list); ++i) document[list][i].erase("name");
+    if (document.contains("asset")) document["asset"].erase("generator");
 }
 
 } // namespace facetmill::io::gltf

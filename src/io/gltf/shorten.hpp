@@ -12,8 +12,8 @@ namespace facetmill::io::gltf {
 /// diagonal. Extras stay as they are.
 void shorten(Json& document, const Box& bounds);
 
-/// Erases the names of nodes, meshes, images and what else only people look for; not those of scenes,
-/// animations, cameras and materials.
+/// Erases the names of nodes, meshes, images and what else only people look for, the asset's generator among
+/// them; not those of scenes, animations, cameras and materials.
 void drop_names(Json& document);
 
 } // namespace facetmill::io::gltf

@@ -270,8 +270,8 @@ void declare_write(Declare<WriteOptions>& d) {
         "Where the images of glTF are stored that the input has as separate files.");
     d.option(
         "drop_names", &WriteOptions::drop_names,
-        "Leaves out of glTF the names of nodes, meshes, images, skins and accessors; scenes, animations, "
-        "cameras and materials keep theirs.");
+        "Leaves out of glTF the names of nodes, meshes, images, skins and accessors, and that of the program "
+        "it came from (generator); scenes, animations, cameras and materials keep theirs.");
     d.option("lods", &WriteOptions::lods,
              "Writes glTF with MSFT_lod: the parts X.lod1, X.lod2, ... become levels of detail of X rather "
              "than nodes beside it.");

@@ -73,11 +73,13 @@ TEST_CASE("offsets of nothing go, and factors are float32's", "[io]") {
 }
 
 TEST_CASE("names go on request, not those that something is looked up by", "[io]") {
-    Json json = Json::parse(R"({"nodes":[{"name":"a","mesh":0}],"meshes":[{"name":"b"}],
+    Json json = Json::parse(
+        R"({"asset":{"version":"2.0","generator":"x"},"nodes":[{"name":"a","mesh":0}],"meshes":[{"name":"b"}],
         "materials":[{"name":"c"}],"animations":[{"name":"d"}],"scenes":[{"name":"e"}],"cameras":[{"name":"f"}]})");
     io::gltf::drop_names(json);
     CHECK(json["nodes"][0].dump() == R"({"mesh":0})");
     CHECK(json["meshes"][0].empty());
+    CHECK(json["asset"].dump() == R"({"version":"2.0"})");
     for (const char* list : {"materials", "animations", "scenes", "cameras"})
         CHECK(json[list][0].contains("name"));
 
