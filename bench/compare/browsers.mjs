@@ -1,7 +1,8 @@
 // node browsers.mjs MODULES OUT FILE.glb...
 // Loads each file in three.js and in Babylon.js (headless Chromium, software GL), with animations at half of their
-// length, and writes a picture of each, OUT/NAME.three.png and OUT/NAME.babylon.png. Prints triangles, draw calls, the
-// box and what the console complained of; fails when a file does not load or something is complained of.
+// length, and writes a picture of each, OUT/NAME.three.png and OUT/NAME.babylon.png, both of what three.js finds to be
+// the box: Babylon's is that of turned boxes. Prints triangles, draw calls, the box and what the console complained of;
+// fails when a file does not load or something is complained of.
 //
 // npm install three babylonjs babylonjs-loaders puppeteer-core meshoptimizer gives MODULES/node_modules; apt-get install chromium
 import { createServer } from 'node:http';
@@ -61,7 +62,7 @@ BABYLON.DracoDecoder.DefaultConfiguration = { wasmUrl: '${libs}/draco/gltf/draco
   wasmBinaryUrl: '${libs}/draco/gltf/draco_decoder.wasm', fallbackUrl: '${libs}/draco/gltf/draco_decoder.js' };
 BABYLON.SceneLoader.ShowLoadingScreen = false;
 const engine = new BABYLON.Engine(document.getElementById('c'), true, { preserveDrawingBuffer: true });
-window.draw = async (url) => {
+window.draw = async (url, box) => {
   const scene = new BABYLON.Scene(engine);
   scene.clearColor = new BABYLON.Color4(0.5, 0.56, 0.63, 1);
   await BABYLON.SceneLoader.AppendAsync('', url, scene, null, '.glb');
@@ -82,6 +83,11 @@ window.draw = async (url) => {
     low = low ? BABYLON.Vector3.Minimize(low, box.minimumWorld) : box.minimumWorld.clone();
     high = high ? BABYLON.Vector3.Maximize(high, box.maximumWorld) : box.maximumWorld.clone();
   }
+  const found = [...low.asArray(), ...high.asArray()];
+  if (box) { // of three.js, whose x points the other way
+    low = new BABYLON.Vector3(-box[3], box[1], box[2]);
+    high = new BABYLON.Vector3(-box[0], box[4], box[5]);
+  }
   const size = high.subtract(low).length() || 1, centre = low.add(high).scale(0.5);
   const from = centre.add(new BABYLON.Vector3(0.5, 0.4, 1).normalize().scale(size * 1.5));
   const camera = new BABYLON.FreeCamera('camera', from, scene);
@@ -89,7 +95,7 @@ window.draw = async (url) => {
   camera.setTarget(centre);
   await scene.whenReadyAsync();
   scene.render();
-  return { triangles, calls: meshes.length, box: [...low.asArray(), ...high.asArray()] };
+  return { triangles, calls: meshes.length, box: found };
 };
 window.ready = true;
 </script>`;
@@ -107,6 +113,7 @@ mkdirSync(out, { recursive: true });
 const browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'], protocolTimeout: 300000 });
 let failed = 0;
+const boxes = {}; // by file, of three.js
 for (const viewer of ['three', 'babylon']) {
   const page = await browser.newPage(), said = [];
   page.on('pageerror', (error) => said.push(String(error)));
@@ -119,7 +126,8 @@ for (const viewer of ['three', 'babylon']) {
     said.length = 0;
     let drawn;
     try {
-      drawn = await page.evaluate((url) => window.draw(url), `/f${resolve(file)}`);
+      drawn = await page.evaluate((url, box) => window.draw(url, box), `/f${resolve(file)}`, boxes[file] ?? null);
+      boxes[file] ??= drawn.box;
       await (await page.$('#c')).screenshot({ path: join(out, `${basename(file, '.glb')}.${viewer}.png`) });
     } catch (error) {
       said.push(String(error));
