@@ -65,8 +65,10 @@ std::string glance_section(const RunRecord& record, bool with_time) {
     row("deviation", deviation_text(record));
     row("checks", record.checks.empty() ? "none" : passed_text(record) + " passed");
     row("warnings", grouped(counts.warnings));
-    if (with_time)
-        row("time", fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory)));
+    row("time", with_time
+                    ? fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory))
+                    : "not here, so that the same run gives the same page; " + code("--timings page.html") +
+                          " writes it with times and memory");
     return table("At a glance", "", rows);
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <utility>
 
 namespace facetmill::report {
 
@@ -67,6 +69,36 @@ void add_checks(const std::vector<Check>& checks, Form form, const Paint& paint,
     }
 }
 
+/// A line for each file; where a folder has many (the tiles of a tileset), one for all of them.
+std::string files_written(const std::vector<FileRecord>& files) {
+    struct InFolder {
+        std::size_t count = 0, bytes = 0;
+        bool told = false;
+    };
+    constexpr std::size_t many = 16;
+    const auto folder_of = [](const FileRecord& file) {
+        return file.path.substr(0, file.path.find_last_of('/') + 1);
+    };
+    std::map<std::string, InFolder> folders;
+    for (const auto& file : files) {
+        InFolder& folder = folders[folder_of(file)];
+        ++folder.count;
+        folder.bytes += file.bytes;
+    }
+    std::string out;
+    for (const auto& file : files) {
+        const std::string name = folder_of(file);
+        InFolder& folder = folders[name];
+        if (folder.count <= many)
+            out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
+        else if (!std::exchange(folder.told, true))
+            out += fmt::format("wrote {} files in {}: {} ... ({})\n", grouped(folder.count),
+                               name.empty() ? "the output folder" : name, file.path.substr(name.size()),
+                               sized(folder.bytes));
+    }
+    return out;
+}
+
 /// Name and stages, without an end.
 std::string begin(const RunRecord& record, Form form, const Paint& paint) {
     std::string out = paint("1", record.pipeline) + (record.about.empty() ? "" : ": " + record.about) + "\n";
@@ -77,9 +109,7 @@ std::string begin(const RunRecord& record, Form form, const Paint& paint) {
     if (form == Form::report)
         for (const auto& warning : record.warnings) add_warning(warning, "  ", out);
     add_checks(record.checks, form, paint, out);
-    for (const auto& file : record.outputs)
-        out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
-    return out;
+    return out + files_written(record.outputs);
 }
 
 /// After a failure; a report may fail after the outputs.

@@ -154,6 +154,7 @@ TEST_CASE("what varies from run to run is in no report", "[report]") {
     slow.stages[0].seconds = 7;
     for (const char* path : {"r.json", "r.html", "r.xml", "r.txt"})
         CHECK(render_for(path, slow) == render_for(path, full_record()));
+    CHECK(render_for("r.html", slow).find("<code>--timings page.html</code> writes it") != std::string::npos);
     CHECK(timings_json(slow) != timings_json(full_record()));
     CHECK(timings_json(slow)["stages"][0]["seconds"] == 7);
 }
@@ -175,6 +176,26 @@ TEST_CASE("the text for people", "[report]") {
     RunRecord good;
     good.pipeline = "p.yaml";
     CHECK(to_text(good) == "p.yaml\nok\n");
+}
+
+TEST_CASE("many files of a folder are one line", "[report]") {
+    RunRecord record;
+    record.pipeline = "p.yaml";
+    const auto text = [&](int tiles) {
+        record.outputs = {{"out/tileset.json", 2000, "", nullptr}};
+        for (int i = 0; i < tiles; ++i)
+            record.outputs.push_back({fmt::format("out/tileset/r{}.glb", i), 1000, "", nullptr});
+        record.outputs.push_back({"last.glb", 500, "", nullptr});
+        return to_text(record);
+    };
+    CHECK(text(1200) == "p.yaml\n"
+                        "wrote out/tileset.json (2.0 kB)\n"
+                        "wrote 1,200 files in out/tileset/: r0.glb ... (1.2 MB)\n"
+                        "wrote last.glb (500 bytes)\n"
+                        "ok\n");
+    CHECK(text(3).find("wrote out/tileset/r0.glb (1.0 kB)\n"
+                       "wrote out/tileset/r1.glb (1.0 kB)\n"
+                       "wrote out/tileset/r2.glb (1.0 kB)\n") != std::string::npos);
 }
 
 TEST_CASE("a terminal is not told again of what was told as it arose", "[report]") {
