@@ -135,13 +135,12 @@ void Partition::refine(std::uint64_t most) {
 
 /// Finds vertices of several leaves.
 void Partition::find_shared(const Means& means) {
-    borders_ = std::make_unique<Borders>(tree_, means.scratch, means.memory, faces_, [&](std::uint32_t leaf) {
-        return source_->names(records_.read(list_[leaf]));
-    });
+    borders_ = std::make_unique<Borders>(tree_, means.scratch, means.memory, faces_,
+                                         [&](std::uint32_t leaf) { return source_->names(records(leaf)); });
 }
 
 Cell Partition::cell(std::uint32_t leaf) const {
-    Piece piece = source_->piece(records_.read(list_[leaf]));
+    Piece piece = source_->piece(records(leaf));
     std::vector<std::uint8_t> home = borders_->homes(leaf, piece.names);
     return {std::move(piece.mesh), std::move(piece.names), std::move(home)};
 }

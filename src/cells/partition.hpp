@@ -41,6 +41,8 @@ class Partition {
         return records_.size(list_[leaf]) / source_->record_size();
     }
     std::uint64_t vertices() const { return borders_->count(); } ///< that faces use
+    /// The faces of a leaf, as the source has them. Any thread. Throws output (E-SCRATCH).
+    io::Bytes records(std::uint32_t leaf) const { return records_.read(list_[leaf]); }
     /// Any thread. Throws output (E-SCRATCH).
     Cell cell(std::uint32_t leaf) const;
 

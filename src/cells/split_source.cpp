@@ -8,21 +8,37 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace facetmill::cells {
 
 namespace {
 
-constexpr std::size_t pieces = 4; // of a face
+/// Points inside of a face, which no other face has.
+std::size_t inner_points(const FaceCut& how) {
+    const auto n = static_cast<std::size_t>(how.grid);
+    return n < 3 ? 0 : (n - 1) * (n - 2) / 2;
+}
 
-/// A piece cut in four, and the names of all of its vertices.
-Piece cut(const Piece& whole) {
-    Piece cut{split(whole.mesh, {.method = SplitMethod::midpoint}).mesh, whole.names};
-    for (const auto& [a, b] : build_edges(whole.mesh).edges) {
-        const auto [low, high] = std::minmax(whole.names[a], whole.names[b]);
-        cut.names.push_back(hashed(hashed(pieces, low), high));
+Mesh cut(const Mesh& mesh, const FaceCut& how) {
+    return how.grid == 0 ? split(mesh, {.method = SplitMethod::midpoint}).mesh
+                         : grid_split(mesh, how.grid).mesh;
+}
+
+/// Adds the names of new vertices, which are those of the ends of edges, or of faces, each with a number.
+void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<std::uint32_t>& numbers,
+                       std::vector<std::uint64_t>& names) {
+    const std::size_t points = how.grid == 0 ? 1 : static_cast<std::size_t>(how.grid) - 1;
+    for (const auto& [a, b] : build_edges(whole).edges) {
+        const bool up = names[a] < names[b]; // from the lower name to the higher one, in any cell
+        const std::uint64_t low = names[up ? a : b], high = names[up ? b : a];
+        const std::uint64_t edge = hashed(hashed(how.pieces(), low), high);
+        for (std::size_t i = 0; i < points; ++i)
+            names.push_back(points == 1 ? edge : hashed(edge, up ? i : points - 1 - i));
     }
-    return cut;
+    for (const std::uint32_t number : numbers)
+        for (std::size_t i = 0; i < inner_points(how); ++i)
+            names.push_back(hashed(hashed(hashed(how.pieces(), UINT64_MAX), number), i));
 }
 
 /// These faces, with the vertices that they use, which keep their order.
@@ -48,43 +64,55 @@ Piece only(const Piece& all, const std::vector<Index>& faces) {
     return some;
 }
 
-/// A record is that of the face that is cut, and which of its pieces it is.
+/// A record is that of the face that is cut, its number where it has points of its own, and which of its
+/// pieces it is.
 class SplitSource final : public FaceSource {
   public:
-    explicit SplitSource(std::shared_ptr<FaceSource> whole)
-        : FaceSource(whole->contents()), whole_(std::move(whole)), size_(whole_->record_size()) {
+    SplitSource(std::shared_ptr<FaceSource> whole, const FaceCut& how)
+        : FaceSource(whole->contents()), whole_(std::move(whole)), how_(how), size_(whole_->record_size()),
+          head_(size_ + (inner_points(how) > 0 ? sizeof(std::uint32_t) : 0)) {
         own_contents().vertices = 0; // each is used
     }
 
-    std::size_t record_size() const override { return size_ + 1; }
+    std::size_t record_size() const override { return head_ + 1; }
 
     void each(const Take& take, std::size_t memory) override {
-        constexpr std::size_t at_once = 1 << 13; // faces
+        constexpr std::size_t pieces_at_once = 1 << 15;
+        const std::size_t at_once = std::max<std::size_t>(1, pieces_at_once / how_.pieces());
         io::Bytes waiting;
+        std::uint32_t number = 0; // of the first that waits
         whole_->each(
             [&](const Vec3&, io::Span record) {
                 waiting.insert(waiting.end(), record.begin(), record.end());
                 if (waiting.size() < at_once * size_) return;
-                give(waiting, take);
+                give(waiting, number, take);
+                number += static_cast<std::uint32_t>(at_once);
                 waiting.clear();
             },
             memory);
-        give(waiting, take);
+        give(waiting, number, take);
     }
 
     Piece piece(io::Span records) const override {
         io::Bytes parents; // each once where it comes several times in a row
+        std::vector<std::uint32_t> numbers;
         std::vector<Index> faces;
-        for (; !records.empty(); records = records.subspan(size_ + 1)) {
-            const bool again =
-                !parents.empty() && std::memcmp(records.data(), &*parents.end() - size_, size_) == 0;
-            if (!again)
-                parents.insert(parents.end(), records.begin(),
-                               records.begin() + static_cast<std::ptrdiff_t>(size_));
-            faces.push_back(static_cast<Index>((parents.size() / size_ - 1) * pieces +
-                                               std::to_integer<std::size_t>(records[size_])));
+        for (io::Span last; !records.empty(); records = records.subspan(head_ + 1)) {
+            const io::Span head = records.first(head_);
+            if (!std::equal(head.begin(), head.end(), last.begin(), last.end())) {
+                parents.insert(parents.end(), head.begin(),
+                               head.begin() + static_cast<std::ptrdiff_t>(size_));
+                if (head_ > size_)
+                    std::memcpy(&numbers.emplace_back(), head.data() + size_, sizeof(std::uint32_t));
+            }
+            last = head;
+            faces.push_back(static_cast<Index>((parents.size() / size_ - 1) * how_.pieces() +
+                                               std::to_integer<std::size_t>(records[head_])));
         }
-        return only(cut(whole_->piece(parents)), faces);
+        Piece whole = whole_->piece(parents);
+        name_new_vertices(whole.mesh, how_, numbers, whole.names);
+        whole.mesh = cut(whole.mesh, how_);
+        return only(whole, faces);
     }
 
     std::vector<std::uint64_t> names(io::Span records) const override {
@@ -95,13 +123,16 @@ class SplitSource final : public FaceSource {
     }
 
   private:
-    void give(const io::Bytes& parents, const Take& take) const {
+    void give(const io::Bytes& parents, std::uint32_t number, const Take& take) const {
         if (parents.empty()) return;
-        const Mesh mesh = cut(whole_->piece(parents)).mesh;
-        io::Bytes record(size_ + 1);
+        const Mesh mesh = cut(whole_->piece(parents).mesh, how_);
+        io::Bytes record(head_ + 1);
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-            std::memcpy(record.data(), parents.data() + f / pieces * size_, size_);
-            record[size_] = static_cast<std::byte>(f % pieces);
+            const std::size_t parent = f / how_.pieces();
+            std::memcpy(record.data(), parents.data() + parent * size_, size_);
+            const std::uint32_t its = number + static_cast<std::uint32_t>(parent);
+            std::memcpy(record.data() + size_, &its, head_ - size_);
+            record[head_] = static_cast<std::byte>(f % how_.pieces());
             Vec3 centre;
             for (std::size_t c = 3 * f; c < 3 * f + 3; ++c)
                 centre = centre + mesh.point(static_cast<Index>(c)) / 3;
@@ -110,7 +141,8 @@ class SplitSource final : public FaceSource {
     }
 
     std::shared_ptr<FaceSource> whole_;
-    std::size_t size_; ///< of a record of the whole
+    FaceCut how_;
+    std::size_t size_, head_; ///< of a record: of the whole, and with the face's number
 };
 
 class SpotCount final : public RimVisitor {
@@ -126,8 +158,19 @@ class SpotCount final : public RimVisitor {
 
 } // namespace
 
-std::shared_ptr<FaceSource> split_source(std::shared_ptr<FaceSource> whole) {
-    return std::make_shared<SplitSource>(std::move(whole));
+std::shared_ptr<FaceSource> split_source(std::shared_ptr<FaceSource> whole, const FaceCut& how) {
+    if (how.grid == 1) return whole;
+    return std::make_shared<SplitSource>(std::move(whole), how);
+}
+
+void require_countable(const char* stage, double faces, const char* hint) {
+    constexpr double most = UINT32_MAX;
+    if (faces > most)
+        throw Error(ErrorKind::limit, "E-LIMIT",
+                    fmt::format("{}: the result would have about {:.3g} faces, and files that are written "
+                                "from cells have at most {:.0f}",
+                                stage, faces, most),
+                    hint);
 }
 
 std::size_t shared_spots(const Partition& partition, const Means& means) {

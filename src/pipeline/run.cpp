@@ -187,6 +187,7 @@ class Runner {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
             if (step.stage->loads) context.say(on_cells_.why);
             step.stage->on_cells(step.options.get(), cells, context);
+            if (step.stage->loads) state_.load_diagonal = diagonal(cells.bounds());
             if (cells.scene) require_finite(*cells.scene);
             if (settings_.check_invariants && cells.scene) check_invariants(step, *cells.scene);
         });

@@ -30,7 +30,29 @@ void check_split(const Mesh& mesh, std::uint64_t most) {
     }
 }
 
+void check_grid(const Mesh& mesh, std::uint64_t most, int grid) {
+    const test::TemporaryDirectory folder;
+    const Means means{folder.path(), test::cell_memory};
+    const auto coarse = test::cells_of(folder, mesh, most);
+    const Partition cells(split_source(coarse->shared_source(), {grid}), means, most);
+    const Mesh whole = grid_split(mesh, grid).mesh;
+    CHECK(cells.faces() == whole.face_count());
+    CHECK(cells.vertices() == whole.vertex_count()); // points inside of equal faces are not one
+    const Mesh all = test::rejoined(cells);
+    CHECK(all.vertex_count() == whole.vertex_count());
+    CHECK(test::triangles_of(all) == test::triangles_of(whole));
+}
+
 } // namespace
+
+TEST_CASE("cells cut by a grid are the cells of the mesh that is cut by a grid", "[cells]") {
+    for (const int grid : {1, 2, 3, 5})
+        for (const std::uint64_t most : {40, 100000}) {
+            check_grid(test::noisy_icosphere(2, 0.01, 7), most, grid);
+            check_grid(test::with_noise(shapes::grid(7, 6), 0.2, 5), most, grid);
+            check_grid(test::nasty(3), 5 * most, grid);
+        }
+}
 
 TEST_CASE("cells cut in four are the cells of the mesh that is cut in four", "[cells]") {
     for (const std::uint64_t most : {40, 700, 100000}) {

@@ -40,6 +40,12 @@ def memory_group(test, limit):
     return test.skipTest("no control group for memory")
 
 
+def vertex_size(head):
+    """The bytes of a vertex of a binary PLY, x, y and z first."""
+    return sum({b"float": 4, b"double": 8}[line.split()[1]] for line in head.split(b"element face")[0].splitlines()
+               if line.startswith(b"property"))
+
+
 def triangles(path):
     """The faces of a binary PLY or STL as places, summed up so that numbers and order do not matter."""
     data = path.read_bytes()
@@ -50,8 +56,9 @@ def triangles(path):
         head, body = data.split(b"end_header\n", 1)
         vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
         more = 4 * sum(line.startswith(b"property") for line in head.split(b"vertex_indices\n")[1].splitlines())
-        rows = struct.iter_unpack(f"<B3i{more}x", body[12 * vertices:])
-        faces = ([body[12 * v:12 * v + 12] for v in row[1:]] for row in rows)
+        size = vertex_size(head)
+        rows = struct.iter_unpack(f"<B3i{more}x", body[size * vertices:])
+        faces = ([body[size * v:size * v + 12] for v in row[1:]] for row in rows)
     count = total = 0
     for face in faces:
         count += 1
@@ -64,8 +71,7 @@ def rows(path):
     data = path.read_bytes()
     head, body = data.split(b"end_header\n", 1)
     vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-    size = sum({b"float": 4, b"double": 8}[line.split()[1]] for line in head.split(b"element face")[0].splitlines()
-               if line.startswith(b"property"))
+    size = vertex_size(head)
     return sorted(body[size * v:size * (v + 1)] for v in range(vertices)), len(data)
 
 
@@ -116,7 +122,12 @@ class Cells(Case):
                  ("measure --path o.csv", "the faces in the order of the file", "leave that option out"),
                  ("split bisect", "split: the method bisect needs the whole mesh", "leave that option out"),
                  ("split --max_edge 1%", "the target max_edge is decided for the whole mesh", "leave that option out"),
-                 ("orient", "'orient' cannot work", "(clip, load, measure, simplify, split, transform, validate, write can)"))
+                 ("crumple --grid 17", "crumple: grid: above 16", "split midpoint before it makes faces small"),
+                 ("crumple --direction normal", "crumple: direction: normals need all faces of a vertex", "free does not"),
+                 ("crumple --boundary fixed", "crumple: boundary: fixed needs all faces", "leave that option out"),
+                 ("crumple --self_intersections avoid", "crumple: self_intersections are between faces anywhere", "allow does"),
+                 ("crumple --mask.material x", "crumple: mask: cells do not carry", "leave that option out"),
+                 ("orient", "'orient' cannot work", "(clip, crumple, load, measure, simplify, split, transform, validate, write can)"))
         for stages, message, way_out in cases:
             run = self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", *stages.split(), "!", "write", "o.ply",
                             expect=2)
@@ -222,6 +233,37 @@ class Cells(Case):
             self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
         self.assertIn("E-LIMIT", self.mill("pipe", "--partition", "always", "load", scan, "!", "split", "midpoint",
                                            "--passes", 9, "!", "write", "o.ply", expect=7).stderr)
+
+    def test_a_large_mesh_is_crumpled_in_cells(self):
+        scan = self.dir / "scan.ply"
+        self.mill("pipe", "load", SCAN, "!", "measure", "--curvature", "!", "write", scan)
+        turn = ("transform", "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "!")  # percentages are of the world's box
+        for chain in variants((*turn, "crumple", "0.05%"), ("crumple", "0.1% of load", "--grid", 1, "--seed", 7),
+                              (*turn, "split", "midpoint", "!", "crumple", "0.5%", "--grid", 1, "--frequency", 3, "--octaves", 3)):
+            results = set()
+            for threads, memory in variants((1, "40M"), (2, "64M"), (5, "1G")):
+                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
+                          scan, "!", *chain, "!", "validate", "--closed", "--vertex_manifold", "!", "write", "o.ply")
+                results.add((self.dir / "o.ply").read_bytes())
+            self.assertEqual(len(results), 1)
+            self.mill("pipe", "--report", "whole.json", "load", scan, "!", *chain, "!", "validate", "--closed",
+                      "--vertex_manifold", "!", "write", "whole.ply")
+            found, whole = (json.loads((self.dir / name).read_text()) for name in ("o.json", "whole.json"))
+            found, whole = (next(stage for stage in report["stages"] if stage["stage"] == "crumple")
+                            for report in (found, whole))
+            self.assertEqual(found["resolved"], whole["resolved"])
+            found, whole = (stage["result"]["parts"][0] for stage in (found, whole))
+            self.assertAlmostEqual(found.pop("root_mean_square_move") / whole.pop("root_mean_square_move"), 1, 12)
+            self.assertEqual(found, whole)
+            self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
+            self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
+
+    def test_crumple_in_cells_leaves_normals_out_and_says_so(self):
+        self.mill("pipe", "load", SCAN, "!", "write", "normals.ply", "--normals", "smooth")
+        run = self.mill("pipe", "--partition", "always", "load", "normals.ply", "!", "crumple", "!", "write", "o.ply")
+        self.assertIn("W-CELLS", run.stderr)
+        self.assertIn("do not carry NORMAL further", run.stderr)
+        self.assertNotIn(b"property float nx", (self.dir / "o.ply").read_bytes()[:999])
 
     def test_a_glb_is_written_in_cells(self):
         self.large()

@@ -95,15 +95,14 @@ void warn_of_coarse_steps(const AvoidResult& r, Context& context) {
         "use a smaller amplitude, or a smaller grid, whose faces are larger");
 }
 
-void warn_of_tangles(const CrumpledPart& work, double amplitude, Context& context) {
-    const double edge = mean_edge(work.part->mesh, work.to_world);
-    if (!(amplitude > edge && edge > 0)) return;
+void warn_of_tangles(const std::string& part, double mean_edge, double amplitude, Context& context) {
+    if (!(amplitude > mean_edge && mean_edge > 0)) return;
     context.warn(
         "W-AMPLITUDE",
         fmt::format(
             "crumple: the amplitude {:.3g} is larger than the mean edge {:.3g} of part '{}': faces intersect",
-            amplitude, edge, work.part->name),
-        fmt::format("use self_intersections: avoid, or an amplitude below about {:.2g}", edge / 4));
+            amplitude, mean_edge, part),
+        fmt::format("use self_intersections: avoid, or an amplitude below about {:.2g}", mean_edge / 4));
 }
 
 void warn_of_folds(const CrumpledPart& work, Context& context) {

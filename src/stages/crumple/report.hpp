@@ -34,7 +34,8 @@ void declare_crumple_report(DeclareFields<CrumpleReport>& d);
                                        std::int64_t grid);
 
 /// Warns of an amplitude that is larger than the edges: nothing tears, but faces run into each other.
-void warn_of_tangles(const CrumpledPart& part, double amplitude, Context& context);
+/// mean_edge: of the part before anything moved, in the world.
+void warn_of_tangles(const std::string& part, double mean_edge, double amplitude, Context& context);
 /// Warns when avoiding intersections, which rounds positions to float32, moves a vertex by more than 1 % of
 /// the amplitude: far from the origin float32 is coarse.
 void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, double amplitude,

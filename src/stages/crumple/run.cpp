@@ -3,6 +3,7 @@
 #include "geometry/edit/moved.hpp"
 #include "stage/grid_faces.hpp"
 #include "stage/stage.hpp"
+#include "stages/crumple/cells.hpp"
 #include "stages/crumple/help.hpp"
 #include "stages/crumple/options.hpp"
 #include "stages/crumple/report.hpp"
@@ -71,7 +72,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
         if (o.self_intersections != Intersections::allow)
             warn_of_rounding(works.back(), sheets.back().moves, settings.amplitude, context);
         else if (o.frequency == 0)
-            warn_of_tangles(works.back(), settings.amplitude, context);
+            warn_of_tangles(part.name, mean_edge(part.mesh, settings.to_world), settings.amplitude, context);
     });
     masks.warn_if_idle(context);
     steps.next();
@@ -96,7 +97,8 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
                   "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
-    declare_crumple, declare_crumple_report, run, {.verify = verify_crumple});
+    declare_crumple, declare_crumple_report, run,
+    {.verify = verify_crumple, .on_cells = crumple_on_cells, .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 

@@ -10,18 +10,6 @@ namespace facetmill::split_stage {
 
 namespace {
 
-/// Refuses more faces than formats can count.
-void require_countable(std::uint64_t faces, int passes) {
-    constexpr double most = UINT32_MAX;
-    const double result = std::ldexp(static_cast<double>(faces), 2 * passes);
-    if (result > most)
-        throw Error(ErrorKind::limit, "E-LIMIT",
-                    fmt::format("split: the result would have about {:.3g} faces, and files that are written "
-                                "from cells have at most {:.0f}",
-                                result, most),
-                    "use fewer passes");
-}
-
 /// What a pass does to attributes, as the first cell tells it.
 AttributeChanges changes_of(const cells::Partition& partition) {
     const Mesh mesh = partition.cell(0).mesh;
@@ -43,7 +31,8 @@ std::optional<std::string> why_not_on_cells(const SplitOptions& o) {
 void split_on_cells(const SplitOptions& o, CellFlow& flow, Context& context) {
     const int passes = split_settings(o).passes;
     const std::uint64_t before = flow.partition->faces();
-    require_countable(before, passes);
+    cells::require_countable("split", std::ldexp(static_cast<double>(before), 2 * passes),
+                             "use fewer passes");
     SplitResult result;
     result.changes = passes > 0 ? changes_of(*flow.partition) : AttributeChanges{};
     SplitPart told;

@@ -1,0 +1,82 @@
+#include "stages/crumple/cells.hpp"
+
+#include "cells/crumple_source.hpp"
+#include "cells/inspect_cells.hpp"
+#include "cells/split_source.hpp"
+#include "stages/crumple/report.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::crumple_stage {
+
+namespace {
+
+/// A scene of a part that is where the cells are, in the world: lengths are resolved there.
+Scene world_outline(const CellFlow& flow) {
+    Scene outline = flow.outline();
+    Part& part = outline.parts.front();
+    part.transform = {};
+    part.mesh.positions.clear();
+    if (!flow.box.empty()) part.mesh.positions = {flow.box.min, flow.box.max};
+    return outline;
+}
+
+void warn_of_dropped(const AttributeChanges& changes, const std::string& part, Context& context) {
+    for (const AttributeChange& change : changes)
+        if (change.kind == AttributeChange::Kind::dropped)
+            context.warn("W-CELLS",
+                         fmt::format("crumple: cells of part '{}' do not carry {} further: {}", part,
+                                     change.attribute, change.why),
+                         "compute normals when the mesh is in memory, or give more memory");
+}
+
+} // namespace
+
+std::optional<std::string> why_not_on_cells(const CrumpleOptions& o) {
+    if (o.grid > cells::FaceCut::most)
+        return fmt::format(
+            "grid: above {} the pieces of a face are too many for cells; split midpoint before it "
+            "makes faces small",
+            cells::FaceCut::most);
+    if (o.direction != CrumpleSettings::Direction::free)
+        return "direction: normals need all faces of a vertex, and cells have some of them; free does not";
+    if (o.boundary != CrumpleSettings::Boundary::free)
+        return "boundary: fixed needs all faces of a vertex, and cells have some of them; free does not";
+    if (o.self_intersections != CrumpleOptions::Intersections::allow)
+        return "self_intersections are between faces anywhere, and need the whole mesh; allow does not";
+    if (o.mask) return "mask: cells do not carry what it is made of";
+    return {};
+}
+
+void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context) {
+    const std::uint64_t before = flow.partition->faces();
+    const auto grid = static_cast<double>(o.grid);
+    cells::require_countable("crumple", static_cast<double>(before) * grid * grid, "use a smaller grid");
+    const Scene outline = world_outline(flow);
+    const Part& part = outline.parts.front();
+    CrumpleSettings settings = crumple_settings(o, outline);
+    settings.amplitude = context.resolve(o.amplitude, outline, "amplitude", &part);
+    settings.to_world = flow.transform;
+    const Mesh first = flow.partition->cell(0).mesh;
+    const auto still = cells::split_source(flow.partition->shared_source(), {static_cast<int>(o.grid)});
+    flow.partition.reset(); // its temporary data goes first
+    flow.partition = std::make_unique<cells::Partition>(cells::crumple_source(still, settings), flow.means);
+    flow.box = cells::box_of_cells(*flow.partition, flow.transform);
+    const cells::CrumpledCells crumpled = cells::crumpled_cells(*flow.partition, *still, flow.transform);
+    if (o.frequency == 0) warn_of_tangles(flow.part, crumpled.mean_edge, settings.amplitude, context);
+    const AttributeChanges changes = changes_in_sequence(grid_split(first, static_cast<int>(o.grid)).changes,
+                                                         cells::crumple_changes(first));
+    warn_of_dropped(changes, flow.part, context);
+    context.attribute_changes(part, changes);
+    CrumpleReportPart told;
+    told.part = flow.part;
+    told.added_faces = flow.partition->faces() - before;
+    told.moved = crumpled.moves.count;
+    told.largest_move = crumpled.moves.largest;
+    told.root_mean_square = crumpled.moves.root_mean_square;
+    const CrumpleReport report{{}, {std::move(told)}};
+    context.report(fields_of<CrumpleReport>(declare_crumple_report), &report);
+}
+
+} // namespace facetmill::crumple_stage
