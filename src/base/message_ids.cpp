@@ -204,7 +204,7 @@ std::span<const MessageId> message_ids() {
          "Choose a larger spacing."},
         {"E-INCLUDE",
          {Kind::usage},
-         "A file includes itself, directly or through other files.",
+         "A file includes itself, directly or through other files, or is included through too many of them.",
          "Remove the include from one of the files that the message names."},
         {"E-INDEX",
          {Kind::malformed},

@@ -1,5 +1,5 @@
 #pragma once
-// Names that differ: NAME, NAME_2, NAME_3 ...
+// Names that differ: NAME, NAME_2, NAME_3 ..., or with another separator.
 
 #include <fmt/format.h>
 #include <map>
@@ -20,16 +20,19 @@ std::string free_name(const std::string& wanted, Taken&& taken) {
 /// want the same.
 class UniqueNames {
   public:
+    explicit UniqueNames(char separator = '_') : separator_(separator) {}
     /// A name that exists already.
     void take(const std::string& name) { taken_.insert(name); }
     /// As free_name.
     std::string add(const std::string& wanted) {
         std::string name = wanted;
-        while (!taken_.insert(name).second) name = fmt::format("{}_{}", wanted, ++copies_[wanted] + 1);
+        while (!taken_.insert(name).second)
+            name = fmt::format("{}{}{}", wanted, separator_, ++copies_[wanted] + 1);
         return name;
     }
 
   private:
+    char separator_;
     std::set<std::string> taken_;
     std::map<std::string, int> copies_; ///< where to go on counting
 };

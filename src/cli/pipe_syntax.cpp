@@ -290,6 +290,11 @@ class Parser {
         std::string key = argument.substr(0, equals);
         Mark key_mark = mark();
         if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
+        if (std::count(key.begin(), key.end(), '.') > deepest) {
+            wrong(fmt::format("a key of more than {} parts", deepest + 1));
+            ++at_;
+            return;
+        }
         const Option* known = stage ? find_dotted(*stage->options, key) : nullptr;
         if (std::string name = with_underscores(key); !known && stage && find_dotted(*stage->options, name)) {
             key = std::move(name);
@@ -516,12 +521,21 @@ class Parser {
             if (!at_end_of_step()) ++at_;
             return Value::list({}, mark());
         }
+        if (depth_ == deepest) {
+            wrong(fmt::format("brackets are nested more than {} levels deep", deepest),
+                  "put the inner stages into a file, and include it");
+            too_deep_ = true;
+            at_ = all_.size(); // the rest is not read
+            return Value::list({}, mark());
+        }
         const Mark opening = mark();
         ++at_;
+        ++depth_;
         Value body = steps();
-        if (done())
-            problems_.add(opening, "E-PIPE", "this '[' is not closed", example);
-        else
+        --depth_;
+        if (done()) {
+            if (!too_deep_) problems_.add(opening, "E-PIPE", "this '[' is not closed", example);
+        } else
             ++at_;
         return body;
     }
@@ -564,9 +578,15 @@ class Parser {
         problems_.add(mark(), "E-PIPE", std::move(message), std::move(hint));
     }
 
+    /// Of brackets, and of dots in a key: a branch takes three of the 64 levels that a pipeline file may
+    /// have.
+    static constexpr int deepest = 20;
+
     const CommandLine& line_;
     const std::vector<std::string>& all_;
     std::size_t at_;
+    int depth_ = 0; ///< brackets that are open
+    bool too_deep_ = false;
     Problems& problems_;
     const Arguments* own_;
 };

@@ -83,6 +83,23 @@ std::vector<fs::path> Planner::chain_to(const fs::path& file) const {
     return all;
 }
 
+bool Planner::may_include(const fs::path& file, const Mark& where) {
+    constexpr std::size_t longest_chain = 32;
+    if (const auto files = chain_to(file); !files.empty()) {
+        std::string chain;
+        for (const auto& one : files) chain += fmt::format("{} -> ", one.string());
+        problems_.add(where, "E-INCLUDE", fmt::format("'{}' includes itself", file.string()),
+                      fmt::format("{}{}", chain, file.string()));
+        return false;
+    }
+    if (open_.size() < longest_chain) return true;
+    problems_.add(
+        where, "E-INCLUDE",
+        fmt::format("'{}' is included through more than {} other files", file.string(), longest_chain),
+        "include it from a file that is nearer to the pipeline");
+    return false;
+}
+
 Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope& scope,
                        const Position& position, bool& has_scene) {
     const Value path = resolved(entry.value, scope, problems_);
@@ -92,11 +109,7 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
         return {};
     }
     const fs::path file = settings_.places.input(text.text).lexically_normal();
-    if (const auto files = chain_to(file); !files.empty()) {
-        std::string chain;
-        for (const auto& one : files) chain += fmt::format("{} -> ", one.string());
-        problems_.add(path.mark, "E-INCLUDE", fmt::format("'{}' includes itself", file.string()),
-                      fmt::format("{}{}", chain, file.string()));
+    if (!may_include(file, path.mark)) {
         has_scene = true; // nobody knows what it would have done
         return {};
     }

@@ -1,6 +1,7 @@
 #pragma once
 // Inside planning: from items of `stages` to steps. plan.hpp is what others include.
 
+#include "base/unique_names.hpp"
 #include "pipeline/expressions.hpp"
 #include "pipeline/plan.hpp"
 
@@ -72,6 +73,8 @@ class Planner {
                   bool& has_scene);
     /// From a file that is open, the pipeline among them, to the innermost; empty: it is not open.
     std::vector<std::filesystem::path> chain_to(const std::filesystem::path& file) const;
+    /// Not, after a problem, when that would be without end, or through very many files.
+    bool may_include(const std::filesystem::path& file, const Mark& where);
     /// The document in a file, its paths relative to the pipeline's folder; null after a problem. Throws
     /// missing.
     const Value* fragment(const std::filesystem::path& file, const Mark& where);
@@ -81,7 +84,7 @@ class Planner {
     Problems& problems_;
     Overrides overrides_;
     std::size_t steps_ = 0; ///< planned so far: nested foreach multiply
-    std::set<std::string> used_names_;
+    UniqueNames used_names_{'-'};
     std::set<std::string> names_;                      ///< by which --set may name the steps
     std::map<std::filesystem::path, Value> fragments_; ///< that were read
     std::vector<std::filesystem::path> open_;          ///< included, the innermost last

@@ -215,13 +215,11 @@ void Planner::read_only(const Value& only, const Scope& scope, PartFilter& filte
 std::string Planner::unique_name(const std::string& base, const std::string& prefix,
                                  const Mark& explicit_at) {
     const std::string name = prefix + base;
-    if (used_names_.insert(name).second) return name;
-    if (explicit_at.known())
+    std::string unique = used_names_.add(name);
+    if (unique != name && explicit_at.known())
         problems_.add(explicit_at, "E-NAME", fmt::format("two stages have the name '{}'", name),
                       "names are unique, so that --set and the report can use them");
-    for (int number = 2;; ++number)
-        if (std::string numbered = fmt::format("{}-{}", name, number); used_names_.insert(numbered).second)
-            return numbered;
+    return unique;
 }
 
 void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene) {

@@ -124,6 +124,29 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("relax --lambda").starts_with("command line:1:22: error[E-PIPE]: '--lambda' needs a value\n"));
 }
 
+TEST_CASE("brackets and keys are nested twenty levels deep at most", "[cli]") {
+    const auto brackets = [](int depth) {
+        std::string line = "load a ! relax";
+        for (int i = 0; i < depth; ++i) line = "branch b [ " + line + " ]";
+        return yaml(line);
+    };
+    const auto key = [](int dots) {
+        std::string line = "relax --a";
+        for (int i = 0; i < dots; ++i) line += ".a";
+        return yaml(line + "=1");
+    };
+    const std::string too_deep = "error[E-PIPE]: brackets are nested more than 20 levels deep";
+    CHECK(brackets(20).find("error[") == std::string::npos);
+    for (const int depth : {21, 1'000}) {
+        const std::string told = brackets(depth);
+        CHECK(told.find(too_deep) != std::string::npos);
+        CHECK(told.find("error[", told.find(too_deep) + 1) == std::string::npos); // and nothing else
+    }
+    const std::string too_long = "error[E-PIPE]: a key of more than 21 parts";
+    CHECK(key(20).find(too_long) == std::string::npos);
+    for (const int dots : {21, 30'000}) CHECK(key(dots).find(too_long) != std::string::npos);
+}
+
 TEST_CASE("include takes a file and values for its params", "[cli]") {
     CHECK(same("load a ! include b.yaml --with.keep=10pct --with.name x ! write c",
                "[{load: a}, {include: b.yaml, with: {keep: 10%, name: x}}, {write: c}]"));

@@ -4,6 +4,8 @@
 #include "support/planning.hpp"
 #include "support/temporary.hpp"
 
+#include <fmt/format.h>
+
 using namespace facetmill;
 using pipeline::PlanSettings;
 
@@ -83,6 +85,15 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     };
     has("  - include: a.yaml\n", "b.yaml:2:20: error[E-INCLUDE]: 'a.yaml' includes itself");
     has("  - include: a.yaml\n", "hint: a.yaml -> b.yaml -> a.yaml");
+    // 33 files one through the other, of which 32 are between the pipeline and the last.
+    for (int i = 0; i < 33; ++i)
+        test::put(folder / fmt::format("deep{}.yaml", i),
+                  fmt::format("facetmill: 1\nstages: [{{include: deep{}.yaml}}]\n", i + 1));
+    test::put(folder / "deep33.yaml", "facetmill: 1\nstages: [test-cut]\n");
+    has("  - include: deep0.yaml\n",
+        "deep31.yaml:2:20: error[E-INCLUDE]: 'deep32.yaml' is included through more than 32");
+    CHECK(problems_in(folder, "  - test-load: a.ply\n  - include: deep2.yaml\n").find("E-INCLUDE") ==
+          std::string::npos);
     // The pipeline is the first link of a chain; what follows is not judged by what is unknown.
     test::put(folder / "first.yaml", "facetmill: 1\nstages: [{include: second.yaml}, {test-write: o.glb}]\n");
     test::put(folder / "second.yaml", "facetmill: 1\nstages: [{include: first.yaml}]\n");
