@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "geometry/deviation/pieces_beyond.hpp"
 #include "geometry/spatial/closest_point.hpp"
 
 #include <algorithm>
@@ -72,9 +73,13 @@ class Certifier {
               const DeviationSettings& settings)
         : d_(d), from_(from), tree_(to), settings_(settings), slack_(from.bounds().diagonal() * 1e-6) {}
 
-    void run() {
+    void run(std::span<const Index> order) {
         ShareOfRounds rounds;
-        start();
+        const Beyond beyond = beyond_maximum(order);
+        rounds.next();
+        start_with(beyond.triangles);
+        start_with(beyond.pieces);
+        rounds.next();
         std::size_t work = settings_.certify_work;
         while (!pieces_.empty() && work >= per_piece) {
             std::vector<Piece> later = keep_worst(work / per_piece);
@@ -94,39 +99,86 @@ class Certifier {
 
     Corner corner_at(const Vec3& p, Index hint) const { return {p, closest_point(tree_, p, hint)}; }
 
-    Piece whole(std::size_t t, const std::vector<Closest>& closest) const {
-        Piece piece;
-        piece.face = from_.face(t);
-        for (std::size_t i = 0; i < 3; ++i)
-            piece.corners[i] = {from_.point(t, i), closest[from_.corners[3 * t + i]]};
-        return piece;
+    /// What of the surface may be farther than the maximum. Where that is next to nothing, all: the search
+    /// tells float32 apart only.
+    Beyond beyond_maximum(std::span<const Index> order) const {
+        std::vector<Index> finite;
+        for (const Index t : order)
+            if (is_finite(from_.point(t, 0)) && is_finite(from_.point(t, 1)) && is_finite(from_.point(t, 2)))
+                finite.push_back(t);
+        if (settings_.certify_work == 0 || !(d_.maximum > slack_)) return {std::move(finite), {}};
+        return pieces_beyond(from_, finite, tree_, d_.maximum, settings_.certify_work / per_piece);
     }
 
-    static bool is_finite(const Piece& piece) {
-        return std::all_of(piece.corners.begin(), piece.corners.end(),
-                           [](const Corner& c) { return facetmill::is_finite(c.at); });
-    }
-
-    /// Whole triangles: most are settled by their corners.
-    void start() {
-        const std::vector<Closest> closest = closest_points(tree_, from_.positions);
+    /// Keeps what its corners do not settle.
+    template <class PieceOf>
+    void keep_beyond_target(std::size_t count, const PieceOf& piece_of) {
         const double target = this->target();
-        std::vector<double> bounds(from_.size());
+        std::vector<double> bounds(count);
         parallel_for(
-            bounds.size(),
-            [&](std::size_t t) {
-                const Piece piece = whole(t, closest);
-                if (is_finite(piece)) bounds[t] = bound_of(tree_, piece, target);
-            },
-            1024);
-        for (std::size_t t = 0; t < bounds.size(); ++t) {
-            if (bounds[t] <= target) {
-                settled_ = std::max(settled_, bounds[t]);
+            count, [&](std::size_t i) { bounds[i] = bound_of(tree_, piece_of(i), target); }, 1024);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (bounds[i] <= target) {
+                settled_ = std::max(settled_, bounds[i]);
                 continue;
             }
-            pieces_.push_back(whole(t, closest));
-            pieces_.back().bound = bounds[t];
+            pieces_.push_back(piece_of(i));
+            pieces_.back().bound = bounds[i];
         }
+    }
+
+    void start_with(const std::vector<Index>& triangles) {
+        if (triangles.empty()) return;
+        std::vector<Index> number(from_.positions.size(), none);
+        std::vector<Vec3> points;
+        for (const Index t : triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (Index& n = number[from_.corners[3 * std::size_t{t} + k]]; n == none) {
+                    n = static_cast<Index>(points.size());
+                    points.push_back(from_.point(t, k));
+                }
+        const std::vector<Closest> closest = closest_points(tree_, points);
+        keep_beyond_target(triangles.size(), [&](std::size_t i) {
+            const std::size_t t = triangles[i];
+            Piece piece;
+            piece.face = from_.face(t);
+            for (std::size_t k = 0; k < 3; ++k)
+                piece.corners[k] = {from_.point(t, k), closest[number[from_.corners[3 * t + k]]]};
+            return piece;
+        });
+    }
+
+    void start_with(const std::vector<SurfacePiece>& pieces) {
+        std::vector<Piece> with_corners(pieces.size());
+        parallel_chunks(
+            pieces.size(),
+            [&](std::size_t begin, std::size_t end) {
+                Index hint = none;
+                for (std::size_t i = begin; i < end; ++i) {
+                    with_corners[i].face = from_.face(pieces[i].triangle);
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        with_corners[i].corners[k] = corner_at(pieces[i].corners[k], hint);
+                        hint = with_corners[i].corners[k].closest.triangle;
+                    }
+                }
+            },
+            1024);
+        for (const Piece& piece : with_corners)
+            for (const Corner& corner : piece.corners) {
+                FarthestCorner farthest;
+                farthest.consider(corner, piece.face);
+                raise(farthest);
+            }
+        d_.looked_up += 3 * pieces.size();
+        keep_beyond_target(pieces.size(), [&](std::size_t i) { return with_corners[i]; });
+    }
+
+    void raise(const FarthestCorner& farthest) {
+        if (!(farthest.distance > d_.maximum)) return;
+        d_.maximum = farthest.distance;
+        d_.from = farthest.from;
+        d_.to = farthest.to;
+        d_.face = farthest.face;
     }
 
     /// Leaves the `most` pieces with the largest bounds and returns the others.
@@ -158,12 +210,7 @@ class Certifier {
                 later.insert(later.end(), o.left.begin(), o.left.begin() + static_cast<int>(o.left_count));
                 settled_ = std::max(settled_, o.settled);
                 looked_up += o.looked_up;
-                if (o.farthest.distance > d_.maximum) {
-                    d_.maximum = o.farthest.distance;
-                    d_.from = o.farthest.from;
-                    d_.to = o.farthest.to;
-                    d_.face = o.farthest.face;
-                }
+                raise(o.farthest);
             }
         }
         d_.looked_up += looked_up;
@@ -210,9 +257,9 @@ class Certifier {
 
 } // namespace
 
-void bound_deviation(DirectedDeviation& d, const Surface& from, const FaceTree& to,
-                     const DeviationSettings& settings) {
-    Certifier(d, from, to, settings).run();
+void bound_deviation(DirectedDeviation& d, const Surface& from, std::span<const Index> order,
+                     const FaceTree& to, const DeviationSettings& settings) {
+    Certifier(d, from, to, settings).run(order);
 }
 
 } // namespace facetmill

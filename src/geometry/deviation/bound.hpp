@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace facetmill {
 
@@ -19,12 +20,13 @@ inline double told_from_zero(double distance, const Vec3& p) {
 }
 
 /// Sets d.bound, and raises d.maximum where a point found on the way is farther. d holds what the samples
-/// said. Over a triangle the distance to a convex set is greatest at a corner, so the greatest distance of
-/// its corners to one triangle of the other surface bounds it; so does the distance of a corner plus the
-/// longest way to it. Triangles whose bound exceeds the maximum are cut in four, again and again, until none
-/// exceeds it by more than certify_to, or the work is spent. After M. Tang, M. Lee and Y. Kim, "Interactive
-/// Hausdorff distance computation for general polygonal models" (2009).
-void bound_deviation(DirectedDeviation& d, const Surface& from, const FaceTree& to,
-                     const DeviationSettings& settings);
+/// said; order: the triangles, each near the one before. Over a triangle the distance to a convex set is
+/// greatest at a corner, so the greatest distance of its corners to one triangle of the other surface bounds
+/// it; so does the distance of a corner plus the longest way to it. First all that is thus within the maximum
+/// is left out (geometry/deviation/pieces_beyond.hpp). What is left and exceeds it is cut in four, again and
+/// again, until nothing exceeds it by more than certify_to, or the work is spent. After M. Tang, M. Lee and
+/// Y. Kim, "Interactive Hausdorff distance computation for general polygonal models" (2009).
+void bound_deviation(DirectedDeviation& d, const Surface& from, std::span<const Index> order,
+                     const FaceTree& to, const DeviationSettings& settings);
 
 } // namespace facetmill

@@ -401,7 +401,7 @@ DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order
     else
         measure_samples(d, from, walk, samples, settings);
     steps.next();
-    if (settings.certify) bound_deviation(d, from, to, settings);
+    if (settings.certify) bound_deviation(d, from, order, to, settings);
     return d;
 }
 

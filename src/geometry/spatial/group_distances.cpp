@@ -9,7 +9,8 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t most_nodes = 24; ///< of one level; with more, points by themselves are as fast
+constexpr std::size_t few_nodes = 24;  ///< of one level; with more, points by themselves are as fast
+constexpr std::size_t many_nodes = 64; ///< likewise; with more, smaller groups of parts are as fast
 constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are too coarse for points beyond
 /// How far a sum of a few float32 numbers below 2 may be off; points that close to an edge count as beside
 /// it.
@@ -85,40 +86,48 @@ bool GroupDistances::place(std::span<const Vec3> points, const Vec3& centre, dou
     return true;
 }
 
+/// Of four points, the squared distances to a triangle; infinity where all are at least `limit`.
+Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::size_t four_of) const {
+    const Float4 x = x_[four_of], y = y_[four_of], z = z_[four_of];
+    const Float4 up = x * t.normal[0] + y * t.normal[1] + z * t.normal[2] - t.offset;
+    Float4 beyond[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Flat::Edge& e = t.edges[k];
+        beyond[k] = x * e.out[0] + y * e.out[1] + z * e.out[2] - e.reach;
+    }
+    const Float4 farthest = greater(greater(beyond[0], beyond[1]), beyond[2]);
+    const Float4 aside = greater(farthest, Float4{});
+    if (bits_of(up * up + aside * aside < limit) == 0) return four(HUGE_VALF);
+    // In the plane: 0 inside, and beyond an edge the distance to that edge.
+    Float4 across = farthest <= four(-rounding) ? Float4{} : four(HUGE_VALF);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Flat::Edge& e = t.edges[k];
+        const Float4 along = x * e.along[0] + y * e.along[1] + z * e.along[2];
+        const Float4 past = greater(greater(e.begin - along, along - e.end), Float4{});
+        const Float4 out = greater(beyond[k], Float4{});
+        across = beyond[k] > four(-rounding) ? lesser(across, out * out + past * past) : across;
+    }
+    return up * up + across;
+}
+
 /// Lowers the squared distances to those to one triangle.
 void GroupDistances::compare(const Flat& t, Index triangle) {
     for (std::size_t i = 0; i < fours_; ++i) {
-        const Float4 x = x_[i], y = y_[i], z = z_[i], least = least_[i];
-        const Float4 up = x * t.normal[0] + y * t.normal[1] + z * t.normal[2] - t.offset;
-        Float4 beyond[3];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Flat::Edge& e = t.edges[k];
-            beyond[k] = x * e.out[0] + y * e.out[1] + z * e.out[2] - e.reach;
-        }
-        const Float4 farthest = greater(greater(beyond[0], beyond[1]), beyond[2]);
-        const Float4 aside = greater(farthest, Float4{});
-        if (bits_of(up * up + aside * aside < least) == 0) continue;
-        // In the plane: 0 inside, and beyond an edge the distance to that edge.
-        Float4 across = farthest <= four(-rounding) ? Float4{} : four(HUGE_VALF);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Flat::Edge& e = t.edges[k];
-            const Float4 along = x * e.along[0] + y * e.along[1] + z * e.along[2];
-            const Float4 past = greater(greater(e.begin - along, along - e.end), Float4{});
-            const Float4 out = greater(beyond[k], Float4{});
-            across = beyond[k] > four(-rounding) ? lesser(across, out * out + past * past) : across;
-        }
-        const Float4 square = up * up + across;
+        const Float4 least = least_[i], square = squares_below(least, t, i);
         const Int4 nearer = square < least;
         least_[i] = nearer ? square : least;
         nearest_[i] = nearer ? Int4{} + static_cast<std::int32_t>(triangle) : nearest_[i];
     }
 }
 
+float GroupDistances::square_exactly(const Vec3& p, Index triangle) const {
+    const double distance = closest_on(tree_, triangle, p).distance * scale_;
+    return static_cast<float>(std::min(distance * distance, 1e30));
+}
+
 void GroupDistances::compare_exactly(std::span<const Vec3> points, Index triangle) {
     for (std::size_t i = 0; i < 4 * fours_; ++i) {
-        const double distance =
-            closest_on(tree_, triangle, points[i < points.size() ? i : 0]).distance * scale_;
-        const auto square = static_cast<float>(std::min(distance * distance, 1e30));
+        const float square = square_exactly(points[i < points.size() ? i : 0], triangle);
         if (!(square < least_[i / 4][i % 4])) continue;
         least_[i / 4][i % 4] = square;
         nearest_[i / 4][i % 4] = static_cast<std::int32_t>(triangle);
@@ -168,8 +177,9 @@ struct BoxQuery {
 
 } // namespace
 
-/// Finds the nodes of the lowest level that are within `limit` of the box; false when they are many.
-bool GroupDistances::gather(const Box& box, double limit) {
+/// Finds the nodes of the lowest level that are within `limit` of the box; false when they are more than
+/// `most_nodes`.
+bool GroupDistances::gather(const Box& box, double limit, std::size_t most_nodes) {
     const BoxQuery query(tree_, box, limit);
     nodes_.assign(1, 0);
     for (int level = tree_.height() - 1; level > 0; --level) {
@@ -211,10 +221,16 @@ bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
     if (!place(points, box.centre(), box.diagonal() + closest.distance)) return false;
     compare(points, closest.triangle);
     const double limit = std::sqrt(double{farthest_square()}) / scale_ + error_;
-    if (!gather(box, limit)) return false;
+    if (!gather(box, limit, few_nodes)) return false;
     compare_until(-1, points, box, limit);
     take_distances(points.size());
     return true;
+}
+
+/// Squared distances up to this are within the distance in spite of their error; 0 when that hides it.
+float GroupDistances::enough_square(double distance) const {
+    const double enough = std::max(0.0, (distance - error_) * scale_ * (1 - 1e-6));
+    return static_cast<float>(enough * enough);
 }
 
 bool GroupDistances::all_within(std::span<const Vec3> points, double distance, Index& hint) {
@@ -222,15 +238,48 @@ bool GroupDistances::all_within(std::span<const Vec3> points, double distance, I
     if (tree_.empty() || !(distance > 0)) return false;
     const Box box = box_around(points);
     if (!place(points, box.centre(), box.diagonal() + distance)) return false;
-    const double enough = (distance - error_) * scale_ * (1 - 1e-6);
-    if (!(enough > 0)) return false; // not to be told from the error
-    const auto square = static_cast<float>(enough * enough);
+    const float square = enough_square(distance);
+    if (!(square > 0)) return false;
     if (hint != none) compare(points, hint);
     const bool all = (hint != none && farthest_square() <= square) ||
-                     (gather(box, distance) && compare_until(square, points, box, distance));
+                     (gather(box, distance, few_nodes) && compare_until(square, points, box, distance));
     take_distances(points.size());
     if (all) hint = triangles_[points.size() - 1];
     return all;
+}
+
+/// A bit for each of the points whose squared distance to the triangle is below that.
+std::uint32_t GroupDistances::which_within(std::span<const Vec3> points, float square, Index triangle) const {
+    std::uint32_t within = 0;
+    Flat flat;
+    const auto& [a, b, c] = tree_.triangles[triangle];
+    if (flat.set((a - centre_) * scale_, (b - centre_) * scale_, (c - centre_) * scale_))
+        for (std::size_t i = 0; i < fours_; ++i)
+            within |= bits_of(squares_below(four(square), flat, i) < four(square)) << 4 * i;
+    else
+        for (std::size_t i = 0; i < points.size(); ++i)
+            within |= std::uint32_t{square_exactly(points[i], triangle) < square} << i;
+    return within;
+}
+
+void GroupDistances::remove_within(std::span<const Vec3> points, double distance,
+                                   std::vector<std::uint32_t>& sets, Index& hint) {
+    if (tree_.empty() || !(distance > 0)) return;
+    const Box box = box_around(points);
+    if (!place(points, box.centre(), box.diagonal() + distance)) return;
+    const float square = enough_square(distance);
+    if (!(square > 0)) return;
+    const auto done = [&](Index triangle) {
+        const std::uint32_t within = which_within(points, square, triangle);
+        const auto covered = [&](std::uint32_t set) { return (set & ~within) == 0; };
+        if (within != 0 && std::erase_if(sets, covered) > 0) hint = triangle;
+        return sets.empty();
+    };
+    if ((hint != none && done(hint)) || !gather(box, distance, many_nodes)) return;
+    const BoxQuery query(tree_, box, distance);
+    for (const std::uint32_t leaf : nodes_)
+        for (unsigned bits = query.near(tree_.node(0, leaf)); bits != 0; bits &= bits - 1)
+            if (done(4 * leaf + static_cast<Index>(std::countr_zero(bits)))) return;
 }
 
 } // namespace facetmill

@@ -29,6 +29,12 @@ class GroupDistances {
     /// hint as above. What has been shown of each is distance(i) + error(): not less than its distance.
     bool all_within(std::span<const Vec3> points, double distance, Index& hint);
 
+    /// Removes from `sets`, of which each has bit i for the i-th of 1 to `most` finite points, those whose
+    /// points all are within a distance of one and the same triangle: so is all between them. What cannot be
+    /// told stays. hint as above.
+    void remove_within(std::span<const Vec3> points, double distance, std::vector<std::uint32_t>& sets,
+                       Index& hint);
+
     // Of the i-th point of the last group, when that could be measured:
 
     /// Off by no more than error(); the same on every processor.
@@ -41,10 +47,14 @@ class GroupDistances {
     struct Flat;
 
     bool place(std::span<const Vec3> points, const Vec3& centre, double reach);
-    bool gather(const Box& box, double limit);
+    bool gather(const Box& box, double limit, std::size_t most_nodes);
     bool compare_until(float enough_square, std::span<const Vec3> points, const Box& box, double limit);
     void take_distances(std::size_t count);
+    Float4 squares_below(const Float4& limit, const Flat& flat, std::size_t four) const;
     void compare(const Flat& flat, Index triangle);
+    float square_exactly(const Vec3& p, Index triangle) const;
+    float enough_square(double distance) const;
+    std::uint32_t which_within(std::span<const Vec3> points, float square, Index triangle) const;
     void compare_exactly(std::span<const Vec3> points, Index triangle);
     void compare(std::span<const Vec3> points, Index triangle);
     float farthest_square() const;

@@ -61,6 +61,57 @@ TEST_CASE("the farthest point may be inside a face; the bound knows", "[geometry
     CHECK(sure.backward.maximum == 1);
 }
 
+TEST_CASE("the bound of a corrugated sheet is what its slopes say", "[geometry]") {
+    // Ridges along y, each 1 wide on either side, against a flat square: below a ridge the slopes are
+    // nearest.
+    const double height = GENERATE(0.02, 0.25, 2.0);
+    Mesh ridges = shapes::grid(24, 24), flat = shapes::grid(1, 1);
+    for (Vec3& p : ridges.positions) p.z = static_cast<int>(p.x) % 2 * height;
+    for (Vec3& p : flat.positions) p *= 24;
+    const double truth = height / std::sqrt(1 + height * height);
+    for (const std::size_t samples : {std::size_t{0}, std::size_t{2000}}) {
+        const auto d = deviation(ridges, flat, {.samples = samples, .certify = true});
+        CHECK(*d.forward.bound >= height);
+        CHECK(*d.forward.bound <= height * 1.01 + 1e-6 * d.diagonal);
+        CHECK(d.backward.maximum <= truth * (1 + 1e-12));
+        CHECK(*d.backward.bound >= truth * (1 - 1e-12));
+        CHECK(*d.backward.bound <= truth * 1.01 + 1e-6 * d.diagonal);
+    }
+}
+
+TEST_CASE("most of rough surfaces is bounded without looking up closest points", "[geometry]") {
+    const Mesh fine = test::noisy_icosphere(6, 0.004, 1), coarse = test::noisy_icosphere(4, 0.004, 2);
+    const auto d = deviation(fine, coarse, {.certify = true});
+    for (const auto* way : {&d.forward, &d.backward}) {
+        CHECK(way->looked_up < 10000);
+        CHECK(*way->bound >= way->maximum);
+        CHECK(*way->bound <= way->maximum * 1.01 + 1e-6 * d.diagonal);
+    }
+    // No point of many more is beyond the bound.
+    const auto many = deviation(fine, coarse, {.samples = 1000000, .mean_error = 0, .seed = 3});
+    CHECK(*d.forward.bound >= many.forward.maximum);
+    CHECK(*d.backward.bound >= many.backward.maximum);
+    for (const int count : {1, 3}) {
+        set_threads(count);
+        const auto again = deviation(fine, coarse, {.certify = true});
+        set_threads(0);
+        CHECK(*again.forward.bound == *d.forward.bound);
+        CHECK(*again.backward.bound == *d.backward.bound);
+        CHECK(again.backward.from == d.backward.from);
+        CHECK(again.backward.looked_up == d.backward.looked_up);
+    }
+}
+
+TEST_CASE("little work leaves a bound that holds", "[geometry]") {
+    const Mesh fine = test::noisy_icosphere(5, 0.004, 1), coarse = test::noisy_icosphere(3, 0.004, 2);
+    const auto tight = deviation(fine, coarse, {.certify = true});
+    for (const std::size_t work : {4, 400, 40000}) {
+        const auto d = deviation(fine, coarse, {.certify = true, .certify_work = work});
+        CHECK(*d.forward.bound >= tight.forward.maximum);
+        CHECK(*d.backward.bound >= tight.backward.maximum);
+    }
+}
+
 TEST_CASE("with no work to spend the bound is loose but holds", "[geometry]") {
     const Mesh fine = shapes::icosphere(4), coarse = shapes::icosphere(1);
     const auto loose = deviation(fine, coarse, {.certify = true, .certify_work = 0});

@@ -109,3 +109,53 @@ TEST_CASE("what float32 cannot tell from 0 in a wide group is not shown to be wi
     Index hint = none;
     CHECK_FALSE(together.all_within(shapes::cube().positions, 0.5e-9, hint));
 }
+
+namespace {
+
+/// The least distance within which one triangle has all points of the set.
+double shared_distance(const FaceTree& tree, const std::vector<Vec3>& points, std::uint32_t set) {
+    double least = HUGE_VAL;
+    for (Index t = 0; t < tree.triangles.size(); ++t) {
+        double most = 0;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (set >> i & 1) most = std::max(most, closest_on(tree, t, points[i]).distance);
+        least = std::min(least, most);
+    }
+    return least;
+}
+
+} // namespace
+
+TEST_CASE("sets of points are removed when one triangle is near all of each, and only then", "[geometry]") {
+    for (const Mesh& mesh : grouped_meshes()) {
+        const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
+        GroupDistances together(tree);
+        Index hint = none;
+        std::size_t removed = 0, kept = 0;
+        for (std::uint64_t k = 0; k < 400; ++k) {
+            const auto points = group_of(mesh, k);
+            std::vector<std::uint32_t> sets;
+            std::vector<double> distances;
+            for (std::uint64_t s = 0; s < 6; ++s) {
+                std::uint32_t set = 0;
+                for (std::uint64_t j = 0; j < 3; ++j)
+                    set |= std::uint32_t{1} << hashed(hashed(s, k), j) % points.size();
+                sets.push_back(set);
+                distances.push_back(shared_distance(tree, points, set));
+            }
+            const double distance = distances[k % 6];
+            for (const double factor : {0.999, 1.001}) {
+                std::vector<std::uint32_t> left = sets;
+                together.remove_within(points, distance * factor, left, hint);
+                for (std::size_t s = 0, next = 0; s < sets.size(); ++s) {
+                    const bool stayed = next < left.size() && left[next] == sets[s];
+                    next += stayed;
+                    ++(stayed ? kept : removed);
+                    if (distances[s] > distance * factor) REQUIRE(stayed);
+                }
+            }
+        }
+        CHECK(removed > 1000);
+        CHECK(kept > 1000);
+    }
+}

@@ -1,0 +1,30 @@
+#pragma once
+// Which parts of a surface may be farther from another than a distance that most are within.
+
+#include "geometry/spatial/face_tree.hpp"
+
+#include <array>
+#include <span>
+
+namespace facetmill {
+
+/// A part of a triangle of a surface.
+struct SurfacePiece {
+    std::array<Vec3, 3> corners;
+    Index triangle;
+};
+
+struct Beyond {
+    std::vector<Index> triangles;     ///< whole ones
+    std::vector<SurfacePiece> pieces; ///< parts of others
+};
+
+/// Leaves out what lies within `distance` > 0 for certain: what has all its corners that near to one triangle
+/// of the other surface, a convex set, or is a small part of a triangle whose parts do. Triangles that do not
+/// are cut into up to 36, those parts twice again, as long as no more than about `most` are left. order: the
+/// triangles that are asked about, with finite corners, each near the one before. The same for any number of
+/// threads.
+Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to, double distance,
+                     std::size_t most);
+
+} // namespace facetmill
