@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/cgal/plane_cut.hpp"
+#include "geometry/intersect/plane_crossing.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
 
@@ -91,6 +92,7 @@ class Meetings {
         Index low, high = none, triangle = none;
         bool is_corner() const { return high == none; }
         auto key() const { return std::tuple(low, high, triangle); }
+        SideCrossing crossing() const { return {low, high, triangle}; }
     };
 
     /// What two triangles have in common.
@@ -156,25 +158,28 @@ class Meetings {
         for (const Meeting& m : meetings)
             for (const End& end : m.ends)
                 if (!end.is_corner() && known_.try_emplace(end.key(), none).second) fresh.push_back(end);
-        std::vector<std::pair<ExactNodes::Point, Vec3>> made(fresh.size());
+        std::vector<std::pair<std::optional<ExactNodes::Point>, Vec3>> made(fresh.size());
         parallel_for(
             fresh.size(),
             [&](std::size_t i) {
-                made[i].first = crossing(fresh[i]);
-                made[i].second = ExactNodes::place_of(made[i].first);
+                auto& [point, place] = made[i];
+                if (const auto quick = place_of(fresh[i])) {
+                    place = *quick;
+                    return;
+                }
+                point = nodes_.point_of(fresh[i].crossing());
+                place = ExactNodes::place_of(*point);
             },
             64);
         for (std::size_t i = 0; i < fresh.size(); ++i)
-            known_[fresh[i].key()] = nodes_.find_or_add(made[i].first, made[i].second);
+            known_[fresh[i].key()] =
+                nodes_.find_or_add(fresh[i].crossing(), std::move(made[i].first), made[i].second);
     }
 
-    ExactNodes::Point crossing(const End& end) const {
-        const auto p = nodes_.at(end.low), q = nodes_.at(end.high);
-        const auto& corner = soup_.triangles[end.triangle];
-        const auto o = nodes_.at(corner[0]);
-        const auto normal = CGAL::cross_product(nodes_.at(corner[1]) - o, nodes_.at(corner[2]) - o);
-        const ExactKernel::FT above = normal * (p - o), below = normal * (q - o);
-        return p + (above / (above - below)) * (q - p);
+    std::optional<Vec3> place_of(const End& end) const {
+        const auto& [a, b, c] = soup_.triangles[end.triangle];
+        return plane_crossing(soup_.points[end.low], soup_.points[end.high],
+                              {soup_.points[a], soup_.points[b], soup_.points[c]});
     }
 
     void note(Index i, Index j, const Meeting& meeting) {
@@ -229,7 +234,7 @@ constexpr std::size_t max_pairs = 1'000'000, max_crossings = 2'000'000;
 } // namespace
 
 struct Arrangement::Own {
-    explicit Own(TriangleSoup given) : soup(std::move(given)), nodes(soup.points) {}
+    explicit Own(TriangleSoup given) : soup(std::move(given)), nodes(soup) {}
 
     TriangleSoup soup;
     ExactNodes nodes; // refers to the soup's points
@@ -271,9 +276,10 @@ struct Arrangement::Own {
 
     void plant() {
         std::vector<Box> boxes(soup.triangles.size());
-        for (std::size_t t = 0; t < boxes.size(); ++t)
+        parallel_for(boxes.size(), [&](std::size_t t) {
             for (const Index p : soup.triangles[t]) boxes[t].add(soup.points[p]);
-        for (const Box& b : boxes) bounds.add(b);
+        });
+        bounds = box_of_all(boxes);
         tree.emplace(std::move(boxes));
     }
 };

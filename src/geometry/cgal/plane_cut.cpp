@@ -1,6 +1,8 @@
 #include "geometry/cgal/plane_cut.hpp"
 
 #include "base/parallel.hpp"
+#include "base/predicates.hpp"
+#include "geometry/polygon/certain_delaunay.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
@@ -30,16 +32,22 @@ using Constraint = Triangulation::Constraint_id;
 using Point2 = ExactKernel::Point_2;
 using Point3 = ExactKernel::Point_3;
 
+/// The axes, from the one along which a plane is seen best by its normal as doubles.
+std::array<int, 3> axes_by(const Vec3& rough_normal) {
+    std::array<int, 3> axes{0, 1, 2};
+    std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+        return std::abs(rough_normal[static_cast<std::size_t>(i)]) >
+               std::abs(rough_normal[static_cast<std::size_t>(j)]);
+    });
+    return axes;
+}
+
 /// The plane of a triangle, seen along an axis from where the triangle turns left.
 class Frame {
   public:
     Frame(const Point3& a, const Point3& b, const Point3& c, const Vec3& rough_normal) : origin_(a) {
         normal_ = CGAL::cross_product(b - a, c - a);
-        std::array<int, 3> axes{0, 1, 2};
-        std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
-            return std::abs(rough_normal[static_cast<std::size_t>(i)]) >
-                   std::abs(rough_normal[static_cast<std::size_t>(j)]);
-        });
+        const auto axes = axes_by(rough_normal);
         drop_ = *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal_[i]); });
         u_ = (drop_ + 1) % 3;
         v_ = (drop_ + 2) % 3;
@@ -61,6 +69,81 @@ class Frame {
     Point3 origin_;
     ExactKernel::Vector_3 normal_;
     int drop_ = 2, u_ = 0, v_ = 1;
+};
+
+using Pieces = std::vector<Arrangement::Piece>;
+using SideList = std::vector<std::pair<std::pair<Index, Index>, int>>;
+
+/// Cuts a group that is one triangle as Cutter would, by floating point alone. False where that is not sure
+/// to come to the same.
+class QuickCutter {
+  public:
+    QuickCutter(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes)
+        : group_(group), nodes_(nodes), triangle_(group.triangles.front()),
+          corners_(soup.triangles[triangle_]) {}
+
+    bool run(Pieces& pieces, SideList& sides) {
+        if (group_.triangles.size() != 1 || !choose_view()) return false;
+        for (const Index n : corners_) add(n);
+        for (const Index n : group_.points) add(n);
+        for (const auto& [a, b] : group_.segments) {
+            const Index from = add(a), to = add(b);
+            cut_.lines.push_back({from, to});
+        }
+        const auto triangles = polygon::certain_delaunay(cut_);
+        if (!triangles) return false;
+        for (const auto& [a, b, c] : *triangles) {
+            std::array<Index, 3> abc{here_[a], here_[b], here_[c]};
+            std::rotate(abc.begin(), std::min_element(abc.begin(), abc.end()), abc.end());
+            pieces.push_back({abc, Sources(1, {triangle_, 1})});
+        }
+        std::sort(pieces.begin(), pieces.end(),
+                  [](const auto& a, const auto& b) { return a.nodes < b.nodes; });
+        for (std::size_t i = 3; i < here_.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                if (cut_.sides[i] >> k & 1) sides.push_back({{triangle_, here_[i]}, k});
+        return true;
+    }
+
+  private:
+    /// As Frame does.
+    bool choose_view() {
+        const Vec3 &p = nodes_.rounded(corners_[0]), &q = nodes_.rounded(corners_[1]),
+                   &r = nodes_.rounded(corners_[2]);
+        const auto drop = static_cast<std::size_t>(axes_by(cross(q - p, r - p))[0]);
+        u_ = (drop + 1) % 3;
+        v_ = (drop + 2) % 3;
+        const int way = orientation_2d(p[u_], p[v_], q[u_], q[v_], r[u_], r[v_]);
+        if (way < 0) std::swap(u_, v_);
+        return way != 0;
+    }
+    Index add(Index node) {
+        const auto known = std::find(here_.begin(), here_.end(), node);
+        if (known != here_.end()) return static_cast<Index>(known - here_.begin());
+        const Vec3& p = nodes_.rounded(node);
+        cut_.points.push_back({p[u_], p[v_]});
+        cut_.sides.push_back(sides_of(node));
+        here_.push_back(node);
+        return static_cast<Index>(here_.size() - 1);
+    }
+    /// Those that the node is on because it is a corner or was made on one: no other is known to be.
+    std::uint8_t sides_of(Index node) const {
+        const SideCrossing made = nodes_.crossing_of(node);
+        unsigned found = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(corners_[k], corners_[(k + 1) % 3]);
+            if (node == low || node == high || (made.low == low && made.high == high)) found |= 1u << k;
+        }
+        return static_cast<std::uint8_t>(found);
+    }
+
+    const PlaneGroup& group_;
+    const ExactNodes& nodes_;
+    Index triangle_;
+    std::array<Index, 3> corners_;
+    std::size_t u_ = 0, v_ = 1;
+    polygon::CutTriangle cut_;
+    std::vector<Index> here_; ///< nodes, of its points
 };
 
 /// Cuts one group in three steps, of which only the second changes what others use.
@@ -91,8 +174,7 @@ class Cutter {
             if (v->info() == none) v->info() = nodes.find_or_add(frame_.lifted(v->point()));
     }
 
-    using Sides = std::vector<std::pair<std::pair<Index, Index>, int>>;
-    void finish(std::vector<Arrangement::Piece>& pieces, Sides& sides) const {
+    void finish(Pieces& pieces, SideList& sides) const {
         for (const Index t : group_.triangles) spread(t, sides);
         emit(pieces);
     }
@@ -135,7 +217,7 @@ class Cutter {
     }
 
     /// Tells the faces within triangle t that they are part of it.
-    void spread(Index t, Sides& sides) const {
+    void spread(Index t, SideList& sides) const {
         const auto& corners = soup_.triangles[t];
         const auto flat = [&](std::size_t i) { return vertices_.at(corners[i])->point(); };
         const bool left = CGAL::orientation(flat(0), flat(1), flat(2)) == CGAL::LEFT_TURN;
@@ -162,7 +244,7 @@ class Cutter {
         }
     }
 
-    void emit(std::vector<Arrangement::Piece>& pieces) const {
+    void emit(Pieces& pieces) const {
         const auto first = static_cast<std::ptrdiff_t>(pieces.size());
         for (auto f = t_.finite_faces_begin(); f != t_.finite_faces_end(); ++f) {
             if (f->info().empty()) continue;
@@ -191,16 +273,22 @@ void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& grou
     for (std::size_t begin = 0; begin < groups.size(); begin += together) {
         const std::size_t count = std::min(together, groups.size() - begin);
         std::vector<std::unique_ptr<Cutter>> cutters(count);
-        parallel_for(
-            count,
-            [&](std::size_t i) { cutters[i] = std::make_unique<Cutter>(soup, groups[begin + i], nodes); },
-            few);
-        for (auto& cutter : cutters) cutter->name_vertices(nodes);
-        std::vector<std::vector<Arrangement::Piece>> of_each(count);
-        std::vector<Cutter::Sides> sides_of_each(count);
+        std::vector<Pieces> of_each(count);
+        std::vector<SideList> sides_of_each(count);
         parallel_for(
             count,
             [&](std::size_t i) {
+                const PlaneGroup& group = groups[begin + i];
+                if (!QuickCutter(soup, group, nodes).run(of_each[i], sides_of_each[i]))
+                    cutters[i] = std::make_unique<Cutter>(soup, group, nodes);
+            },
+            few);
+        for (auto& cutter : cutters)
+            if (cutter) cutter->name_vertices(nodes);
+        parallel_for(
+            count,
+            [&](std::size_t i) {
+                if (!cutters[i]) return;
                 cutters[i]->finish(of_each[i], sides_of_each[i]);
                 cutters[i].reset();
             },

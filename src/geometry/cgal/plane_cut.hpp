@@ -7,7 +7,9 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <bit>
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <mutex>
 #include <unordered_map>
 #include <vector>
 
@@ -15,12 +17,18 @@ namespace facetmill {
 
 using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 
-/// Given points, then points that were made.
+/// Where the side from one point to another passes through the plane of a triangle.
+struct SideCrossing {
+    Index low = none, high = none, triangle = none;
+};
+
+/// Given points, then points that were made. Of those where sides cross triangles the exact point is made
+/// when it is asked for: for most, all is decided by their doubles.
 class ExactNodes {
   public:
     using Point = ExactKernel::Point_3;
 
-    explicit ExactNodes(const std::vector<Vec3>& points) : points_(points) {}
+    explicit ExactNodes(const TriangleSoup& soup) : soup_(soup), points_(soup.points) {}
 
     /// From now on a made point at the place of this one is this one.
     void know(Index point) {
@@ -31,21 +39,37 @@ class ExactNodes {
     }
     /// Where p is, rounded: of a lazy number alone, its double depends on what was asked before.
     static Vec3 place_of(const Point& p) { return {nearest(p.x()), nearest(p.y()), nearest(p.z())}; }
-    Index find_or_add(const Point& p) { return find_or_add(p, place_of(p)); }
-    Index find_or_add(const Point& p, const Vec3& place) {
+    Index find_or_add(const Point& p) { return find_or_add({}, p, place_of(p)); }
+    /// The point of a crossing, which need not have been made, at its place.
+    Index find_or_add(const SideCrossing& crossing, std::optional<Point> p, const Vec3& place) {
         auto& here = at_place_[hash(place)];
-        for (const Index other : here)
-            if (rounded(other) == place && at(other) == p) return other;
+        for (const Index other : here) {
+            if (rounded(other) != place) continue;
+            if (!p) p = point_of(crossing);
+            if (at(other) == *p) return other;
+        }
         const auto node = static_cast<Index>(size());
-        made_.push_back(p);
+        made_.emplace_back(crossing, std::move(p));
         rounded_.push_back(place);
         here.push_back(node);
         return node;
     }
+    Point point_of(const SideCrossing& crossing) const {
+        const Point p = at(crossing.low), q = at(crossing.high);
+        const auto& corner = soup_.triangles[crossing.triangle];
+        const Point o = at(corner[0]);
+        const auto normal = CGAL::cross_product(at(corner[1]) - o, at(corner[2]) - o);
+        const ExactKernel::FT above = normal * (p - o), below = normal * (q - o);
+        return p + (above / (above - below)) * (q - p);
+    }
+    /// What a node was made as; nothing of given points and others.
+    SideCrossing crossing_of(Index node) const {
+        return node < points_.size() ? SideCrossing{} : made_[node - points_.size()].crossing;
+    }
 
     std::size_t size() const { return points_.size() + made_.size(); }
     Point at(Index node) const {
-        if (node >= points_.size()) return made_[node - points_.size()];
+        if (node >= points_.size()) return point_of(made_[node - points_.size()]);
         const Vec3& p = points_[node];
         return {p.x, p.y, p.z};
     }
@@ -54,6 +78,19 @@ class ExactNodes {
     }
 
   private:
+    struct Made {
+        Made(const SideCrossing& of, std::optional<Point> p) : crossing(of), point(std::move(p)) {}
+        SideCrossing crossing;
+        mutable std::once_flag once; // asked for by several threads
+        mutable std::optional<Point> point;
+    };
+    const Point& point_of(const Made& made) const {
+        std::call_once(made.once, [&] {
+            if (!made.point) made.point = point_of(made.crossing);
+        });
+        return *made.point;
+    }
+
     static double nearest(const ExactKernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); }
 
     static std::uint64_t hash(const Vec3& p) {
@@ -65,8 +102,9 @@ class ExactNodes {
         return h;
     }
 
+    const TriangleSoup& soup_;
     const std::vector<Vec3>& points_;
-    std::vector<Point> made_;
+    std::deque<Made> made_;
     std::vector<Vec3> rounded_; ///< of made_
     std::unordered_map<std::uint64_t, std::vector<Index>> at_place_;
 };
@@ -82,7 +120,8 @@ struct PlaneGroup {
 using SidesOfNodes = std::map<std::pair<Index, Index>, int>;
 
 /// Appends the pieces, group by group, by constrained triangulations with exact intersections, whose points
-/// become nodes. Parallel; the same for the same input.
+/// become nodes. One triangle is cut by floating point alone where that is sure to come to the same pieces
+/// (geometry/polygon/certain_delaunay.hpp). Parallel; the same for the same input.
 void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& groups, ExactNodes& nodes,
                    std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides);
 

@@ -10,9 +10,9 @@ namespace facetmill {
 
 namespace {
 
-class FaceCutter {
+class FaceSetCutter {
   public:
-    FaceCutter(const Mesh& mesh, std::size_t most)
+    FaceSetCutter(const Mesh& mesh, std::size_t most)
         : most_(most), centres_(mesh.face_count()), order_(mesh.face_count()) {
         parallel_for(centres_.size(), [&](std::size_t f) {
             const Index begin = mesh.face_begin(static_cast<Index>(f)),
@@ -85,6 +85,6 @@ class FaceCutter {
 
 } // namespace
 
-FaceCuts cut_faces(const Mesh& mesh, std::size_t most) { return FaceCutter(mesh, most).run(); }
+FaceCuts cut_faces(const Mesh& mesh, std::size_t most) { return FaceSetCutter(mesh, most).run(); }
 
 } // namespace facetmill

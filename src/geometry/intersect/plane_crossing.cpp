@@ -1,0 +1,110 @@
+// Numbers of two doubles (T. J. Dekker, "A floating-point technique for extending the available precision",
+// 1971), with bounds of the error beside them.
+#include "geometry/intersect/plane_crossing.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace facetmill {
+
+namespace {
+
+/// high + low, low at most half a unit in the last place of high. Of each operation below but `difference`,
+/// which is exact, the result is off by less than 2^-100 of the sum of the sizes of what it adds, or of the
+/// product or quotient.
+struct Twofold {
+    double high = 0, low = 0;
+};
+
+Twofold joined(double large, double small) {
+    const double sum = large + small;
+    return {sum, small - (sum - large)};
+}
+
+Twofold sum_of(double a, double b) {
+    const double sum = a + b, part = sum - a;
+    return {sum, (a - (sum - part)) + (b - part)};
+}
+
+Twofold difference(double a, double b) { return sum_of(a, -b); }
+
+Twofold operator-(const Twofold& a) { return {-a.high, -a.low}; }
+
+Twofold operator+(const Twofold& a, const Twofold& b) {
+    const Twofold s = sum_of(a.high, b.high), t = sum_of(a.low, b.low);
+    const Twofold u = joined(s.high, s.low + t.high);
+    return joined(u.high, u.low + t.low);
+}
+
+Twofold operator-(const Twofold& a, const Twofold& b) { return a + -b; }
+
+Twofold operator*(const Twofold& a, const Twofold& b) {
+    const double product = a.high * b.high, rest = std::fma(a.high, b.high, -product);
+    return joined(product, rest + (a.high * b.low + a.low * b.high));
+}
+
+Twofold operator/(const Twofold& a, const Twofold& b) {
+    const double first = a.high / b.high;
+    const Twofold rest = a - b * Twofold{first};
+    const double second = rest.high / b.high;
+    const Twofold last = rest - b * Twofold{second};
+    return joined(first, second) + Twofold{last.high / b.high};
+}
+
+using Twofolds = std::array<Twofold, 3>;
+
+Twofolds from_to(const Vec3& a, const Vec3& b) {
+    return {difference(b.x, a.x), difference(b.y, a.y), difference(b.z, a.z)};
+}
+
+double largest(const Twofolds& v) {
+    return std::max({std::abs(v[0].high), std::abs(v[1].high), std::abs(v[2].high)});
+}
+
+Twofold product_of(const Twofolds& a, const Twofolds& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Rounded towards zero, when all within the error of x is rounded to the same.
+std::optional<double> towards_zero(const Twofold& x, double error) {
+    const double size = std::abs(x.high);
+    // Then neither end is beyond the next double on either side.
+    if (!(size > 1e-100 && error < size * 0x1p-60 && std::abs(x.low) > error)) return {};
+    if ((x.low > 0) == (x.high > 0)) return x.high;
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x.high) - 1);
+}
+
+} // namespace
+
+std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle) {
+    const auto& [a, b, c] = triangle;
+    const Twofolds u = from_to(a, b), v = from_to(a, c), to_p = from_to(a, p), to_q = from_to(a, q);
+    const double most_u = largest(u), most_v = largest(v), most_w = std::max(largest(to_p), largest(to_q));
+    for (const double most :
+         {most_u, most_v, most_w}) // no product overflows, nor underflows where it matters
+        if (!(most > 1e-50 && most < 1e50)) return {};
+    const Twofolds normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const Twofold above = product_of(normal, to_p), below = product_of(normal, to_q);
+    // Each of the three of the normal is off by 6 * 2^-100 of the sizes, so the product is by 42 * 2^-100.
+    const double error = 0x1p-94 * most_u * most_v * most_w;
+    if (!(std::abs(above.high) > 8 * error && std::abs(below.high) > 8 * error)) return {};
+    if ((above.high > 0) == (below.high > 0)) return {};
+    // Both have the same sign in this difference: the quotient is between 0 and 1.
+    const Twofold whole = above - below, part = above / whole;
+    const double error_of_part = 4 * error / std::abs(whole.high) + 0x1p-98;
+    Vec3 place;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (p[k] == q[k]) {
+            place[k] = p[k] + 0.0; // of zero the positive one
+            continue;
+        }
+        const Twofold way = difference(q[k], p[k]);
+        const double off = std::abs(way.high) * (error_of_part + 0x1p-98) + std::abs(p[k]) * 0x1p-98;
+        const auto rounded = towards_zero(Twofold{p[k]} + part * way, 2 * off);
+        if (!rounded) return {};
+        place[k] = *rounded;
+    }
+    return place;
+}
+
+} // namespace facetmill

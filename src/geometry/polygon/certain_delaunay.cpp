@@ -1,0 +1,164 @@
+// Triangles are wrapped from edge to edge; that they are those of the constrained Delaunay triangulation (D.
+// T. Lee and A. K. Lin, "Generalized Delaunay triangulation for planar graphs", 1986) is proved afterwards.
+#include "geometry/polygon/certain_delaunay.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facetmill::polygon {
+
+namespace {
+
+constexpr std::size_t most_points = 24;
+constexpr double unit = 0x1p-52;
+
+class CertainDelaunay {
+  public:
+    explicit CertainDelaunay(const CutTriangle& cut) : cut_(cut), count_(cut.points.size()) {}
+
+    std::optional<std::vector<std::array<Index, 3>>> run() {
+        if (count_ > most_points || !in_range() || !mark_sides()) return {};
+        for (const auto& [a, b] : cut_.lines)
+            if (!(cut_.sides[a] & cut_.sides[b])) lines_.push_back({a, b});
+        for (const auto& [a, b] : lines_) fixed_[a][b] = fixed_[b][a] = 1;
+        if (!wrap() || !is_proved()) return {};
+        return std::move(triangles_);
+    }
+
+  private:
+    const Vec2& at(Index i) const { return cut_.points[i]; }
+
+    bool in_range() {
+        for (const Vec2& p : cut_.points) most_ = std::max({most_, std::abs(p.x), std::abs(p.y)});
+        off_ = most_ * unit;
+        return most_ > 1e-60 && most_ < 1e60; // so that no product overflows, nor underflows where it matters
+    }
+
+    /// The edges along the sides: the points there in their order, which is sure.
+    bool mark_sides() {
+        for (Index k = 0; k < 3; ++k) {
+            const Index from = k, to = (k + 1) % 3;
+            const Vec2 way = at(to) - at(from);
+            const bool by_x = std::abs(way.x) >= std::abs(way.y);
+            const double sign = (by_x ? way.x : way.y) > 0 ? 1 : -1;
+            const auto place = [&](Index i) { return sign * (by_x ? at(i).x : at(i).y); };
+            std::vector<Index> along;
+            for (Index i = 0; i < count_; ++i)
+                if (cut_.sides[i] >> k & 1) along.push_back(i);
+            std::sort(along.begin(), along.end(), [&](Index i, Index j) { return place(i) < place(j); });
+            if (along.size() < 2 || along.front() != from || along.back() != to) return false;
+            for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+                if (!(place(along[i + 1]) - place(along[i]) > 8 * off_)) return false;
+                border_[along[i]][along[i + 1]] = 1;
+                border_edges_.push_back({along[i], along[i + 1]});
+            }
+        }
+        return true;
+    }
+
+    /// A determinant of points, and the size of what it was made from.
+    struct Sized {
+        double det, size;
+    };
+    static double size_of(std::initializer_list<double> differences) {
+        double size = 0;
+        for (const double d : differences) size = std::max(size, std::abs(d));
+        return size;
+    }
+    Sized turn(Index a, Index b, Index c) const {
+        const Vec2 u = at(b) - at(a), v = at(c) - at(a);
+        return {u.x * v.y - u.y * v.x, size_of({u.x, u.y, v.x, v.y})};
+    }
+    /// Positive with d in the circle of a, b, c, which turn left.
+    Sized circle(Index a, Index b, Index c, Index d) const {
+        const Vec2 u = at(a) - at(d), v = at(b) - at(d), w = at(c) - at(d);
+        return {dot(u, u) * cross(v, w) + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v),
+                size_of({u.x, u.y, v.x, v.y, w.x, w.y})};
+    }
+    /// A difference of coordinates is wrong by at most d = 2 off + unit / 2 * size: by both ends and by
+    /// rounding. Then a product of two is by at most 2 size d + d^2, a turn by 10 size d, and the three
+    /// products of a circle, whose factors are up to 2 size^2 and wrong by 10 and 12 size d, by 174 size^3 d,
+    /// all roundings counted. (Where d is not small beside the size, the bounds exceed any determinant.)
+    double error(double size) const { return 2 * off_ + unit * size; }
+    bool turns_left(Index a, Index b, Index c) const {
+        const auto [det, size] = turn(a, b, c);
+        return det > 16 * size * error(size);
+    }
+    bool is_outside(Index a, Index b, Index c, Index d) const {
+        const auto [det, size] = circle(a, b, c, d);
+        return det < -256 * size * size * size * error(size);
+    }
+
+    // --- finding triangles: nothing here has to be sure
+
+    bool is_crossed(Index p, Index q) const {
+        return std::any_of(lines_.begin(), lines_.end(), [&](const auto& line) {
+            const auto& [u, v] = line;
+            if (u == p || u == q || v == p || v == q) return false;
+            return turn(p, q, u).det * turn(p, q, v).det < 0 && turn(u, v, p).det * turn(u, v, q).det < 0;
+        });
+    }
+    Index apex_of(Index a, Index b) const {
+        Index best = none;
+        for (Index c = 0; c < count_; ++c) {
+            if (c == a || c == b || (cut_.sides[a] & cut_.sides[b] & cut_.sides[c])) continue;
+            if (!(turn(a, b, c).det > 0) || is_crossed(a, c) || is_crossed(b, c)) continue;
+            if (best == none || circle(a, b, best, c).det > 0) best = c;
+        }
+        return best;
+    }
+    bool wrap() {
+        for (auto& row : across_) row.fill(none);
+        std::vector<std::array<Index, 2>> open = border_edges_;
+        while (!open.empty()) {
+            const auto [a, b] = open.back();
+            open.pop_back();
+            if (across_[a][b] != none) continue;
+            const Index c = apex_of(a, b);
+            if (c == none || across_[b][c] != none || across_[c][a] != none) return false;
+            across_[a][b] = c;
+            across_[b][c] = a;
+            across_[c][a] = b;
+            triangles_.push_back({a, b, c});
+            if (!border_[b][c]) open.push_back({c, b});
+            if (!border_[c][a]) open.push_back({a, c});
+        }
+        return true;
+    }
+
+    // --- and proving them
+
+    bool is_proved() const {
+        if (triangles_.size() + border_edges_.size() + 2 != 2 * count_) return false; // all points are used
+        for (const auto& [a, b] : lines_)
+            if (across_[a][b] == none || across_[b][a] == none) return false;
+        for (const auto& [a, b, c] : triangles_)
+            if (!turns_left(a, b, c)) return false;
+        for (Index a = 0; a < count_; ++a)
+            for (Index b = 0; b < count_; ++b) {
+                if (across_[a][b] == none || border_[a][b]) continue;
+                if (across_[b][a] == none || border_[b][a]) return false;
+                if (a < b && !fixed_[a][b] && !is_outside(a, b, across_[a][b], across_[b][a])) return false;
+            }
+        return true;
+    }
+
+    template <class T>
+    using Matrix = std::array<std::array<T, most_points>, most_points>;
+
+    const CutTriangle& cut_;
+    std::size_t count_;
+    double most_ = 0, off_ = 0; ///< the largest coordinate, and how wrong any may be
+    std::vector<std::array<Index, 2>> lines_, border_edges_;
+    Matrix<std::uint8_t> fixed_{}, border_{}; ///< by ends: a line; an edge along a side, inside on its left
+    Matrix<Index> across_{};                  ///< the corner left of an edge
+    std::vector<std::array<Index, 3>> triangles_;
+};
+
+} // namespace
+
+std::optional<std::vector<std::array<Index, 3>>> certain_delaunay(const CutTriangle& cut) {
+    return CertainDelaunay(cut).run();
+}
+
+} // namespace facetmill::polygon

@@ -1,0 +1,82 @@
+#include "support/catch.hpp"
+
+#include "base/random.hpp"
+#include "geometry/intersect/plane_crossing.hpp"
+
+#include <gmpxx.h>
+
+using namespace facetmill;
+
+namespace {
+
+using Exact = std::array<mpq_class, 3>;
+
+Exact from_to(const Vec3& a, const Vec3& b) {
+    Exact d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = mpq_class(b[k]) - mpq_class(a[k]);
+    return d;
+}
+
+mpq_class product_of(const Exact& a, const Exact& b) {
+    return mpq_class(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+/// How far p is above the plane, times something positive.
+mpq_class above(const Vec3& p, const std::array<Vec3, 3>& t) {
+    const Exact u = from_to(t[0], t[1]), v = from_to(t[0], t[2]);
+    const Exact normal{mpq_class(u[1] * v[2] - u[2] * v[1]), mpq_class(u[2] * v[0] - u[0] * v[2]),
+                       mpq_class(u[0] * v[1] - u[1] * v[0])};
+    return product_of(normal, from_to(t[0], p));
+}
+
+Vec3 exact_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
+    const mpq_class part = above(p, t) / (above(p, t) - above(q, t));
+    Vec3 place;
+    for (std::size_t k = 0; k < 3; ++k)
+        place[k] = mpq_class(mpq_class(p[k]) + part * (mpq_class(q[k]) - mpq_class(p[k]))).get_d();
+    return place;
+}
+
+/// In [-1, 1] around a point, of `bits` bits.
+Vec3 random_point(std::uint64_t seed, std::uint64_t number, const Vec3& middle, int bits) {
+    const auto x = [&](std::uint64_t k) {
+        const auto whole = static_cast<double>(hashed(seed, 3 * number + k) >> (64 - bits));
+        return std::ldexp(whole, 1 - bits) - 1;
+    };
+    return middle + Vec3{x(0), x(1), x(2)};
+}
+
+} // namespace
+
+TEST_CASE("the place of a crossing is the exact one, rounded towards zero", "[geometry]") {
+    std::size_t crossings = 0, told = 0, wrong = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+        const Vec3 middle = seed % 3 == 0 ? Vec3{} : seed % 3 == 1 ? Vec3{3, -40, 0.1} : Vec3{1e6, 2e6, -1e7};
+        const int bits = seed % 2 == 0 ? 52 : 24;
+        std::array<Vec3, 5> p;
+        for (std::uint64_t i = 0; i < 5; ++i) p[i] = random_point(seed, i, middle, bits);
+        const std::array triangle{p[2], p[3], p[4]};
+        const auto place = plane_crossing(p[0], p[1], triangle);
+        const bool crosses = sgn(above(p[0], triangle)) * sgn(above(p[1], triangle)) < 0;
+        crossings += crosses;
+        if (!place) continue;
+        ++told;
+        wrong += !crosses || *place != exact_crossing(p[0], p[1], triangle);
+    }
+    CHECK(wrong == 0);
+    CHECK(crossings > 1000);
+    CHECK(told + 5 > crossings); // nearly always
+}
+
+TEST_CASE("a crossing at a double, or that may be none, is not told", "[geometry]") {
+    const std::array triangle{Vec3{0, 0, 0.5}, Vec3{1, 0, 0.5}, Vec3{0, 1, 0.5}};
+    CHECK(!plane_crossing({0.1, 0.1, 0}, {0.2, 0.3, 1}, triangle)); // at exactly 0.5
+    CHECK(!plane_crossing({0.1, 0.1, 0}, {0.2, 0.3, 0.25}, triangle));
+    CHECK(!plane_crossing({0.1, 0.1, 0}, {0.2, 0.3, 0.5}, triangle));
+    CHECK(!plane_crossing({1e300, 0, 0}, {0.2, 0.3, 1}, triangle));
+    const std::array leaning{Vec3{0, 0, 0.1}, Vec3{1, 0, 0.2}, Vec3{0, 1, 0.3}};
+    const auto upright = plane_crossing({0.3, -0.0, -1}, {0.3, -0.0, 1}, leaning);
+    REQUIRE(upright);
+    CHECK(upright->x == 0.3);
+    CHECK(!std::signbit(upright->y));
+}
