@@ -1,6 +1,8 @@
 #include "support/catch.hpp"
 
+#include "base/parallel.hpp"
 #include "mesh/invariants.hpp"
+#include "mesh/places.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/topology.hpp"
 
@@ -122,6 +124,29 @@ TEST_CASE("weld_exact joins vertices in the order of their first occurrence", "[
     CHECK(soup.corners[0] == 0);
     for (Index c = 0; c < 36; ++c) CHECK(soup.point(c) == cube.point(c));
     CHECK(weld_exact(soup) == 0);
+}
+
+TEST_CASE("number_places counts by first occurrence, for any number of threads and any guess", "[mesh]") {
+    // 30,000 places in an order of their own, then all of them again and again.
+    const std::size_t places = 30000;
+    const auto place_of = [&](std::size_t i) { return i < places ? i : i * 7919 % places; };
+    const auto point = [&](std::size_t i) {
+        const auto k = static_cast<std::uint32_t>(place_of(i));
+        return FloatBits{k, k / 2, 7};
+    };
+    for (const int count : {1, 2, 3})
+        for (const std::size_t guess : {std::size_t{1}, places}) {
+            set_threads(count);
+            std::vector<Index> number(5 * places), first(places);
+            const auto found = number_places(
+                number, guess, point, [&](std::size_t n) { return n == places; },
+                [&](Index place, std::size_t i) { first[place] = static_cast<Index>(i); });
+            bool same = found == places;
+            for (std::size_t i = 0; i < number.size(); ++i) same &= number[i] == place_of(i);
+            for (std::size_t i = 0; i < places; ++i) same &= first[i] == i;
+            CHECK(same);
+        }
+    set_threads(0);
 }
 
 TEST_CASE("weld_exact keeps wedges with attributes apart", "[mesh]") {

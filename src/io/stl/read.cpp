@@ -4,8 +4,11 @@
 #include "base/progress.hpp"
 #include "base/spelling.hpp"
 #include "io/text.hpp"
+#include "mesh/invariants.hpp"
+#include "mesh/places.hpp"
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
@@ -46,6 +49,86 @@ void check_count(const Input& input, const ReadSettings& settings, std::size_t v
         beyond_limit(input.name(), fmt::format("{} triangles are more than can be held", vertices / 3));
 }
 
+/// The triangles of a binary file as they lie in it.
+class Records {
+  public:
+    explicit Records(Span bytes) : bytes_(bytes) {}
+
+    std::size_t size() const { return bytes_.size() / record; }
+    /// Corner c of all; the normal in front of a triangle's is passed by.
+    std::array<float, 3> corner(std::size_t c) const {
+        return at<std::array<float, 3>>(c / 3 * record + 12 * (c % 3 + 1));
+    }
+    /// The same as number_places() compares it.
+    FloatBits operator()(std::size_t c) const {
+        auto bits = std::bit_cast<FloatBits>(corner(c));
+        for (std::uint32_t& b : bits)
+            if (b == 0x80000000) b = 0;
+        return bits;
+    }
+    /// The two bytes behind triangle t.
+    std::uint16_t extra(std::size_t t) const { return at<std::uint16_t>(t * record + record - 2); }
+
+  private:
+    template <class T>
+    T at(std::size_t offset) const {
+        T t;
+        std::memcpy(&t, bytes_.data() + offset, sizeof t);
+        return t;
+    }
+
+    Span bytes_;
+};
+
+/// One vertex for each place, without a list of all corners in doubles before.
+void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& settings) {
+    const std::size_t corners = 3 * records.size();
+    mesh.corners.resize(corners);
+    const auto put = [&](std::size_t place, std::size_t c) {
+        const auto p = records.corner(c);
+        mesh.positions[place] = {p[0], p[1], p[2]};
+    };
+    if (settings.weld == Weld::off) {
+        mesh.positions.resize(corners);
+        std::iota(mesh.corners.begin(), mesh.corners.end(), Index{0});
+        parallel_for(corners, [&](std::size_t c) { put(c, c); });
+        return;
+    }
+    const std::size_t expected = records.size() / 2; // of a closed surface
+    number_places(
+        mesh.corners, expected, records,
+        [&](std::size_t places) {
+            mesh.positions.resize(places);
+            return true;
+        },
+        put);
+}
+
+void refuse_not_finite(const Mesh& mesh, const std::string& name) {
+    const std::size_t bad = first_not_finite(mesh.positions); // places are in the order of the corners
+    if (bad == mesh.positions.size()) return;
+    const auto c = static_cast<std::size_t>(std::find(mesh.corners.begin(), mesh.corners.end(), bad) -
+                                            mesh.corners.begin());
+    const Vec3& p = mesh.positions[bad];
+    malformed(name, 0, "E-NAN",
+              fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected finite numbers",
+                          c / 3, head + c / 3 * record, p.x, p.y, p.z));
+}
+
+/// What files with colours have behind their triangles; most have zeros.
+void add_attribute_bytes(Mesh& mesh, const Records& records) {
+    std::atomic<bool> any = false;
+    parallel_chunks(records.size(), [&](std::size_t begin, std::size_t end) {
+        std::uint16_t all = 0;
+        for (std::size_t t = begin; t < end; ++t) all |= records.extra(t);
+        if (all != 0) any = true;
+    });
+    if (!any) return;
+    std::vector<std::uint16_t> extra(records.size());
+    parallel_for(extra.size(), [&](std::size_t t) { extra[t] = records.extra(t); });
+    mesh.attributes.push_back({"attribute", Domain::face, Role::index, 1, false, std::move(extra)});
+}
+
 Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log) {
     const Span bytes = input.bytes();
     if (bytes.size() < head)
@@ -65,30 +148,10 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                                 file_mark(input.name()), ""});
     check_count(input, settings, 3 * n);
     Part part;
-    part.mesh.positions.resize(3 * n);
-    std::vector<std::uint16_t> extra(n);
-    ShareOfSteps steps({1, 4});
-    Share::loop_tells();
-    parallel_for(n, [&](std::size_t t) {
-        const std::byte* at = bytes.data() + head + t * record;
-        std::array<float, 12> numbers; // the normal, then three corners
-        std::memcpy(numbers.data(), at, sizeof numbers);
-        std::memcpy(&extra[t], at + sizeof numbers, sizeof extra[t]);
-        for (std::size_t k = 0; k < 3; ++k)
-            part.mesh.positions[3 * t + k] = {numbers[3 * k + 3], numbers[3 * k + 4], numbers[3 * k + 5]};
-    });
-    const auto bad = std::find_if(part.mesh.positions.begin(), part.mesh.positions.end(),
-                                  [](const Vec3& p) { return !is_finite(p); });
-    if (bad != part.mesh.positions.end()) {
-        const auto t = static_cast<std::size_t>(bad - part.mesh.positions.begin()) / 3;
-        malformed(input.name(), 0, "E-NAN",
-                  fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected finite numbers",
-                              t, head + t * record, bad->x, bad->y, bad->z));
-    }
-    steps.next();
-    index_by_position(part.mesh, settings);
-    if (std::any_of(extra.begin(), extra.end(), [](std::uint16_t x) { return x != 0; }))
-        part.mesh.attributes.push_back({"attribute", Domain::face, Role::index, 1, false, std::move(extra)});
+    const Records records(bytes.subspan(head, n * record));
+    add_attribute_bytes(part.mesh, records);
+    add_triangles(part.mesh, records, settings);
+    refuse_not_finite(part.mesh, input.name());
     return part;
 }
 
