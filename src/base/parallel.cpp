@@ -55,8 +55,11 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
         if (n > 0) call(body, 0, n);
         return;
     }
+    // An error in a loop around this one does not end this one early, or its caller would go on with what
+    // only some chunks have made.
+    tbb::task_group_context whole(tbb::task_group_context::isolated);
     const auto run = [&](auto&& one) {
-        tbb::parallel_for(std::size_t{0}, chunks, one, tbb::simple_partitioner{});
+        tbb::parallel_for(std::size_t{0}, chunks, one, tbb::simple_partitioner{}, whole);
     };
     const auto work = [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); };
     const Share::Place place = Share::of_loop();

@@ -3,6 +3,9 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <thread>
 
 using namespace facetmill;
 
@@ -27,4 +30,30 @@ TEST_CASE("items are sorted by their keys, equal ones in their order, however ma
                 items, [](const Item& i) { return i.key; }, bits);
             CHECK(items == expected);
         }
+}
+
+TEST_CASE("an error ends its loop, and no loop inside of another chunk", "[base]") {
+    constexpr std::size_t chunks = 4, inner = 200;
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        std::atomic<std::size_t> begun{0}, cut_short{0};
+        std::atomic<bool> thrown{false};
+        const auto body = [&](std::size_t i) {
+            if (begun++ == 0) { // once another chunk has begun, where there is a thread for it
+                for (int wait = 0; wait < 1000 && begun < 2; ++wait) std::this_thread::yield();
+                thrown = true;
+                throw std::runtime_error(std::to_string(i));
+            }
+            std::atomic<std::size_t> done{0};
+            parallel_for(
+                inner,
+                [&](std::size_t) {
+                    for (int wait = 0; wait < 1000 && !thrown; ++wait) std::this_thread::yield();
+                    ++done;
+                },
+                1);
+            cut_short += done != inner;
+        };
+        CHECK_THROWS_AS(parallel_for(chunks, body, 1), std::runtime_error);
+        CHECK(cut_short == 0);
+    }
 }
