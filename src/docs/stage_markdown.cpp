@@ -58,11 +58,11 @@ std::string stages_markdown() {
         if (!s.options->shorthand_help.empty())
             text += fmt::format("\nA bare value: {}\n", s.options->shorthand_help);
         const auto options = rows(*s.options);
-        if (!options.empty()) text += "\n| option | type | default | |\n|---|---|---|---|\n";
+        if (!options.empty()) text += "\n| option | type | default | what it does |\n|---|---|---|---|\n";
         for (const auto& row : options) text += option_row(row);
         for (const auto& rule : rules(*s.options)) text += fmt::format("\nGiven: {}.\n", rule);
         for (const auto& help : spelling_helps(options)) text += fmt::format("\n{}\n", help);
-        if (!s.result->all.empty()) text += "\n| result | type | |\n|---|---|---|\n";
+        if (!s.result->all.empty()) text += "\n| result | type | what it is |\n|---|---|---|\n";
         for (const auto& row : rows(*s.result)) text += field_row(row);
         if (s.examples.empty()) continue;
         text += "\n```yaml\n";

@@ -83,7 +83,8 @@ class Site:
             pictures = sorted((self.pages / "stages").glob(f"{name}-[0-9].png"))
             if pictures:
                 cells = " | ".join(f"![{name}](stages/{picture.name})" for picture in pictures)
-                text += f"\n## [{name}](stages/{name}.md)\n\n|{' |' * len(pictures)}\n|{'---|' * len(pictures)}\n| {cells} |\n"
+                heads = " | ".join(("before", "after")[-len(pictures):])
+                text += f"\n## [{name}](stages/{name}.md)\n\n| {heads} |\n|{'---|' * len(pictures)}\n| {cells} |\n"
         (self.pages / "gallery.md").write_text(text)
         self.titles["gallery.md"] = "Gallery"
 
@@ -94,6 +95,8 @@ class Site:
         for name in PAGES:
             self.put(f"{name}.md", (SOURCE / "docs" / f"{name}.md").read_text())
         shutil.copytree(SOURCE / "docs/figures", self.pages / "figures")
+        for name in ("site.css", "site.js"):
+            shutil.copy(HERE / name, self.pages)
         stages = self.stage_pages()
         self.gallery([pathlib.PurePath(page).stem for page in stages[1:]])
         self.put("messages.md", self.run("explain", "--markdown"))
