@@ -258,8 +258,12 @@ void add_primitive(Merge& merge, const Place& primitive) {
     merge.need((sizeof(Index) + sizeof(Index) / 3.0) * static_cast<double>(indices.size()));
     const Index first = static_cast<Index>(merge.blocks[b].first);
     const std::size_t before = mesh.corners.size();
-    mesh.corners.resize(before + indices.size());
-    parallel_for(indices.size(), [&](std::size_t i) { mesh.corners[before + i] = first + indices[i]; });
+    if (before == 0 && first == 0) {
+        mesh.corners = std::move(indices);
+    } else {
+        mesh.corners.resize(before + indices.size());
+        parallel_for(indices.size(), [&](std::size_t i) { mesh.corners[before + i] = first + indices[i]; });
+    }
     merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }
@@ -310,10 +314,16 @@ void copy_into(Attribute& to, const Attribute& from, std::size_t first) {
 
 void join_blocks(Merge& merge) {
     Mesh& mesh = merge.out.mesh;
-    for (const auto& block : merge.blocks) {
-        mesh.positions.insert(mesh.positions.end(), block.positions.begin(), block.positions.end());
-        for (const auto& a : block.attributes) common_attribute(mesh, a);
+    if (merge.blocks.size() == 1) { // as most are: nothing to copy
+        mesh.positions = std::move(merge.blocks.front().positions);
+    } else {
+        for (auto& block : merge.blocks) {
+            mesh.positions.insert(mesh.positions.end(), block.positions.begin(), block.positions.end());
+            std::vector<Vec3>().swap(block.positions);
+        }
     }
+    for (const auto& block : merge.blocks)
+        for (const auto& a : block.attributes) common_attribute(mesh, a);
     for (auto& a : mesh.attributes) {
         std::visit([&](auto& v) { v.resize(merge.wedges * static_cast<std::size_t>(a.components)); }, a.data);
         for (const auto& block : merge.blocks)
