@@ -198,6 +198,24 @@ void refuse_without_faces(const Json& document, const std::string& name) {
                     lines ? hint_for_lines : "");
 }
 
+/// Says of a document without triangles whose points are the scene that its lines are not in it.
+void warn_of_lines_beside_points(const Json& document, const std::vector<NodeFrame>& frames, ReadLog& log) {
+    std::size_t count = 0;
+    for (const NodeFrame& frame : frames) {
+        if (frame.mesh < 0) continue;
+        const Place primitives =
+            item(document, "meshes", static_cast<std::size_t>(frame.mesh)).at("primitives");
+        for (std::size_t i = 0; i < primitives.size(); ++i) count += makes_lines(primitives.at(i));
+    }
+    if (count > 0)
+        log.warnings.push_back(
+            {Severity::warning,
+             "W-SKIPPED",
+             counted(count, "primitive") + " of lines beside points cannot be kept: skipped",
+             {},
+             hint_for_lines});
+}
+
 Chunks chunks_of(const Input& input) {
     if (is_glb(input.bytes())) return split_glb(input.bytes());
     Chunks chunks;
@@ -227,8 +245,10 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     Source source(json, document->buffers);
     read_parts(scene, source, settings, log);
     if (scene.parts.empty() && log.lines.empty()) {
-        scene.parts = decode_points(source, node_frames(json), settings.max_vertices);
+        const auto frames = node_frames(json);
+        scene.parts = decode_points(source, frames, settings.max_vertices);
         if (scene.parts.empty()) refuse_without_faces(json, input.name());
+        warn_of_lines_beside_points(json, frames, log);
         scene.materials.clear(); // of the document, which points do without
         return scene;
     }

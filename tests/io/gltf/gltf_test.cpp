@@ -341,6 +341,29 @@ TEST_CASE("Draco takes meshes and attributes smaller than a millionth", "[io]") 
     }
 }
 
+TEST_CASE("lines beside points are said to be skipped", "[io]") {
+    const auto warnings = [](int mode) {
+        io::ReadLog log;
+        const Scene scene = test::read_text(
+            fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],
+ "nodes":[{{"mesh":0}},{{"mesh":1}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":0}}]}},
+ {{"primitives":[{{"attributes":{{"POSITION":0}},"mode":{}}}]}}],
+ "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
+ "bufferViews":[{{"buffer":0,"byteLength":36}}],
+ "buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
+                        mode),
+            &log);
+        CHECK(scene.parts.size() == (mode == 0 ? 2 : 1));
+        return log.warnings;
+    };
+    CHECK(warnings(0).empty());
+    const auto said = warnings(3);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].id == "W-SKIPPED");
+    CHECK(said[0].message == "1 primitive of lines beside points cannot be kept: skipped");
+    CHECK(said[0].hint == io::hint_for_lines);
+}
+
 TEST_CASE("a node of lines beside parts is named", "[io]") {
     const char* const text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
  "nodes":[{"mesh":0},{"mesh":1},{"mesh":1}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},
