@@ -1,10 +1,9 @@
 #pragma once
-// Points at exactly the same place get one number, in the order of their first occurrence: what welding
-// needs.
+// Points at exactly the same place get one number, in the order of their first occurrence: a weld that needs
+// no list of all points, for STL. weld_exact() sorts them instead, which is faster where few are equal.
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "base/vec.hpp"
 #include "mesh/mesh.hpp"
 
 #include <array>
@@ -16,7 +15,7 @@ namespace facetmill {
 /// The bits of a point's three float32, 0 for -0: equal where the point is, also where it is not a number.
 using FloatBits = std::array<std::uint32_t, 3>;
 
-/// A well-mixed number of the coordinates, the same for -0 and 0 (products of 128 bits folded to 64, after
+/// A well-mixed number of the coordinates (products of 128 bits folded to 64, after
 /// Y. Wang et al., "wyhash", 2019).
 inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     __extension__ using Wide = unsigned __int128;
@@ -26,10 +25,6 @@ inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t 
     };
     constexpr std::uint64_t keys[] = {0xa0761d6478bd642f, 0xe7037ed1a0b428db, 0x8ebc6af09c88c6e3};
     return mixed(mixed(a ^ keys[0], b ^ keys[1]) ^ keys[2], c ^ keys[1]);
-}
-inline std::uint64_t place_hash(const Vec3& p) { // -0 + 0 is 0
-    return place_hash(std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0),
-                      std::bit_cast<std::uint64_t>(p.z + 0.0));
 }
 inline std::uint64_t place_hash(const FloatBits& p) { return place_hash(p[0], p[1], p[2]); }
 
@@ -110,7 +105,7 @@ class PlaceTable {
 };
 
 /// Sets number[i] to the number of the place of point(i), for all i below number.size(): places are numbered
-/// in the order of their first points (-0 is 0; what is not a number is its own place). begin(places) is
+/// in the order of their first points (those that are equal are at one place). begin(places) is
 /// called when their count is known; unless it gives false, first(place, i) is then called for the first
 /// point of each, in parallel. `expected` tells about how many places there are, which saves memory. Returns
 /// the count of places. Same result for any number of threads.
