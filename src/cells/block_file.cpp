@@ -40,7 +40,7 @@ std::uint64_t digest_of(io::Span bytes) {
     throw Error(
         ErrorKind::output, full ? "E-SPACE" : "E-WRITE",
         fmt::format("temporary data cannot be written in '{}': {}", folder.string(), std::strerror(error)),
-        "--scratch DIR names another folder for it");
+        "--scratch DIR names another folder for it, --keep-cells DIR for cells that are kept");
 }
 
 /// A file that has no name, or has lost it.
@@ -106,7 +106,17 @@ BlockFile::BlockFile(const fs::path& folder) : folder_(folder.empty() ? "." : fo
     if (file_ < 0) cannot_write_there(folder_, errno);
 }
 
+BlockFile::BlockFile(const fs::path& file, Named how) : folder_(file) {
+    const int flags = how == Named::anew ? O_RDWR | O_CREAT | O_TRUNC : O_RDONLY;
+    file_ = ::open(file.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file_ < 0) cannot_write_there(folder_, errno);
+}
+
 BlockFile::~BlockFile() { ::close(file_); }
+
+void BlockFile::sync() const {
+    if (!io::synced(file_)) cannot_write_there(folder_, errno);
+}
 
 Block BlockFile::put(io::Span bytes) {
     const Block block{end_.fetch_add(bytes.size()), bytes.size(), digest_of(bytes)};
@@ -114,10 +124,21 @@ Block BlockFile::put(io::Span bytes) {
     return block;
 }
 
+/// False: it is not as it was written.
+bool BlockFile::read(const Block& block, std::byte* to) const {
+    return read_at(file_, block.offset, {to, block.size}) == block.size &&
+           digest_of({to, block.size}) == block.digest;
+}
+
 void BlockFile::get(const Block& block, std::byte* to) const {
-    if (read_at(file_, block.offset, {to, block.size}) < block.size ||
-        digest_of({to, block.size}) != block.digest)
-        unreadable_scratch(folder_);
+    if (!read(block, to)) unreadable_scratch(folder_);
+}
+
+bool BlockFile::is_as_written(const Block& block) const {
+    const off_t end = ::lseek(file_, 0, SEEK_END);
+    if (end < 0 || block.size > static_cast<std::uint64_t>(end)) return false;
+    io::Bytes bytes(block.size);
+    return read(block, bytes.data());
 }
 
 io::Bytes BlockFile::get(const Block& block) const {
@@ -126,8 +147,21 @@ io::Bytes BlockFile::get(const Block& block) const {
     return bytes;
 }
 
-Spool::Spool(const fs::path& folder, std::size_t lists, std::size_t memory) : file_(folder) {
+Spool::Spool(const fs::path& folder, std::size_t lists, std::size_t memory)
+    : file_(std::make_unique<BlockFile>(folder)) {
     open_lists(lists, memory);
+}
+
+Spool::Spool(std::unique_ptr<BlockFile> file, const std::vector<Block>& lists) : file_(std::move(file)) {
+    for (const Block& block : lists) lists_.push_back({{}, {block}, block.size});
+}
+
+Spool Spool::stored(const fs::path& file, const std::vector<std::size_t>& lists, bool sync,
+                    std::vector<Block>& blocks) const {
+    auto to = std::make_unique<BlockFile>(file, BlockFile::Named::anew);
+    for (const std::size_t list : lists) blocks.push_back(to->put(read(list)));
+    if (sync) to->sync();
+    return {std::move(to), blocks};
 }
 
 void Spool::open_lists(std::size_t lists, std::size_t memory) {
@@ -150,7 +184,7 @@ void Spool::add(std::size_t number, io::Span record) {
 }
 
 void Spool::write(List& list) {
-    list.blocks.push_back(file_.put(list.waiting));
+    list.blocks.push_back(file_->put(list.waiting));
     list.waiting.clear();
 }
 
@@ -170,7 +204,7 @@ io::Bytes Spool::read(std::size_t number, std::uint64_t begin, std::uint64_t siz
     for (const Block& block : lists_[number].blocks) {
         const std::uint64_t from = std::max(begin, at), to = std::min(begin + size, at + block.size);
         if (from < to) {
-            const io::Bytes whole = file_.get(block);
+            const io::Bytes whole = file_->get(block);
             const auto part = io::Span(whole).subspan(from - at, to - from);
             bytes.insert(bytes.end(), part.begin(), part.end());
         }

@@ -1,6 +1,6 @@
 #pragma once
 // Temporary data beside memory: blocks of bytes in a file that has no name, so that nothing is left of it
-// however the process ends.
+// however the process ends; or in one with a name, for cells that are kept.
 
 #include "cells/stream.hpp"
 
@@ -42,6 +42,10 @@ class BlockFile {
   public:
     /// Throws output (E-WRITE, E-SPACE) when no file can be made in the folder.
     explicit BlockFile(const std::filesystem::path& folder);
+    enum class Named { anew, as_it_is };
+    /// A file with a name, which stays: an empty one, to be written; or one that is there, to be read. Throws
+    /// output (E-WRITE, E-SPACE).
+    BlockFile(const std::filesystem::path& file, Named how);
     ~BlockFile();
     BlockFile(const BlockFile&) = delete;
     BlockFile& operator=(const BlockFile&) = delete;
@@ -51,9 +55,14 @@ class BlockFile {
     /// Any thread. to: block.size bytes. Throws output (E-SCRATCH) when they are not as they were written.
     void get(const Block& block, std::byte* to) const;
     io::Bytes get(const Block& block) const;
+    /// Whether get would return.
+    bool is_as_written(const Block& block) const;
+    /// Waits until all is on the disk. Throws output (E-WRITE, E-SPACE).
+    void sync() const;
 
   private:
-    std::filesystem::path folder_;
+    bool read(const Block& block, std::byte* to) const;
+    std::filesystem::path folder_; ///< or the file, where it has a name
     int file_ = -1;
     std::atomic<std::uint64_t> end_{0};
 };
@@ -64,6 +73,8 @@ class Spool {
   public:
     /// memory: bytes for what is not written yet, of all lists together.
     Spool(const std::filesystem::path& folder, std::size_t lists, std::size_t memory);
+    /// Lists that a file has, a block each.
+    Spool(std::unique_ptr<BlockFile> file, const std::vector<Block>& lists);
 
     /// Makes so many lists more; memory as above, for all that are not flushed.
     void open_lists(std::size_t lists, std::size_t memory);
@@ -71,11 +82,16 @@ class Spool {
     void add(std::size_t list, io::Span record);
     /// Writes all that is left. Nothing may be added afterwards, but to lists that are made later.
     void flush();
+    std::size_t lists() const { return lists_.size(); }
     std::uint64_t size(std::size_t list) const { return lists_[list].size; }
     /// The list must be flushed.
     io::Bytes read(std::size_t list) const;
     /// A part of it.
     io::Bytes read(std::size_t list, std::uint64_t begin, std::uint64_t size) const;
+    /// These lists, which must be flushed, in a file with a name, in this order; blocks: where they stand
+    /// there. sync: waits until they are on the disk.
+    Spool stored(const std::filesystem::path& file, const std::vector<std::size_t>& lists, bool sync,
+                 std::vector<Block>& blocks) const;
 
   private:
     struct List {
@@ -85,8 +101,8 @@ class Spool {
     };
     void write(List& list);
 
-    BlockFile file_;
-    std::size_t room_; ///< bytes of a list that wait
+    std::unique_ptr<BlockFile> file_;
+    std::size_t room_ = 0; ///< bytes of a list that wait
     std::vector<List> lists_;
 };
 

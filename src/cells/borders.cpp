@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace facetmill::cells {
 
@@ -18,10 +19,10 @@ struct Owned {
     }
 };
 
-/// A key that other leaves have too.
+/// A key that other leaves have too. No byte of it is padding: files that are kept depend on the mesh alone.
 struct Shared {
     std::uint64_t key;
-    std::uint8_t depth;
+    std::uint64_t depth;
 };
 
 template <class T>
@@ -72,6 +73,12 @@ Borders::Borders(const Tree& tree, const std::filesystem::path& scratch, std::ui
     shared_.flush();
 }
 
+void Borders::store(const std::filesystem::path& file, bool sync, std::vector<Block>& blocks) {
+    std::vector<std::size_t> all(shared_.lists());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    shared_ = shared_.stored(file, all, sync, blocks);
+}
+
 std::vector<std::uint8_t> Borders::homes(std::uint32_t leaf, const std::vector<std::uint64_t>& keys) const {
     auto shared = records_of<Shared>(shared_.read(leaf));
     std::sort(shared.begin(), shared.end(), [](const Shared& a, const Shared& b) { return a.key < b.key; });
@@ -79,7 +86,7 @@ std::vector<std::uint8_t> Borders::homes(std::uint32_t leaf, const std::vector<s
     for (std::size_t k = 0; k < keys.size() && !shared.empty(); ++k) {
         const auto at = std::lower_bound(shared.begin(), shared.end(), keys[k],
                                          [](const Shared& s, std::uint64_t key) { return s.key < key; });
-        if (at != shared.end() && at->key == keys[k]) homes[k] = at->depth;
+        if (at != shared.end() && at->key == keys[k]) homes[k] = static_cast<std::uint8_t>(at->depth);
     }
     return homes;
 }

@@ -19,6 +19,12 @@ class Borders {
     Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
             std::uint64_t estimate, const std::function<std::vector<std::uint64_t>(std::uint32_t)>& keys_of);
 
+    /// As they were stored, of so many keys.
+    Borders(std::uint64_t count, Spool shared) : count_(count), shared_(std::move(shared)) {}
+
+    /// Puts what was found into a file with a name, where it is read from then on: see Spool::stored.
+    void store(const std::filesystem::path& file, bool sync, std::vector<Block>& blocks);
+
     std::uint64_t count() const { return count_; } ///< of keys, each once
     /// For keys of the leaf: the depth of the node that all leaves with this key have in common, or inner.
     /// Any thread. Throws output (E-SCRATCH).

@@ -26,12 +26,6 @@ constexpr std::uint64_t slack[] = {1, 2, 4};
 /// ... and for each vertex that is held, since those need faces of their own.
 constexpr std::uint64_t faces_of_held = 3;
 
-/// What was done at a station, and below it.
-struct Done {
-    double error = 0;
-    std::size_t collapses = 0, turned = 0;
-};
-
 std::uint64_t target_of(std::uint64_t faces, const SimplifySettings& settings) {
     std::uint64_t target = faces;
     if (settings.ratio)
@@ -44,13 +38,13 @@ class Hierarchy {
   public:
     Hierarchy(const Partition& partition, const SimplifySettings& settings, const Means& means)
         : partition_(partition), settings_(settings), means_(means), stations_(stations_of(partition)),
-          done_(stations_.size()), left_(stations_, means.scratch),
-          target_(target_of(partition.faces(), settings)),
+          left_(stations_, means, true), target_(target_of(partition.faces(), settings)),
           diagonal_(partition.source().contents().bounds.diagonal()) {}
 
     HierarchyResult run() {
         settle_below_root(
-            stations_, means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0,
+            stations_, left_.take_up(),
+            means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0,
             [&](std::size_t s) {
                 require_room(s);
                 return bytes_given(s);
@@ -60,19 +54,15 @@ class Hierarchy {
         require_room(root);
         Cell cell = cell_of(root);
         HierarchyResult result;
-        result.error = error_below(root);
         SimplifyResult r = simplified(root, cell);
-        result.error += r.largest_error.value_or(0);
+        const StationWork work = work_with(root, r);
+        result.error = work.error;
+        result.collapses = work.collapses;
+        result.turned = work.turned;
         result.mesh = std::move(r.mesh);
         result.changes = std::move(r.changes);
         result.stop = r.stop;
         result.blocked = r.blocked;
-        result.collapses = r.collapses;
-        result.turned = r.turned;
-        for (const Done& done : done_) {
-            result.collapses += done.collapses;
-            result.turned += done.turned;
-        }
         result.cells = partition_.tree().leaves.size();
         result.levels = levels_of(stations_);
         result.faces_before = partition_.faces();
@@ -105,20 +95,24 @@ class Hierarchy {
 
     void settle(std::size_t station) {
         Cell cell = cell_of(station);
-        Done& done = done_[station];
-        done.error = error_below(station);
         SimplifyResult r = simplified(station, cell);
-        done.error += r.largest_error.value_or(0);
-        done.collapses = r.collapses;
-        done.turned = r.turned;
-        left_.put(station, reduced(std::move(r.mesh), r.sources, cell));
+        const StationWork work = work_with(station, r);
+        left_.put(station, reduced(std::move(r.mesh), r.sources, cell), work);
     }
 
-    double error_below(std::size_t station) const {
-        double error = 0;
-        for (const std::size_t child : stations_[station].children)
-            error = std::max(error, done_[child].error);
-        return error;
+    /// What was done at the station, with that below it.
+    StationWork work_with(std::size_t station, const SimplifyResult& r) const {
+        StationWork work;
+        for (const std::size_t child : stations_[station].children) {
+            const StationWork& below = left_.work(child);
+            work.error = std::max(work.error, below.error);
+            work.collapses += below.collapses;
+            work.turned += below.turned;
+        }
+        work.error += r.largest_error.value_or(0);
+        work.collapses += r.collapses;
+        work.turned += r.turned;
+        return work;
     }
 
     Cell cell_of(std::size_t station) const {
@@ -153,7 +147,6 @@ class Hierarchy {
     const SimplifySettings& settings_;
     const Means& means_;
     std::vector<Station> stations_; ///< the root is the last
-    std::vector<Done> done_;        ///< [stations]
     LeftCells left_;
     std::uint64_t target_;
     double diagonal_;

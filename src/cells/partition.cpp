@@ -22,6 +22,19 @@ Partition::Partition(std::shared_ptr<FaceSource> source, const Means& means, std
     find_shared(means);
 }
 
+Partition::Partition(std::shared_ptr<FaceSource> source, Stored stored)
+    : source_(std::move(source)), tree_(std::move(stored.tree)), faces_(stored.faces),
+      records_(std::move(stored.records)), list_(tree_.leaves.size()), borders_(std::move(stored.borders)) {
+    std::iota(list_.begin(), list_.end(), std::size_t{0});
+}
+
+void Partition::store(const std::filesystem::path& records, const std::filesystem::path& borders, bool sync,
+                      std::vector<Block>& record_blocks, std::vector<Block>& border_blocks) {
+    records_ = records_.stored(records, list_, sync, record_blocks);
+    std::iota(list_.begin(), list_.end(), std::size_t{0});
+    borders_->store(borders, sync, border_blocks);
+}
+
 void Partition::distribute(const Means& means, std::uint64_t most) {
     Grid grid(source_->contents().bounds, resolution);
     const auto memory = static_cast<std::size_t>(means.memory / 4);

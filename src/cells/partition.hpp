@@ -3,6 +3,7 @@
 // there are no T-junctions; and which vertices cells have in common.
 
 #include "cells/borders.hpp"
+#include "cells/cell_folder.hpp"
 #include "cells/face_source.hpp"
 #include "cells/tree.hpp"
 
@@ -12,6 +13,9 @@ namespace facetmill::cells {
 struct Means {
     std::filesystem::path scratch;
     std::uint64_t memory = 0; ///< bytes, for everything
+    /// Where cells are kept; none: they are temporary, too.
+    std::shared_ptr<const CellFolder> kept{};
+    std::string key{}; ///< of what was done so far: the program, inputs and options, 64 digits
 };
 
 /// A part of a mesh. Vertices that other parts have too stay known by name and position.
@@ -32,6 +36,19 @@ class Partition {
     /// Reads the source twice (it was scanned once before). The cells depend on the mesh and `most` only,
     /// never on memory.
     Partition(std::shared_ptr<FaceSource> source, const Means& means, std::uint64_t most = faces_of_cell);
+
+    /// What there is of a partition beside its source.
+    struct Stored {
+        Tree tree;
+        std::uint64_t faces = 0;
+        Spool records; ///< [leaves]
+        std::unique_ptr<Borders> borders;
+    };
+    Partition(std::shared_ptr<FaceSource> source, Stored stored);
+    /// Puts records and borders into files with names, where they are read from then on; the blocks are those
+    /// of the leaves.
+    void store(const std::filesystem::path& records, const std::filesystem::path& borders, bool sync,
+               std::vector<Block>& record_blocks, std::vector<Block>& border_blocks);
 
     const Tree& tree() const { return tree_; }
     const FaceSource& source() const { return *source_; }

@@ -1,10 +1,12 @@
 #include "cells/stations.hpp"
 
 #include "base/parallel.hpp"
+#include "base/words.hpp"
 #include "cache/fields.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <fmt/format.h>
 
 namespace facetmill::cells {
 
@@ -45,6 +47,23 @@ class StationMaker {
     const Partition& partition_;
 };
 
+/// What goes before a cell. left: of LeftCells.
+void archive_left(auto& archive, auto& left) {
+    archive(left.vertices, left.faces, left.work.error, left.work.collapses, left.work.turned);
+}
+
+constexpr std::string_view kept_begin = "facetmill-simplified.";
+
+/// How the names of what was made with this key begin.
+std::string kept_name_begin(const std::string& key) {
+    constexpr std::size_t digits = 16;
+    return fmt::format("{}{}.", kept_begin, key.substr(0, digits));
+}
+
+std::string kept_name(const std::string& key, std::size_t station) {
+    return fmt::format("{}{}", kept_name_begin(key), station);
+}
+
 } // namespace
 
 std::vector<Station> stations_of(const Partition& partition) { return StationMaker(partition).all; }
@@ -55,8 +74,8 @@ std::size_t levels_of(const std::vector<Station>& stations) {
     return deepest + 1;
 }
 
-void settle_below_root(const std::vector<Station>& stations, std::uint64_t memory,
-                       const std::function<std::uint64_t(std::size_t)>& bytes_of,
+void settle_below_root(const std::vector<Station>& stations, const std::vector<std::uint8_t>& wanted,
+                       std::uint64_t memory, const std::function<std::uint64_t(std::size_t)>& bytes_of,
                        const std::function<void(std::size_t)>& settle) {
     const auto all_of = [&](const std::vector<std::size_t>& some) {
         if (some.empty()) return;
@@ -68,14 +87,19 @@ void settle_below_root(const std::vector<Station>& stations, std::uint64_t memor
         parallel_for(
             workers,
             [&](std::size_t) {
-                for (std::size_t i = next++; i < some.size(); i = next++) settle(some[i]);
+                try {
+                    for (std::size_t i = next++; i < some.size(); i = next++) settle(some[i]);
+                } catch (...) {
+                    next = some.size(); // the others end, too
+                    throw;
+                }
             },
             1);
     };
-    const auto below_root = [&](const auto& wanted) {
+    const auto below_root = [&](const auto& of_level) {
         std::vector<std::size_t> some;
         for (std::size_t s = 0; s + 1 < stations.size(); ++s)
-            if (wanted(stations[s])) some.push_back(s);
+            if (wanted[s] && of_level(stations[s])) some.push_back(s);
         return some;
     };
     all_of(below_root([](const Station& s) { return s.is_leaf(); }));
@@ -83,21 +107,81 @@ void settle_below_root(const std::vector<Station>& stations, std::uint64_t memor
         all_of(below_root([&](const Station& s) { return s.level == level && !s.is_leaf(); }));
 }
 
-void LeftCells::put(std::size_t station, const Cell& cell) {
-    cache::ByteWriter writer;
-    writer(cell.mesh, cell.names, cell.home);
+LeftCells::LeftCells(const std::vector<Station>& stations, const Means& means, bool kept)
+    : stations_(stations), kept_(kept ? means.kept : nullptr), key_(means.key), file_(means.scratch),
+      left_(stations.size()) {}
+
+void LeftCells::put(std::size_t station, const Cell& cell, const StationWork& work) {
     Left& left = left_[station];
     left.vertices = cell.mesh.vertex_count();
     left.faces = cell.mesh.face_count();
-    left.block = file_.put(writer.bytes);
+    left.work = work;
+    cache::ByteWriter writer;
+    archive_left(writer, left);
+    writer(cell.mesh, cell.names, cell.home);
+    if (kept_)
+        kept_->put(kept_name(key_, station), key_, writer.bytes);
+    else
+        left.block = file_.put(writer.bytes);
+}
+
+io::Bytes LeftCells::bytes_of(std::size_t station) const {
+    if (!kept_) return file_.get(left_[station].block);
+    CellFolder::Found found{};
+    std::optional<io::Bytes> bytes = kept_->get(kept_name(key_, station), key_, found);
+    if (!bytes) unreadable_scratch(kept_->path());
+    return std::move(*bytes);
+}
+
+CellFolder::Found LeftCells::take(std::size_t station) {
+    CellFolder::Found found{};
+    const std::optional<io::Bytes> bytes = kept_->get(kept_name(key_, station), key_, found);
+    if (!bytes) return found;
+    cache::ByteReader reader(*bytes);
+    archive_left(reader, left_[station]);
+    return found;
+}
+
+std::vector<std::uint8_t> LeftCells::take_up() {
+    std::vector<std::uint8_t> wanted(stations_.size(), 1);
+    if (!kept_) return wanted;
+    std::size_t reused = 0, damaged = 0, others = 0;
+    for (const std::string& name : kept_->names(std::string(kept_begin))) {
+        if (name.starts_with(kept_name_begin(key_))) continue;
+        kept_->remove(name);
+        ++others;
+    }
+    for (std::size_t s = stations_.size() - 1; s-- > 0;) { // those above before those below
+        if (wanted[s]) {
+            const CellFolder::Found found = take(s);
+            damaged += found == CellFolder::Found::damaged;
+            if (found != CellFolder::Found::as_written) continue;
+        }
+        wanted[s] = 0;
+        ++reused;
+        for (const std::size_t child : stations_[s].children) wanted[child] = 0;
+    }
+    const std::string where = kept_->path().string();
+    if (others > 0)
+        kept_->tell(fmt::format("{} of other inputs or options removed from '{}'",
+                                counted(others, "simplified cell"), where));
+    if (damaged > 0)
+        kept_->tell(fmt::format("{} in '{}' {} not as written: made again",
+                                counted(damaged, "simplified cell"), where, damaged == 1 ? "is" : "are"));
+    if (reused > 0)
+        kept_->tell(
+            fmt::format("{} of {} simplified cells reused from '{}'", reused, stations_.size() - 1, where));
+    return wanted;
 }
 
 Cell LeftCells::joined_at(std::size_t station, const Tree& tree) const {
     const Station& s = stations_[station];
     std::vector<Cell> cells;
     for (const std::size_t child : s.children) {
-        const io::Bytes bytes = file_.get(left_[child].block);
+        const io::Bytes bytes = bytes_of(child);
         cache::ByteReader reader(bytes);
+        Left ignored;
+        archive_left(reader, ignored);
         Cell& cell = cells.emplace_back();
         reader(cell.mesh, cell.names, cell.home);
     }

@@ -22,20 +22,31 @@ std::vector<Station> stations_of(const Partition& partition);
 
 std::size_t levels_of(const std::vector<Station>& stations);
 
-/// Settles all stations but the root, each after its children and as many at a time as threads and memory
-/// allow. bytes_of(station): what settling it takes, asked when its children are settled, and what may throw.
-void settle_below_root(const std::vector<Station>& stations, std::uint64_t memory,
-                       const std::function<std::uint64_t(std::size_t)>& bytes_of,
+/// Settles these stations, none of them the root, each after its children and as many at a time as threads
+/// and memory allow. wanted: [stations]. bytes_of(station): what settling it takes, asked when its children
+/// are settled, and what may throw.
+void settle_below_root(const std::vector<Station>& stations, const std::vector<std::uint8_t>& wanted,
+                       std::uint64_t memory, const std::function<std::uint64_t(std::size_t)>& bytes_of,
                        const std::function<void(std::size_t)>& settle);
+
+/// What was done at a station, and below it.
+struct StationWork {
+    double error = 0;
+    std::size_t collapses = 0, turned = 0;
+};
 
 /// What is left of each station, on disk, until it is joined.
 class LeftCells {
   public:
-    LeftCells(const std::vector<Station>& stations, const std::filesystem::path& scratch)
-        : stations_(stations), file_(scratch), left_(stations.size()) {}
+    /// kept: in files of means.kept, where there is such a folder.
+    LeftCells(const std::vector<Station>& stations, const Means& means, bool kept);
 
+    /// Takes up what was kept with this key. Returns which stations are still to be settled: [stations] not
+    /// those that are there, nor those below them.
+    std::vector<std::uint8_t> take_up();
     /// Any thread. Throws output (E-WRITE, E-SPACE).
-    void put(std::size_t station, const Cell& cell);
+    void put(std::size_t station, const Cell& cell, const StationWork& work = {});
+    const StationWork& work(std::size_t station) const { return left_[station].work; }
     /// The children of the station as one. Any thread. Throws output (E-SCRATCH).
     Cell joined_at(std::size_t station, const Tree& tree) const;
     std::uint64_t vertices_below(std::size_t station) const; ///< of its children together
@@ -43,10 +54,16 @@ class LeftCells {
 
   private:
     struct Left {
-        Block block;
+        Block block; ///< of file_, where it is not kept
         std::uint64_t vertices = 0, faces = 0;
+        StationWork work;
     };
+    io::Bytes bytes_of(std::size_t station) const;
+    CellFolder::Found take(std::size_t station);
+
     const std::vector<Station>& stations_;
+    std::shared_ptr<const CellFolder> kept_; ///< or none
+    std::string key_;
     BlockFile file_;
     std::vector<Left> left_; ///< [stations]
 };

@@ -24,6 +24,29 @@ void Tree::make_leaf(std::uint32_t node) {
     leaves.push_back(node);
 }
 
+bool Tree::restore(const std::vector<std::uint8_t>& depths) {
+    *this = {};
+    std::vector<std::uint32_t> waiting{no_node}; // parents of nodes to come, the next last
+    for (const std::uint8_t depth : depths) {
+        if (waiting.empty()) return false;
+        std::uint32_t node = add(waiting.back());
+        waiting.pop_back();
+        if (nodes[node].depth > depth) return false;
+        while (nodes[node].depth < depth) {
+            waiting.push_back(node);
+            node = add(node);
+        }
+        make_leaf(node);
+    }
+    return waiting.empty();
+}
+
+std::vector<std::uint8_t> Tree::depths() const {
+    std::vector<std::uint8_t> depths;
+    for (const std::uint32_t leaf : leaves) depths.push_back(nodes[leaf].depth);
+    return depths;
+}
+
 std::uint8_t Tree::common_depth(std::uint32_t leaf, std::uint32_t other) const {
     std::uint32_t a = leaves[leaf], b = leaves[other];
     while (a != b) {

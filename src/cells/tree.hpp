@@ -28,6 +28,10 @@ struct Tree {
     std::uint32_t add(std::uint32_t parent);
     /// Makes a node a leaf: the next one.
     void make_leaf(std::uint32_t node);
+    /// What depths() gave. False where no tree has such leaves; nothing is promised of it then.
+    bool restore(const std::vector<std::uint8_t>& depths);
+    /// [leaves] How deep they are, which is all that a tree is made of.
+    std::vector<std::uint8_t> depths() const;
     /// How deep the node is that two leaves have in common.
     std::uint8_t common_depth(std::uint32_t leaf, std::uint32_t other) const;
 };

@@ -52,7 +52,7 @@ class TileMaker {
     TileMaker(const Partition& partition, const Transform& transform, const io::WriteSettings& settings,
               const Means& means, const std::function<void(const io::OutputFile&)>& put)
         : partition_(partition), transform_(transform), settings_(io::tileset::settings_of_tiles(settings)),
-          means_(means), put_(put), stations_(stations_of(partition)), left_(stations_, means.scratch),
+          means_(means), put_(put), stations_(stations_of(partition)), left_(stations_, means, false),
           names_(stations_.size()), tiles_(stations_.size()) {
         for (std::size_t s = stations_.size(); s-- > 0;)
             for (std::size_t c = 0; c < stations_[s].children.size(); ++c)
@@ -66,7 +66,8 @@ class TileMaker {
         find_shared();
         steps.next();
         settle_below_root(
-            stations_, means_.memory > bytes_beside_tiles ? means_.memory - bytes_beside_tiles : 0,
+            stations_, std::vector<std::uint8_t>(stations_.size(), 1),
+            means_.memory > bytes_beside_tiles ? means_.memory - bytes_beside_tiles : 0,
             [&](std::size_t s) {
                 require_room(s);
                 return bytes_given(s);

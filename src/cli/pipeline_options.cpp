@@ -102,8 +102,13 @@ void add_cell_options(Arguments& arguments, PipelineOptions& options) {
              "Whether the first stages work on cells on disk: auto (where --memory is too\nlittle), always "
              "or never.")
         .one_of({"auto", "always", "never"});
-    arguments.add("--scratch", &options.scratch,
-                  "The folder for the temporary data of cells. Default: the output folder.");
+    arguments.add(
+        "--scratch", &options.scratch,
+        "The folder for the temporary data of cells. Default: that of --keep-cells, else the\noutput "
+        "folder.");
+    arguments.add("--keep-cells", &options.kept_cells,
+                  "Keeps cells in the folder DIR: a run that was ended early, or comes again with\nthe same "
+                  "inputs, takes up what is there.");
 }
 
 pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line) {
@@ -113,7 +118,13 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
                     : options.partition == "never" ? When::never
                                                    : When::automatic;
     settings.memory = memory_bytes(options.memory, line);
-    settings.scratch = options.scratch.empty() ? options.output_dir : options.scratch;
+    settings.kept = options.kept_cells;
+    if (!settings.kept.empty() && settings.memory == 0 && settings.when == When::automatic)
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--keep-cells is for runs in cells",
+                    "give the memory for the run, as --memory 2G, or --partition always",
+                    line.value(options.kept_cells));
+    settings.scratch = !options.scratch.empty() ? options.scratch : options.kept_cells;
+    if (settings.scratch.empty()) settings.scratch = options.output_dir;
     if (settings.scratch.empty()) settings.scratch = ".";
     return settings;
 }
@@ -335,7 +346,8 @@ void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions&
     if (const auto folder = cache_folder(options.cache)) allowed.written.push_back(*folder);
     if (options.cells.when != pipeline::CellSettings::When::never &&
         (options.cells.memory > 0 || options.cells.when == pipeline::CellSettings::When::always))
-        allowed.written.push_back(options.cells.scratch);
+        for (const auto& folder : {options.cells.scratch, options.cells.kept})
+            if (!folder.empty()) allowed.written.push_back(folder);
     confine(allowed, options.sandbox, console);
 }
 
@@ -347,6 +359,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     settings.progress = progress.get();
     settings.strict = options.strict;
     settings.cells = options.cells;
+    settings.on_kept_cells = [&](const std::string& what) { console.say(what); };
     settings.check_invariants = options.check_invariants;
     const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::inputs_of_steps(plan); });
     const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };

@@ -10,6 +10,7 @@ struct CellSettings {
     When when = When::automatic;     ///< automatic: where the mesh is estimated to need more than `memory`
     std::uint64_t memory = 0;        ///< bytes; 0: no limit is given
     std::filesystem::path scratch{}; ///< the folder for temporary data
+    std::filesystem::path kept{};    ///< the folder in which cells are kept; empty: they are not
 };
 
 struct CellPlan {

@@ -111,6 +111,12 @@ std::vector<T> since(const std::vector<T>& all, std::size_t first) {
 
 } // namespace
 
+std::string key_after(const std::string& key, const Step& step) {
+    std::vector<std::string> texts{code_id(), key, step.stage->name};
+    spell(as_map(step), texts);
+    return cache::key_of(texts);
+}
+
 bool Reuse::may_recall(const Step& step) const {
     if (step.stage->checks) return false;
     if (step.stage->loads) return !loads_run_ && are_files(files_to_load(step, places_));

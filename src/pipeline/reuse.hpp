@@ -19,6 +19,9 @@
 
 namespace facetmill::pipeline {
 
+/// The key of what a stage makes, with its options, of that which has this key: 64 digits.
+std::string key_after(const std::string& key, const Step& step);
+
 class Reuse {
   public:
     /// store: none, and nothing is recalled or stored.

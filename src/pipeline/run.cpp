@@ -153,6 +153,7 @@ class Runner {
         CellFlow cells;
         cells.means = {settings_.cells.scratch, settings_.cells.memory};
         if (cells.means.memory == 0) cells.means.memory = memory_there() / 4 * 3;
+        if (!failures_.guarded({}, "kept cells", [&] { open_kept(cells.means); })) return false;
         for (std::size_t i = 0; i < on_cells_.steps; ++i)
             if (!run_stage_on_cells(plan_.steps[i], cells)) return false;
         if (!cells.scene) return false;
@@ -161,10 +162,22 @@ class Runner {
         return true;
     }
 
+    void open_kept(cells::Means& means) const {
+        if (settings_.cells.kept.empty()) return;
+        means.kept = std::make_shared<cells::CellFolder>(cells::CellFolder::Settings{
+            settings_.cells.kept, settings_.commit.sync, settings_.on_kept_cells});
+    }
+
     [[noreturn]] static void refuse_reference() {
         throw Error(ErrorKind::usage, "E-CELLS",
                     "a later step compares with the scene as loaded, which is not in memory",
                     "leave the comparison out, or give more memory");
+    }
+
+    static std::string key_with_inputs(const CellFlow& cells) {
+        std::vector<std::string> texts{cells.means.key};
+        for (const auto& file : cells.partition->source().contents().files) texts.push_back(file.sha256);
+        return cache::key_of(texts);
     }
 
     static report::Brief brief_of_cells(const CellFlow& cells) {
@@ -186,8 +199,10 @@ class Runner {
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
             if (step.stage->loads) context.say(on_cells_.why);
+            cells.means.key = key_after(cells.means.key, step);
             step.stage->on_cells(step.options.get(), cells, context);
             if (step.stage->loads) state_.load_diagonal = diagonal(cells.bounds());
+            if (step.stage->loads) cells.means.key = key_with_inputs(cells);
             if (cells.scene) require_finite(*cells.scene);
             if (settings_.check_invariants && cells.scene) check_invariants(step, *cells.scene);
         });

@@ -18,6 +18,8 @@ struct RunSettings {
     cache::Store* store = nullptr; ///< results of stages are taken from it, and put there; none: no cache
     io::CommitSettings commit{};   ///< of outputs and reports
     CellSettings cells{};          ///< whether a mesh that is larger than memory is processed on disk
+    /// Is told in words what of kept cells is taken up, and why not.
+    std::function<void(const std::string&)> on_kept_cells = {};
     /// Called at the end, with what became of each step.
     std::function<void(const Trace&)> on_trace = {};
     /// Called after each stage, with what its options were resolved to.

@@ -35,6 +35,18 @@ TEST_CASE("the tree halves counts until none is above the most", "[cells]") {
             }
     const auto last = static_cast<std::uint32_t>(tree.leaves.size() - 1);
     CHECK(tree.common_depth(0, last) == 0);
+    Tree again;
+    REQUIRE(again.restore(tree.depths()));
+    CHECK(again.leaves == tree.leaves);
+    REQUIRE(again.nodes.size() == tree.nodes.size());
+    for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+        CHECK(again.nodes[n].child[0] == tree.nodes[n].child[0]);
+        CHECK(again.nodes[n].child[1] == tree.nodes[n].child[1]);
+        CHECK(again.nodes[n].parent == tree.nodes[n].parent);
+    }
+    for (const std::vector<std::uint8_t>& none_of_a_tree :
+         {std::vector<std::uint8_t>{}, {1}, {1, 1, 1}, {1, 2}, {2, 1, 1}, {0, 0}})
+        CHECK_FALSE(again.restore(none_of_a_tree));
     CHECK(tree.common_depth(1, 1) == tree.nodes[tree.leaves[1]].depth);
 }
 

@@ -8,10 +8,9 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from support import FACETMILL, SCAN, SLOW, Case, main
+from support import FACETMILL, SCAN, SLOW, LargeCase, main
 
 MEGABYTE = 1 << 20
 
@@ -75,19 +74,7 @@ def rows(path):
     return sorted(body[size * v:size * (v + 1)] for v in range(vertices)), len(data)
 
 
-class Cells(Case):
-    @classmethod
-    def setUpClass(cls):
-        cls.meshes = pathlib.Path(tempfile.mkdtemp(prefix="facetmill-test-"))
-        cls.addClassCleanup(shutil.rmtree, cls.meshes, ignore_errors=True)
-
-    def large(self, passes=1):
-        """A closed scan of 70,000 * 4^passes faces, in the test's folder."""
-        made = self.meshes / f"{passes}.ply"
-        if not made.exists():
-            self.mill("pipe", "load", SCAN, "!", "split", "midpoint", "--passes", passes, "!", "write", made)
-        return pathlib.Path(shutil.copy(made, self.dir / "large.ply"))
-
+class Cells(LargeCase):
     def test_closed_stays_closed_and_the_bytes_are_the_same(self):
         scan = self.large()
         results = set()

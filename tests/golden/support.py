@@ -91,5 +91,21 @@ class Case(unittest.TestCase):
         return path
 
 
+class LargeCase(Case):
+    """With a mesh that is made once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.meshes = pathlib.Path(tempfile.mkdtemp(prefix="facetmill-test-"))
+        cls.addClassCleanup(shutil.rmtree, cls.meshes, ignore_errors=True)
+
+    def large(self, passes=1):
+        """A closed scan of 70,000 * 4^passes faces, in the test's folder."""
+        made = self.meshes / f"{passes}.ply"
+        if not made.exists():
+            self.mill("pipe", "load", SCAN, "!", "split", "midpoint", "--passes", passes, "!", "write", made)
+        return pathlib.Path(shutil.copy(made, self.dir / "large.ply"))
+
+
 def main():
     unittest.main(verbosity=2)

@@ -3,6 +3,7 @@
 #include "base/progress.hpp"
 #include "base/spelling.hpp"
 #include "base/words.hpp"
+#include "cells/kept_partition.hpp"
 #include "io/convert.hpp"
 #include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
@@ -167,7 +168,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     flow.unit = contents.unit;
     flow.up = contents.up;
     flow.box = contents.bounds;
-    flow.partition = std::make_unique<cells::Partition>(source, flow.means);
+    flow.partition = cells::kept_partition(source, flow.means);
     if (contents.vertices > flow.partition->vertices())
         context.warn(
             "W-CELLS",
