@@ -19,6 +19,7 @@ Examples
   facetmill render duck.glb -o duck.png
   facetmill render part.stl -o part.png --view front --edges all --background white
   facetmill render scan.ply -o around.png --views turntable --width 400 --height 400
+  facetmill render before.glb after.glb -o both.png --width 800 --height 800
 
 )";
 
@@ -79,7 +80,12 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
     // The one-liner that it stands for, which messages then show.
     std::vector<std::string> words_of_pipe{"pipe",   "load",   words.front(), "!",
                                            "render", "--path", options.output};
-    words_of_pipe.insert(words_of_pipe.end(), words.begin() + 1, words.end());
+    auto rest = words.begin() + 1;
+    if (rest != words.end() && !rest->starts_with("-")) {
+        words_of_pipe.insert(words_of_pipe.end(), {"--with", *rest});
+        ++rest;
+    }
+    words_of_pipe.insert(words_of_pipe.end(), rest, words.end());
     const CommandLine line(std::move(words_of_pipe));
     Problems problems;
     auto settings = plan_settings(options.run, line, problems);
@@ -97,7 +103,7 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
 Command render_command() {
     return {
         "render",
-        "Renders a PNG image of a mesh file.",
+        "Renders a PNG image of a mesh file, or of two beside each other.",
         render_examples,
         true,
         [](Arguments& arguments, Console& console) {

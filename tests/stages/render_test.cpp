@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "io/outputs.hpp"
 #include "mesh/shapes.hpp"
 #include "support/failure.hpp"
 #include "support/run_stage.hpp"
@@ -54,6 +55,37 @@ TEST_CASE("both shadings make a picture of twice the width", "[stages]") {
                                scene_of(shapes::cube()));
     CHECK(run.record.result["width"] == 200);
     CHECK(run.record.result["height"] == 80);
+}
+
+TEST_CASE("another file is drawn beside the scene by one camera", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto other = folder / "other.off";
+    Scene twice = scene_of(shapes::cube());
+    for (Vec3& p : twice.parts[0].mesh.positions) p = p * 2 + Vec3{5, 0, 0};
+    io::write_now(other, io::codec_for(other)->write(twice, {}).files.front().bytes);
+    const auto picture = [&](const std::map<std::string, std::string>& more) {
+        std::vector<std::pair<std::string, std::string>> all{
+            {"path", (folder / "p.png").string()}, {"width", "80"}, {"height", "60"}, {"view", "front"}};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_stage("render", options(all), scene_of(shapes::cube()));
+    };
+    const auto alone = picture({}), both = picture({{"with", other.string()}});
+    CHECK(both.record.result["width"] == 160);
+    CHECK(both.record.result["height"] == 60);
+    CHECK(both.record.result["faces"] == 24);
+    // The cube from 0 to 1 and the one from 5 to 7 are seen by a camera of 7 units' width.
+    CHECK(both.record.result["pixels_per_unit"].get<double>() == Approx(0.92 * 80 / 7));
+    CHECK(alone.record.result["pixels_per_unit"].get<double>() == Approx(0.92 * 60));
+    REQUIRE(both.state->record.inputs.size() == 1);
+    CHECK(both.state->record.inputs[0].path == other.string());
+    const auto shades = picture({{"with", other.string()}, {"shading", "beside"}});
+    CHECK(shades.record.result["width"] == 160);
+    CHECK(shades.record.result["height"] == 120);
+    CHECK(test::failure([&] {
+              picture({{"with", (folder / "none.off").string()}});
+          }).find("E-FILE") != std::string::npos);
+    CHECK(problems_of("render", options({{"path", "a.png"}, {"with", "b.off"}, {"perspective", "30"}}))
+              .find("perspective") != std::string::npos);
 }
 
 TEST_CASE("several views make one picture", "[stages]") {

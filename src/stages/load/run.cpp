@@ -7,6 +7,7 @@
 #include "io/convert.hpp"
 #include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
+#include "stage/read_recorded.hpp"
 #include "stage/stage.hpp"
 #include "stages/load/help.hpp"
 #include "stages/load/lines.hpp"
@@ -72,25 +73,6 @@ void verify(const LoadOptions& o, const Value& given, Problems& problems) {
                  suggestion(o.format, io::names_of_readers()));
 }
 
-/// contents: the bytes themselves, where they are at hand.
-void record_input(Context& context, const std::string& path, std::size_t bytes, std::string sum,
-                  io::Span contents = {}) {
-    context.run().outputs.protect(path, sum);
-    context.run().record.inputs.push_back(
-        {path, bytes, std::move(sum), {}, io::byte_kinds(path, bytes, contents)});
-}
-
-void record_input(Context& context, const std::string& path, io::Span bytes) {
-    record_input(context, path, bytes.size(), sha256(bytes), bytes);
-}
-
-/// With the sum of what was read, which a file that was replaced since then no longer has.
-void record_neighbour(Context& context, const io::ReadFile& file) {
-    if (!file.sha256.empty()) return record_input(context, file.path.string(), file.bytes, file.sha256);
-    context.tell_unrepeatable(); // what is read now need not be what the reader saw
-    record_input(context, file.path.string(), io::Input::open(file.path).stored());
-}
-
 io::ReadSettings read_settings(const LoadOptions& o, const Places& places) {
     io::ReadSettings settings;
     settings.weld = o.weld;
@@ -104,27 +86,18 @@ io::ReadSettings read_settings(const LoadOptions& o, const Places& places) {
 }
 
 void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
-    ShareOfSteps steps({1, 2, 8, 1});
-    const io::Input input = io::Input::open(path);
+    ShareOfSteps steps({11, 1});
+    auto [more, log] =
+        read_recorded(path, read_settings(o, context.places()), io::codec_named(o.format), context);
     steps.next();
-    record_input(context, input.name(), input.stored());
-    steps.next();
-    io::ReadLog log;
-    Scene more = io::read_scene(input, read_settings(o, context.places()), log, io::codec_named(o.format));
-    steps.next();
-    for (const auto& w : log.warnings)
-        context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
-    for (const auto& file : log.files) record_neighbour(context, file);
-    for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
-    if (log.unrepeatable || !input.is_as_opened()) context.tell_unrepeatable();
     if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
     const bool first = scene.parts.empty();
     const io::Conversion done = io::add_scene(scene, std::move(more));
     if (!first && done.unit_guessed)
-        context.warn(
-            "W-UNITS",
-            fmt::format("'{}' has no unit: its numbers are taken as {}", input.name(), to_string(scene.unit)),
-            "give the unit: load: {path: ..., unit: mm}");
+        context.warn("W-UNITS",
+                     fmt::format("'{}' has no unit: its numbers are taken as {}", path.string(),
+                                 to_string(scene.unit)),
+                     "give the unit: load: {path: ..., unit: mm}");
 }
 
 Scene run(Scene scene, const LoadOptions& o, Context& context) {

@@ -40,6 +40,7 @@ std::pair<std::size_t, std::size_t> count_and_columns(const RenderOptions& o) {
     std::size_t count = 0;
     for (const auto& view : o.views) count += view == turntable ? turns : 1;
     count = std::max<std::size_t>(count, 1);
+    if (o.with) return {(o.shading == Look::beside ? 4 : 2) * count, 2};
     if (o.shading == Look::beside) return {2 * count, 2};
     return {count, std::min<std::size_t>(count, 4)};
 }
@@ -112,6 +113,10 @@ void declare_render(Declare<RenderOptions>& d) {
     d.option("path", &RenderOptions::path, "The PNG file to write; - is standard output.")
         .required()
         .primary();
+    d.option("with", &RenderOptions::with,
+             "Another mesh file, drawn to the right of the scene by the same camera, at the same scale and "
+             "with the "
+             "same colours for numbers; width and height apply to one of the two.");
     d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "Where the scene is seen from.");
     d.option("views", &RenderOptions::views,
              "Several views in one image, four in a row, at one scale; turntable is eight around the scene. "
@@ -184,6 +189,8 @@ void declare_render(Declare<RenderOptions>& d) {
         .measures(Dimension::none);
     d.at_most_one({"view", "views", "from"});
     d.at_most_one({"colours", "attribute"});
+    d.at_most_one({"with", "perspective"});
+    d.at_most_one({"with", "views"});
 }
 
 void verify_render(const RenderOptions& o, const Value& given, Problems& problems) {

@@ -11,6 +11,7 @@ struct RenderOptions {
     enum class Ground { none, white, light, grey, dark, black };
 
     PathText path;
+    std::optional<PathText> with;
     std::int64_t width = 1200, height = 900;
     Viewpoint view = Viewpoint::corner;
     std::vector<std::string> views;

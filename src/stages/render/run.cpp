@@ -1,7 +1,9 @@
 #include "base/progress.hpp"
+#include "io/convert.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/gltf/pose.hpp"
 #include "io/png.hpp"
+#include "stage/read_recorded.hpp"
 #include "stages/render/help.hpp"
 #include "stages/render/options.hpp"
 
@@ -11,23 +13,63 @@ namespace facetmill::render_stage {
 
 namespace {
 
+std::shared_ptr<const MaterialLooks> looks_of(const RenderOptions& o, const Scene& scene, Context& context) {
+    if (o.colours != Paint::material || !o.attribute.empty()) return {};
+    std::vector<Diagnostic> warnings;
+    auto looks = io::LookReader().looks(scene, warnings);
+    for (const auto& w : warnings) context.warn(w.id, "render: " + w.message, w.hint);
+    return looks;
+}
+
+/// The file that is drawn beside the scene, in the scene's convention, in pose.
+Scene scene_beside(const RenderOptions& o, const Scene& scene, Context& context) {
+    io::ReadSettings settings;
+    settings.asset_roots = context.places().asset_roots;
+    Scene other = read_recorded(context.places().input(o.with->text), settings, nullptr, context).first;
+    io::convert(other, {scene.unit, scene.up});
+    std::optional<Scene> posed = io::posed(other);
+    return posed ? std::move(*posed) : other;
+}
+
+/// Two scenes seen by one camera, which sees all of both, from where the first is seen. Numbers of the second
+/// have the colours of the first's.
+Picture both(const PictureSettings& first, const Scene& a, const Scene& b,
+             const std::shared_ptr<const MaterialLooks>& looks_b) {
+    PictureSettings settings = first;
+    Camera camera = camera_of(a, settings);
+    settings.camera = camera;
+    PictureSettings second = settings;
+    second.shows = {};
+    second.looks = looks_b;
+    camera.seen.add(camera_of(b, second).seen);
+    settings.camera = second.camera = camera;
+    const Picture left = picture_of(a, settings);
+    if (left.range.known && left.range.low < left.range.high)
+        second.range = {ColourRange::Kind::given, left.range.low, left.range.high, left.range.diverging};
+    const Picture right = picture_of(b, second);
+    Picture sheet = sheet_of({left, right}, 2);
+    sheet.faces += right.faces;
+    sheet.has_attribute |= right.has_attribute;
+    return sheet;
+}
+
 Picture taken(const RenderOptions& o, const Scene& given, Context& context) {
     const std::optional<Scene> posed = io::posed(given);
     const Scene& scene = posed ? *posed : given;
-    io::LookReader reader;
-    std::vector<Diagnostic> warnings;
-    std::shared_ptr<const MaterialLooks> looks;
-    if (o.colours == Paint::material && o.attribute.empty()) looks = reader.looks(scene, warnings);
-    for (const auto& w : warnings) context.warn(w.id, "render: " + w.message, w.hint);
+    const auto looks = looks_of(o, scene, context);
     const Shots shots = shots_of(o, scene, context, looks);
     std::vector<Picture> pictures;
     ShareOfSteps steps(std::vector<double>(shots.settings.size(), 1));
+    std::optional<Scene> other;
+    if (o.with) other = scene_beside(o, scene, context);
+    const auto looks_of_other = other ? looks_of(o, *other, context) : nullptr;
     for (const auto& settings : shots.settings) {
-        pictures.push_back(picture_of(scene, settings));
+        pictures.push_back(other ? both(settings, scene, *other, looks_of_other)
+                                 : picture_of(scene, settings));
         steps.next();
     }
     if (pictures.size() == 1) return std::move(pictures.front());
-    return sheet_of(pictures, shots.columns);
+    return sheet_of(pictures, other ? 1 : shots.columns);
 }
 
 struct RenderReport {
@@ -106,6 +148,7 @@ const RegisterStage registered{make_stage<RenderOptions>(
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",
                   "render: {path: top.png, view: top, width: 2000, height: 2000, edges: all}",
                   "render: {path: around.png, views: turntable, width: 400, height: 400, background: light}",
+                  "render: {path: before-after.png, with: before.glb, background: white}",
                   "render: {path: failed.png, attribute: failed}",
                   "render: {path: curvature.png, attribute: mean_curvature, unit: 1/mm, range: [-1, 1]}"},
      .tells = true,
@@ -114,7 +157,9 @@ const RegisterStage registered{make_stage<RenderOptions>(
     declare_render, declare_report, run,
     StageHooks<RenderOptions>{.files =
                                   [](const RenderOptions& o) {
-                                      return StageFiles{{}, {o.path}};
+                                      StageFiles files{{}, {o.path}};
+                                      if (o.with) files.inputs.push_back(*o.with);
+                                      return files;
                                   },
                               .verify = verify_render})};
 

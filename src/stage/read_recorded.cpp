@@ -1,0 +1,50 @@
+#include "stage/read_recorded.hpp"
+
+#include "base/hash.hpp"
+#include "base/progress.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+void record_input(Context& context, const std::string& path, std::size_t bytes, std::string sum,
+                  io::Span contents) {
+    context.run().outputs.protect(path, sum);
+    context.run().record.inputs.push_back(
+        {path, bytes, std::move(sum), {}, io::byte_kinds(path, bytes, contents)});
+}
+
+namespace {
+
+void record_input(Context& context, const std::string& path, io::Span bytes) {
+    record_input(context, path, bytes.size(), sha256(bytes), bytes);
+}
+
+/// With the sum of what was read, which a file that was replaced since then no longer has.
+void record_neighbour(Context& context, const io::ReadFile& file) {
+    if (!file.sha256.empty()) return record_input(context, file.path.string(), file.bytes, file.sha256);
+    context.tell_unrepeatable(); // what is read now need not be what the reader saw
+    record_input(context, file.path.string(), io::Input::open(file.path).stored());
+}
+
+} // namespace
+
+std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
+                                            const io::ReadSettings& settings, const io::Codec* codec,
+                                            Context& context) {
+    ShareOfSteps steps({1, 2, 8});
+    const io::Input input = io::Input::open(path);
+    steps.next();
+    record_input(context, input.name(), input.stored());
+    steps.next();
+    io::ReadLog log;
+    Scene scene = io::read_scene(input, settings, log, codec);
+    for (const auto& w : log.warnings)
+        context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
+    for (const auto& file : log.files) record_neighbour(context, file);
+    for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
+    if (log.unrepeatable || !input.is_as_opened()) context.tell_unrepeatable();
+    return {std::move(scene), std::move(log)};
+}
+
+} // namespace facetmill
