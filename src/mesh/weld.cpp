@@ -86,8 +86,10 @@ struct HashedVertex {
     std::uint32_t hash; ///< low bits choose the bucket, the others the slot in it
 };
 
-std::uint32_t position_hash(const Vec3& p) {
-    std::uint64_t h = 0;
+/// What is not a number equals nothing, so that many with one hash would each be compared with all before:
+/// the index keeps them apart.
+std::uint32_t position_hash(const Vec3& p, std::size_t v) {
+    std::uint64_t h = p == p ? 0 : hashed(1, v);
     for (std::size_t i = 0; i < 3; ++i)
         h = hashed(h, std::bit_cast<std::uint64_t>(p[i] + 0.0)); // -0 + 0 is 0
     return static_cast<std::uint32_t>(h);
@@ -117,7 +119,7 @@ void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& 
 std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
     std::vector<HashedVertex> items(positions.size());
     parallel_for(items.size(), [&](std::size_t v) {
-        items[v] = {static_cast<Index>(v), position_hash(positions[v])};
+        items[v] = {static_cast<Index>(v), position_hash(positions[v], v)};
     });
     std::vector<Index> first(positions.size());
     if (items.size() <= few) {

@@ -204,6 +204,12 @@ class Bombs(Case):
         chain["nodes"][-1] = {"mesh": 0, "children": [0]}
         self.check("circle.glb", glb(chain, POINTS), MALFORMED, "E-NODES")
 
+    def test_a_million_positions_that_are_no_numbers(self):
+        points = struct.pack("<3f", float("nan"), 0, 0) * 999999
+        content = document([accessor(count=999999, bufferView=0)], views=[{"buffer": 0, "byteLength": len(points)}],
+                           buffer_bytes=len(points))
+        self.check("nan.glb", glb(content, points), MALFORMED, "E-NAN")
+
     def test_packed_files(self):
         for name, content in (("gzip.stl", gzip_of_zeros(6000)), ("gzip.obj.gz", gzip_of_zeros(6000)),
                               ("zstd.stl", zstd_of_zeros(6000)), ("zstd.ply.zst", zstd_of_zeros(6000))):
