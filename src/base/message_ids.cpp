@@ -42,7 +42,8 @@ std::span<const MessageId> message_ids() {
          "Report this bug, with the pipeline and the input."},
         {"E-BUSY",
          {Kind::output},
-         "Another batch of this pipeline is running in the same output folder, or another run in the same folder "
+         "Another batch of this pipeline is running in the same output folder, or another run in the same "
+         "folder "
          "of kept cells.",
          "Wait until it has ended, or name another folder with `--output-dir` or `--keep-cells`."},
         {"E-CELLS",

@@ -165,6 +165,7 @@ std::vector<OutputFile> subtree_files(const std::vector<TreeTile>& tiles, const 
         subtrees.at({above.size(), above}).below.push_back(morton_of(root.substr(above.size())));
     }
     std::vector<OutputFile> files;
+    files.reserve(subtrees.size());
     for (const auto& [key, subtree] : subtrees)
         files.push_back(
             {fmt::format("{}/{}.subtree", title, implicit_name(key.second)), subtree_file(subtree, levels)});

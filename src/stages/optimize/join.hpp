@@ -28,8 +28,8 @@ std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<st
 /// The same of parts that share meshes: of each mesh the parts that have it, rising. Meshes whose parts stand
 /// at the same places, one after another, are joined at each of these in the same way, so that they are one
 /// mesh again.
-std::vector<JoinedParts> groups_standing_together(const Scene& scene,
-                                                  const std::vector<std::vector<std::size_t>>& parts_of_meshes);
+std::vector<JoinedParts>
+groups_standing_together(const Scene& scene, const std::vector<std::vector<std::size_t>>& parts_of_meshes);
 
 /// Appends the others' meshes to the first's, in its space; they are empty then. The first's transform must
 /// have an inverse.

@@ -318,12 +318,13 @@ class Optimizing {
         const auto first = first_with_equal_mesh(scene_);
         std::vector<std::vector<std::size_t>> all;
         for (const auto& [mesh, parts] : of_mesh) {
-            const Part& example = scene_.parts[parts.front()];
+            const std::size_t one = parts.front();
+            const Part& example = scene_.parts[one];
             const auto fits = [&](std::size_t i) {
                 const Part& part = scene_.parts[i];
                 return !bound_[i] && part.mesh.face_count() > 0 && inverse(part.transform) &&
                        context_.selects(part, scene_) && part.node >= 0 &&
-                       of_node.at({part.document, part.node}) == 1 && first[i] == first[parts.front()] &&
+                       of_node.at({part.document, part.node}) == 1 && first[i] == first[one] &&
                        part.changed == example.changed;
             };
             if (mesh.second >= 0 && parts.size() > 1 && std::all_of(parts.begin(), parts.end(), fits))
