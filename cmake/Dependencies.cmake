@@ -7,11 +7,11 @@ find_package(nlohmann_json REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(NETTLE REQUIRED IMPORTED_TARGET nettle)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 find_package(EXPAT REQUIRED)
 find_package(meshoptimizer REQUIRED)
@@ -25,7 +25,7 @@ find_library(DRACO_LIBRARY draco REQUIRED)
 
 add_library(facetmill_dependencies INTERFACE)
 target_link_libraries(facetmill_dependencies INTERFACE
-  Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json yaml-cpp CLI11::CLI11 Eigen3::Eigen OpenSSL::Crypto
+  Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json yaml-cpp CLI11::CLI11 Eigen3::Eigen PkgConfig::NETTLE
   ZLIB::ZLIB PNG::PNG JPEG::JPEG PkgConfig::WEBP PkgConfig::ZSTD EXPAT::EXPAT
   meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})

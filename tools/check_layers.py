@@ -69,7 +69,7 @@ LIBRARIES = {
     "boost": ["src/geometry/cgal/"],
     "gmpxx.h": ["src/base/exact_integer.hpp"],
     "OpenMesh": ["src/geometry/openmesh/"],
-    "openssl": ["src/base/"],
+    "nettle": ["src/base/"],
     "zlib.h": ["src/io/"],
     "zstd.h": ["src/io/packing.cpp"],
     "expat.h": ["src/io/threemf/xml.cpp"],

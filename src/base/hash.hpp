@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 of files and bytes (OpenSSL's), as hexadecimal.
+// SHA-256 of files and bytes (Nettle's), as hexadecimal.
 
 #include <cstddef>
 #include <memory>
@@ -8,10 +8,9 @@
 
 namespace facetmill {
 
-/// Throws limit (E-MEMORY) when there is no memory for it.
 std::string sha256(std::span<const std::byte> bytes);
 
-/// The SHA-256 of bytes that come in pieces. Throws as sha256().
+/// The SHA-256 of bytes that come in pieces.
 class Sha256 {
   public:
     Sha256();

@@ -120,13 +120,12 @@ class Rules {
     bool whole_ = true;
 };
 
-/// Where libraries are found that are loaded when they are first needed (TBB, OpenSSL), and what they and
+/// Where libraries are found that are loaded when they are first needed (TBB), and what they and
 /// this program ask of the system: its limits, its cores, its own descriptors.
 constexpr std::array system_places{
-    "/usr/lib",       "/usr/lib64",          "/usr/local/lib", "/lib",
-    "/lib64",         "/etc/ld.so.cache",    "/etc/ssl",       "/etc/localtime",
-    "/proc/self",     "/proc/meminfo",       "/proc/cpuinfo",  "/proc/stat",
-    "/sys/fs/cgroup", "/sys/devices/system", "/dev/urandom",   "/dev/zero"};
+    "/usr/lib",         "/usr/lib64",     "/usr/local/lib",      "/lib",          "/lib64",
+    "/etc/ld.so.cache", "/etc/localtime", "/proc/self",          "/proc/meminfo", "/proc/cpuinfo",
+    "/proc/stat",       "/sys/fs/cgroup", "/sys/devices/system", "/dev/urandom",  "/dev/zero"};
 
 /// The files of the program and of the libraries that are there: where they have no build id, it is made of
 /// them.
