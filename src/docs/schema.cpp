@@ -133,7 +133,7 @@ Json param_schema() {
 
 Json definitions() {
     Json all = {{"expression", {{"type", "string"}, {"pattern", "\\$\\{"}}}};
-    for (const auto& key : common_keys()) all[key.name] = with_expressions(key.schema);
+    for (const auto& key : common_keys()) all[key.name] = with_expressions(key.schema());
     all["param"] = param_schema();
     all["step"] = step_forms();
     all["stages"] = {{"title", "stages"},

@@ -10,8 +10,15 @@ namespace facetmill {
 
 namespace {
 
+/// Of a value that is not null; that of objects is made when it is asked for, since a run has no use for it.
+Json schema_of_value(const Field& field) {
+    if (!field.fields || !field.schema.is_null()) return field.schema;
+    if (!field.is_list) return field.fields->schema();
+    return {{"type", "array"}, {"items", field.fields->schema()}};
+}
+
 Json described(const Field& field) {
-    Json schema = field.schema;
+    Json schema = schema_of_value(field);
     if (!field.null_when.empty()) {
         if (!field.choices.empty())
             schema["enum"].push_back(nullptr);
@@ -97,7 +104,7 @@ Field& start(Fields& fields, std::string_view name, const char* type, Json schem
 
 FieldRef object_field(Fields& fields, std::string_view name, std::string_view help,
                       std::shared_ptr<const Fields> inner, int optionals, Each each) {
-    Field& f = start(fields, name, "object", inner->schema(), help, optionals);
+    Field& f = start(fields, name, "object", nullptr, help, optionals);
     f.put = [inner, each](const Field& self, const void* record, Json& object) {
         const bool there = each(record, [&](const void* value) { object[self.name] = inner->json(value); });
         if (!there && self.only_when.empty()) object[self.name] = nullptr;
@@ -109,8 +116,7 @@ FieldRef object_field(Fields& fields, std::string_view name, std::string_view he
 
 FieldRef list_field(Fields& fields, std::string_view name, std::string_view help,
                     std::shared_ptr<const Fields> inner, int optionals, Each each) {
-    Json schema = {{"type", "array"}, {"items", inner->schema()}};
-    Field& f = start(fields, name, "list of objects", std::move(schema), help, optionals);
+    Field& f = start(fields, name, "list of objects", nullptr, help, optionals);
     f.is_list = true;
     f.put = [inner, each](const Field& self, const void* record, Json& object) {
         Json all = Json::array();

@@ -186,7 +186,7 @@ void declare_timings(DeclareFields<RunRecord>& d) {
 void refer(FieldRef ref, const char* definition) {
     Field& field = ref.field();
     if (field.is_list)
-        field.schema["items"] = reference(definition);
+        field.schema = {{"type", "array"}, {"items", reference(definition)}};
     else
         field.schema = reference(definition);
     field.null_when.clear();

@@ -6,24 +6,34 @@
 
 namespace facetmill {
 
+namespace {
+
+Json text_schema() { return {{"type", "string"}}; }
+
+Json texts_schema() {
+    return {{"anyOf", Json::array({text_schema(), {{"type", "array"}, {"items", text_schema()}}})}};
+}
+
+Json condition_schema() {
+    return {{"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions_schema()})}};
+}
+
+} // namespace
+
 const std::vector<CommonKey>& common_keys() {
-    static const std::vector<CommonKey> keys = [] {
-        const Json text = {{"type", "string"}};
-        const Json texts = {{"anyOf", Json::array({text, {{"type", "array"}, {"items", text}}})}};
-        const Json condition = {
-            {"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions_schema()})}};
-        return std::vector<CommonKey>{
-            {CommonKey::Use::names, "name",
-             "The name of this step in the report, in --set and in messages. Unique in the pipeline.", text},
-            {CommonKey::Use::conditions, "when",
-             "Runs the step only if this holds: a bool param, ${a} == value, or properties as in ensure.",
-             condition},
-            {CommonKey::Use::selects, "only",
-             "The parts that it works on: names or globs of parts or materials; \"!glob\" excludes.", texts},
-            {CommonKey::Use::ensures, "ensure",
-             "A contract on the result of the step: {closed: true, faces: {max: 5000}}.", contract_schema()},
-        };
-    }();
+    static const std::vector<CommonKey> keys{
+        {CommonKey::Use::names, "name",
+         "The name of this step in the report, in --set and in messages. Unique in the pipeline.",
+         text_schema},
+        {CommonKey::Use::conditions, "when",
+         "Runs the step only if this holds: a bool param, ${a} == value, or properties as in ensure.",
+         condition_schema},
+        {CommonKey::Use::selects, "only",
+         "The parts that it works on: names or globs of parts or materials; \"!glob\" excludes.",
+         texts_schema},
+        {CommonKey::Use::ensures, "ensure",
+         "A contract on the result of the step: {closed: true, faces: {max: 5000}}.", contract_schema},
+    };
     return keys;
 }
 

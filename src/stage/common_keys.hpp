@@ -16,7 +16,7 @@ struct CommonKey {
     Use use;
     std::string name;
     std::string help;
-    Json schema; ///< of the value, without expressions
+    Json (*schema)(); ///< of the value, without expressions
 };
 
 /// name, when, only, ensure; in the order of the help.
