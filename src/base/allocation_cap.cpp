@@ -1,5 +1,7 @@
 #include "base/allocation_cap.hpp"
 
+#include "base/storage.hpp"
+
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -8,10 +10,12 @@ namespace {
 
 constinit thread_local std::size_t most_at_once = std::numeric_limits<std::size_t>::max();
 
-/// As the C++ library's own, but for the cap; null where it would throw.
+/// As the C++ library's own, but for the cap and the size of pages; null where it would throw.
 void* requested(std::size_t bytes) noexcept {
     if (bytes > most_at_once) return nullptr;
-    return std::malloc(bytes == 0 ? 1 : bytes);
+    void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
+    if (memory) facetmill::ask_for_large_pages(memory, bytes);
+    return memory;
 }
 
 void* requested_or_thrown(std::size_t bytes) {

@@ -2,19 +2,37 @@
 
 #include "base/parallel.hpp"
 
+#include <cerrno>
 #include <cstdint>
 #include <sys/mman.h>
 #include <unistd.h>
 
 namespace facetmill {
 
+void ask_for_large_pages(void* memory, std::size_t bytes) noexcept {
+#ifdef MADV_HUGEPAGE
+    constexpr std::size_t least = std::size_t{2} << 20; // less holds no page of 2 MiB
+    if (bytes < least) return;
+    static const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const auto start = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t begin = start / page * page, end = (start + bytes + page - 1) / page * page;
+    // Refused (a kernel without them): the pages are small, as they would have been.
+    const int error = errno;
+    (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    errno = error;
+#else
+    (void)memory;
+    (void)bytes;
+#endif
+}
+
 void prefault(void* memory, std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
-    constexpr std::size_t piece = std::size_t{1} << 20;
+    constexpr std::size_t piece = std::size_t{2} << 20; // a large page
     if (bytes < piece) return;
     static const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t begin = (start + page - 1) / page * page, end = (start + bytes) / page * page;
+    const std::uintptr_t begin = start / page * page, end = (start + bytes) / page * page;
     parallel_chunks(
         end - begin,
         [&](std::size_t first, std::size_t last) {
