@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <functional>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,7 +20,7 @@ namespace facetmill::io {
 namespace {
 
 /// Below this a file is read rather than mapped, unless less is asked for: nobody can shrink memory under us.
-constexpr std::size_t map_from = std::size_t{64} << 20;
+constexpr std::size_t map_from = std::size_t{16} << 20;
 
 struct Descriptor {
     int fd;
@@ -61,35 +62,43 @@ std::size_t read_some(int fd, std::byte* to, std::size_t room, const std::string
     }
 }
 
+/// Memory that is filled from a file, and so not with zeros before.
+struct Piece {
+    std::unique_ptr<std::byte[]> bytes;
+    std::size_t size = 0;
+
+    explicit Piece(std::size_t room) : bytes(new std::byte[room]) {}
+};
+
 /// One after the other; each is freed as soon as it is copied, so that all are there hardly twice.
-Bytes joined(std::vector<Bytes> pieces, std::size_t size) {
+Piece joined(std::vector<Piece> pieces, std::size_t size) {
     if (pieces.size() == 1) return std::move(pieces.front());
-    Bytes bytes;
-    bytes.reserve(size);
-    for (Bytes& piece : pieces) {
-        bytes.insert(bytes.end(), piece.begin(), piece.end());
-        Bytes().swap(piece);
+    Piece all(size);
+    for (Piece& piece : pieces) {
+        std::copy_n(piece.bytes.get(), piece.size, all.bytes.get() + all.size);
+        all.size += piece.size;
+        piece.bytes.reset();
     }
-    return bytes;
+    return all;
 }
 
 /// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink). Read in pieces:
 /// a buffer that grows would be there twice, which for what never ends is twice the limit.
-Bytes read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
+Piece read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
     constexpr std::size_t least = std::size_t{64} << 10, most = std::size_t{64} << 20;
     limit = std::min(limit, SIZE_MAX - 1);
-    std::vector<Bytes> pieces;
+    std::vector<Piece> pieces;
     std::size_t size = 0;
-    for (std::size_t room = expected + 1;; room = std::clamp(size, least, most)) {
-        Bytes piece(std::min(room, std::max(limit, expected) + 1 - size));
-        std::size_t filled = 0, got = 0;
-        while (filled < piece.size() &&
-               (got = read_some(fd, piece.data() + filled, piece.size() - filled, name)) > 0)
-            filled += got;
-        size += filled;
+    for (std::size_t wanted = expected + 1;; wanted = std::clamp(size, least, most)) {
+        const std::size_t room = std::min(wanted, std::max(limit, expected) + 1 - size);
+        Piece piece(room);
+        std::size_t got = 0;
+        while (piece.size < room &&
+               (got = read_some(fd, piece.bytes.get() + piece.size, room - piece.size, name)) > 0)
+            piece.size += got;
+        size += piece.size;
         if (size > limit) too_large(name, limit);
-        const bool ended = filled < piece.size();
-        piece.resize(filled);
+        const bool ended = piece.size < room;
         pieces.push_back(std::move(piece));
         if (ended) return joined(std::move(pieces), size);
     }
@@ -109,6 +118,16 @@ Input::Stamp Input::stamp_of(const Stat& about) {
     return {about.st_dev,         about.st_ino,          static_cast<std::uint64_t>(about.st_size),
             about.st_mtim.tv_sec, about.st_mtim.tv_nsec, about.st_ctim.tv_sec,
             about.st_ctim.tv_nsec};
+}
+
+void Input::release(Span part) const {
+    const auto before = [](const std::byte* a, const std::byte* b) { return std::less<>()(a, b); };
+    const std::byte *const begin = part.data(), *const end = begin + part.size();
+    if (!mapped_ || before(begin, stored_.data()) || before(stored_.data() + stored_.size(), end)) return;
+    static const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page,
+               last = reinterpret_cast<std::uintptr_t>(end) / page * page;
+    if (first < last) (void)::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
 }
 
 bool Input::is_as_opened() const {
@@ -138,9 +157,9 @@ Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
         const std::size_t limit = regular  ? SIZE_MAX - 1
                                   : device ? std::min(max_stream, max_device_bytes)
                                            : std::min(max_stream, stream_limit());
-        auto bytes = std::make_shared<const Bytes>(read_all(file.fd, size, limit, input.name_));
-        input.bytes_ = *bytes;
-        input.owner_ = std::move(bytes);
+        Piece all = read_all(file.fd, size, limit, input.name_);
+        input.bytes_ = {all.bytes.get(), all.size};
+        input.owner_ = std::shared_ptr<const std::byte[]>(std::move(all.bytes));
     }
     input.unpack(max_stream);
     return input;

@@ -52,6 +52,9 @@ class Input {
     Input with(Bytes bytes) const;
     /// The same file without its first bytes.
     Input from(std::size_t offset) const;
+    /// Gives back the memory of a part of bytes() that has been read, where the file is mapped: the process
+    /// is smaller then. Who reads them again gets them from the file again.
+    void release(Span part) const;
     /// False when a file that is mapped is no longer as it was when it was opened (its place, size or times):
     /// who read its bytes may have seen some of before and some of after.
     bool is_as_opened() const;

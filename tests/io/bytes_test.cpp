@@ -4,6 +4,7 @@
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
+#include <fstream>
 #include <sys/stat.h>
 #include <thread>
 
@@ -57,6 +58,31 @@ TEST_CASE("a file that is mapped and changes is no longer as it was opened", "[i
     CHECK(again.is_as_opened());
     std::filesystem::remove(dir / "large");
     CHECK_FALSE(again.is_as_opened());
+}
+
+TEST_CASE("what has been read of a mapped file can be given back, and read again", "[io]") {
+    const TemporaryDirectory dir;
+    const std::string text(std::size_t{20} << 20, 'x');
+    put(dir / "large", text);
+    put(dir / "small", "x");
+    const Input large = Input::open(dir / "large"), small = Input::open(dir / "small");
+    const auto resident = [] { // kB of files that this process has in memory
+        std::ifstream status("/proc/self/status");
+        std::size_t kib = 0;
+        for (std::string key; status >> key;)
+            if (key == "RssFile:") status >> kib;
+        return kib;
+    };
+    CHECK(io::as_text(large.bytes()) == text);
+    const std::size_t before = resident();
+    large.release(large.bytes().subspan(5));
+    small.release(small.bytes()); // a copy
+    CHECK(resident() + (std::size_t{19} << 10) < before);
+    CHECK(io::as_text(large.bytes()) == text);
+    CHECK(io::as_text(small.bytes()) == "x");
+    const Input other = Input::of("other", io::Bytes(text.size(), std::byte{'x'}));
+    large.release(other.bytes()); // not its own
+    CHECK(io::as_text(other.bytes()) == text);
 }
 
 TEST_CASE("a pipe is read to its end, within a limit", "[io]") {

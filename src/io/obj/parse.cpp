@@ -409,6 +409,7 @@ Statements parse(const Input& input, const ReadSettings& settings) {
         [&](std::size_t c) {
             try {
                 ChunkParser(texts[c], input.name(), settings.lines, chunks[c]).parse();
+                input.release(std::as_bytes(std::span(texts[c])));
             } catch (const Error& error) {
                 chunks[c].error = error;
             }
