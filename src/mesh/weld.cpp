@@ -1,10 +1,11 @@
 // Vertices and wedges that go: the unused, and those at the same place.
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "base/random.hpp"
 #include "mesh/lineage.hpp"
+#include "mesh/places.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 namespace facetmill {
@@ -89,15 +90,74 @@ struct HashedVertex {
 /// What is not a number equals nothing, so that many with one hash would each be compared with all before:
 /// the index keeps them apart.
 std::uint32_t position_hash(const Vec3& p, std::size_t v) {
-    std::uint64_t h = p == p ? 0 : hashed(1, v);
-    for (std::size_t i = 0; i < 3; ++i)
-        h = hashed(h, std::bit_cast<std::uint64_t>(p[i] + 0.0)); // -0 + 0 is 0
-    return static_cast<std::uint32_t>(h);
+    if (!(p == p)) return static_cast<std::uint32_t>(place_hash(v, 0, 0));
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 + 0 is 0
+    return static_cast<std::uint32_t>(place_hash(bits(p.x), bits(p.y), bits(p.z)));
 }
 
 constexpr int bucket_bits = 11; // one pass of the radix sort
 
 constexpr std::size_t few = 4096; // vertices that are one bucket: buckets cost more than they save
+
+/// Which of many hashes came more than once, and a few of the others: a bit for each of 16 times as many
+/// hashes as there are (a Bloom filter with one function, after B. H. Bloom, "Space/time trade-offs in hash
+/// coding with allowable errors", 1970). All threads may add.
+class Repeated {
+  public:
+    explicit Repeated(std::size_t hashes)
+        : words_(std::min(std::bit_ceil(hashes) / 4, std::size_t{1} << 26)), once_(words_), again_(words_) {}
+
+    const void* place(std::uint32_t hash) const { return &once_[word(hash)]; }
+    void add(std::uint32_t hash) {
+        std::atomic_ref<std::uint64_t> once(once_[word(hash)]);
+        const bool known = once.fetch_or(bit(hash), std::memory_order_relaxed) & bit(hash);
+        if (!known) return;
+        std::atomic_ref<std::uint64_t>(again_[word(hash)]).fetch_or(bit(hash), std::memory_order_relaxed);
+    }
+    bool may_be(std::uint32_t hash) const { return (again_[word(hash)] & bit(hash)) != 0; }
+
+  private:
+    std::size_t word(std::uint32_t hash) const { return (hash >> 6) & (words_ - 1); }
+    static std::uint64_t bit(std::uint32_t hash) { return std::uint64_t{1} << (hash & 63); }
+
+    std::size_t words_;
+    std::vector<std::uint64_t> once_, again_;
+};
+
+/// The vertices that have others at their place, in order, and a few more; all where there are few.
+std::vector<HashedVertex> doubtful_vertices(const std::vector<Vec3>& positions) {
+    const std::size_t n = positions.size();
+    if (n <= few) {
+        std::vector<HashedVertex> all(n);
+        for (std::size_t v = 0; v < n; ++v) all[v] = {static_cast<Index>(v), position_hash(positions[v], v)};
+        return all;
+    }
+    std::vector<std::uint32_t> hashes(n);
+    Repeated repeated(n);
+    parallel_chunks(n, [&](std::size_t begin, std::size_t end) {
+        constexpr std::size_t block = 32; // whose bits are asked from memory before they are needed
+        for (std::size_t at = begin; at < end; at += block) {
+            const std::size_t last = std::min(at + block, end);
+            for (std::size_t v = at; v < last; ++v) {
+                hashes[v] = position_hash(positions[v], v);
+                __builtin_prefetch(repeated.place(hashes[v]), 1);
+            }
+            for (std::size_t v = at; v < last; ++v) repeated.add(hashes[v]);
+        }
+    });
+    return parallel_reduce(
+        n, std::vector<HashedVertex>{},
+        [&](std::size_t begin, std::size_t end) {
+            std::vector<HashedVertex> found;
+            for (std::size_t v = begin; v < end; ++v)
+                if (repeated.may_be(hashes[v])) found.push_back({static_cast<Index>(v), hashes[v]});
+            return found;
+        },
+        [](std::vector<HashedVertex> all, const std::vector<HashedVertex>& more) {
+            all.insert(all.end(), more.begin(), more.end());
+            return all;
+        });
+}
 
 /// Sets first[v] to the first vertex at v's position, for the vertices of one bucket (ascending).
 void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& positions,
@@ -114,34 +174,37 @@ void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& 
     }
 }
 
-/// For each vertex the first one at the same position. A hash splits the vertices into buckets that fit the
-/// cache; each bucket is then one small hash table. (Sorting by the coordinates took four times as long.)
+/// For each vertex the first one at the same position; empty where each is the only one. Of those that may
+/// have others a hash makes buckets that fit the cache; each bucket is then one small hash table. (Sorting by
+/// the coordinates took four times as long.)
 std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
-    std::vector<HashedVertex> items(positions.size());
-    parallel_for(items.size(), [&](std::size_t v) {
-        items[v] = {static_cast<Index>(v), position_hash(positions[v], v)};
-    });
+    std::vector<HashedVertex> items = doubtful_vertices(positions);
     std::vector<Index> first(positions.size());
+    parallel_for(first.size(), [&](std::size_t v) { first[v] = static_cast<Index>(v); });
     if (items.size() <= few) {
         find_firsts(items, positions, first);
-        return first;
+    } else {
+        constexpr std::uint32_t buckets = 1u << bucket_bits;
+        const auto bucket_of = [](const HashedVertex& item) { return item.hash & (buckets - 1); };
+        radix_sort(items, bucket_of, bucket_bits);
+        Share::loop_tells();
+        parallel_for(
+            buckets,
+            [&](std::size_t b) {
+                const auto before = [&](std::size_t bucket) {
+                    return std::lower_bound(
+                        items.begin(), items.end(), bucket,
+                        [&](const HashedVertex& item, std::size_t x) { return bucket_of(item) < x; });
+                };
+                const auto begin = before(b), end = before(b + 1);
+                if (begin != end)
+                    find_firsts({&*begin, static_cast<std::size_t>(end - begin)}, positions, first);
+            },
+            1);
     }
-    constexpr std::uint32_t buckets = 1u << bucket_bits;
-    const auto bucket_of = [](const HashedVertex& item) { return item.hash & (buckets - 1); };
-    radix_sort(items, bucket_of, bucket_bits);
-    Share::loop_tells();
-    parallel_for(
-        buckets,
-        [&](std::size_t b) {
-            const auto before = [&](std::size_t bucket) {
-                return std::lower_bound(
-                    items.begin(), items.end(), bucket,
-                    [&](const HashedVertex& item, std::size_t x) { return bucket_of(item) < x; });
-            };
-            const auto begin = before(b), end = before(b + 1);
-            if (begin != end) find_firsts({&*begin, static_cast<std::size_t>(end - begin)}, positions, first);
-        },
-        1);
+    const bool any = std::any_of(items.begin(), items.end(),
+                                 [&](const HashedVertex& item) { return first[item.vertex] != item.vertex; });
+    if (!any) first.clear();
     return first;
 }
 
@@ -149,10 +212,11 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
 
 std::size_t weld_exact(Mesh& mesh) {
     const std::size_t n = mesh.vertex_count();
-    std::vector<Index> first = first_at_position(mesh.positions), flags(n);
+    std::vector<Index> first = first_at_position(mesh.positions);
+    if (first.empty()) return 0;
+    std::vector<Index> flags(n);
     parallel_for(n, [&](std::size_t v) { flags[v] = first[v] == v ? 1 : 0; });
     const Survivors vertices = survivors(std::move(flags));
-    if (vertices.old.size() == n) return 0;
     parallel_for(
         n, [&](std::size_t v) { first[v] = vertices.renumbered[first[v]]; }); // now: the new vertex of each
     if (!has_attributes(mesh, Domain::wedge)) {                               // nothing to keep apart

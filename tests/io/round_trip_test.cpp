@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "base/parallel.hpp"
 #include "io/codec.hpp"
 #include "io/read_back.hpp"
 #include "mesh/invariants.hpp"
@@ -172,6 +173,43 @@ TEST_CASE("STL holds triangles, welded again on reading", "[io]") {
     }
     CHECK(changes(trip(scene_of(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
           std::string::npos);
+}
+
+TEST_CASE("a binary STL of many triangles is welded the same by any number of threads", "[io]") {
+    Mesh mesh = shapes::icosphere(5);
+    for (Vec3& p : mesh.positions) p = {p.x, p.y, std::abs(p.z) < 0.01 ? -0.0 : p.z};
+    io::Written written = io::codec_named("stl")->write(scene_of(mesh), {});
+    io::Bytes& bytes = written.files.front().bytes;
+    const std::size_t faces = mesh.face_count(), first_zero = [&] {
+        std::size_t c = 0;
+        while (mesh.point(static_cast<Index>(c)).z != 0) ++c;
+        return c;
+    }();
+    bytes.at(84 + 50 * (faces - 1) + 48) = std::byte{7}; // two bytes behind the last triangle
+    const auto sign = [&](std::size_t c) -> std::byte& {
+        return bytes.at(84 + c / 3 * 50 + 12 * (c % 3 + 1) + 11);
+    };
+    for (std::size_t c = 0; c < 3 * faces; ++c)
+        if (mesh.point(static_cast<Index>(c)).z == 0)
+            sign(c) = c == first_zero ? std::byte{0x80} : std::byte{0};
+    for (const int threads : {1, 2, 3}) {
+        set_threads(threads);
+        io::ReadLog log;
+        const Mesh read = io::read_scene(io::Input::of("mesh.stl", bytes), {}, log).parts.at(0).mesh;
+        REQUIRE(read.vertex_count() == mesh.vertex_count());
+        Index next = 0; // places are numbered as they come
+        bool same = true;
+        for (Index c = 0; c < 3 * faces; ++c) {
+            same &= read.corners[c] <= next && read.point(c).z == static_cast<float>(mesh.point(c).z);
+            next = std::max(next, read.corners[c] + 1);
+        }
+        CHECK(same);
+        CHECK(std::signbit(read.point(static_cast<Index>(first_zero)).z)); // of the first corner there
+        const Attribute* extra = read.find("attribute", Domain::face);
+        REQUIRE(extra);
+        CHECK(extra->value(faces - 1, 0) == 7);
+    }
+    set_threads(0);
 }
 
 TEST_CASE("parts are placed in the world, and are solids in STL text and objects in OBJ", "[io]") {

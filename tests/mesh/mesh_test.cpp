@@ -140,10 +140,34 @@ TEST_CASE("number_places counts by first occurrence, for any number of threads a
             std::vector<Index> number(5 * places), first(places);
             const auto found = number_places(
                 number, guess, point, [&](std::size_t n) { return n == places; },
-                [&](Index place, std::size_t i) { first[place] = static_cast<Index>(i); });
+                [&](Index place, std::size_t i, const FloatBits& key) {
+                    first[place] = key == point(i) ? static_cast<Index>(i) : none;
+                });
             bool same = found == places;
             for (std::size_t i = 0; i < number.size(); ++i) same &= number[i] == place_of(i);
             for (std::size_t i = 0; i < places; ++i) same &= first[i] == i;
+            CHECK(same);
+        }
+    set_threads(0);
+}
+
+TEST_CASE("weld_exact finds what is equal among many, few of them or most", "[mesh]") {
+    const std::size_t n = 50000;
+    for (const std::size_t places : {n, n - 3, n / 2, std::size_t{7}})
+        for (const int count : {1, 2, 3}) {
+            set_threads(count);
+            Mesh mesh;
+            std::vector<std::size_t> place(n);
+            for (std::size_t v = 0; v < n; ++v) {
+                place[v] = v < places ? v : (v - places) * 7919 % places;
+                const auto x = static_cast<double>(place[v]);
+                mesh.positions.push_back({x / 3, v % 2 == 0 ? -0.0 : 0.0, -x});
+                mesh.corners.push_back(static_cast<Index>(v));
+            }
+            CHECK(weld_exact(mesh) == n - places);
+            REQUIRE(mesh.vertex_count() == places);
+            bool same = true;
+            for (std::size_t v = 0; v < n; ++v) same &= mesh.corners[v] == place[v];
             CHECK(same);
         }
     set_threads(0);

@@ -52,7 +52,7 @@ void check_count(const Input& input, const ReadSettings& settings, std::size_t v
 /// The triangles of a binary file as they lie in it.
 class Records {
   public:
-    explicit Records(Span bytes) : bytes_(bytes) {}
+    Records(const Input& input, Span bytes) : input_(input), bytes_(bytes) {}
 
     std::size_t size() const { return bytes_.size() / record; }
     /// Corner c of all; the normal in front of a triangle's is passed by.
@@ -69,6 +69,17 @@ class Records {
     /// The two bytes behind triangle t.
     std::uint16_t extra(std::size_t t) const { return at<std::uint16_t>(t * record + record - 2); }
 
+    /// These corners have been read.
+    void done(std::size_t begin, std::size_t end) const {
+        const std::size_t first = begin / 3, last = (end + 2) / 3;
+        std::uint16_t all = 0;
+        for (std::size_t t = first; t < last; ++t) all |= extra(t);
+        if (all != 0) has_extra_.store(true, std::memory_order_relaxed);
+        input_.release(bytes_.subspan(first * record, (last - first) * record));
+    }
+    /// Whether some triangle has more than zeros behind it, of the corners that are done.
+    bool has_extra() const { return has_extra_; }
+
   private:
     template <class T>
     T at(std::size_t offset) const {
@@ -77,21 +88,25 @@ class Records {
         return t;
     }
 
+    const Input& input_;
     Span bytes_;
+    mutable std::atomic<bool> has_extra_ = false;
 };
 
 /// One vertex for each place, without a list of all corners in doubles before.
 void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& settings) {
     const std::size_t corners = 3 * records.size();
     mesh.corners.resize(corners);
-    const auto put = [&](std::size_t place, std::size_t c) {
-        const auto p = records.corner(c);
+    const auto put = [&](std::size_t place, const std::array<float, 3>& p) {
         mesh.positions[place] = {p[0], p[1], p[2]};
     };
     if (settings.weld == Weld::off) {
         mesh.positions.resize(corners);
         std::iota(mesh.corners.begin(), mesh.corners.end(), Index{0});
-        parallel_for(corners, [&](std::size_t c) { put(c, c); });
+        parallel_chunks(corners, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) put(c, records.corner(c));
+            records.done(begin, end);
+        });
         return;
     }
     const std::size_t expected = records.size() / 2; // of a closed surface
@@ -101,7 +116,10 @@ void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& setti
             mesh.positions.resize(places);
             return true;
         },
-        put);
+        [&](std::size_t place, std::size_t c, const FloatBits& key) {
+            const bool zero = key[0] == 0 || key[1] == 0 || key[2] == 0; // which may be -0 at this corner
+            put(place, zero ? records.corner(c) : std::bit_cast<std::array<float, 3>>(key));
+        });
 }
 
 void refuse_not_finite(const Mesh& mesh, const std::string& name) {
@@ -117,13 +135,7 @@ void refuse_not_finite(const Mesh& mesh, const std::string& name) {
 
 /// What files with colours have behind their triangles; most have zeros.
 void add_attribute_bytes(Mesh& mesh, const Records& records) {
-    std::atomic<bool> any = false;
-    parallel_chunks(records.size(), [&](std::size_t begin, std::size_t end) {
-        std::uint16_t all = 0;
-        for (std::size_t t = begin; t < end; ++t) all |= records.extra(t);
-        if (all != 0) any = true;
-    });
-    if (!any) return;
+    if (!records.has_extra()) return;
     std::vector<std::uint16_t> extra(records.size());
     parallel_for(extra.size(), [&](std::size_t t) { extra[t] = records.extra(t); });
     mesh.attributes.push_back({"attribute", Domain::face, Role::index, 1, false, std::move(extra)});
@@ -148,9 +160,9 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                                 file_mark(input.name()), ""});
     check_count(input, settings, 3 * n);
     Part part;
-    const Records records(bytes.subspan(head, n * record));
-    add_attribute_bytes(part.mesh, records);
+    const Records records(input, bytes.subspan(head, n * record));
     add_triangles(part.mesh, records, settings);
+    add_attribute_bytes(part.mesh, records);
     refuse_not_finite(part.mesh, input.name());
     return part;
 }
