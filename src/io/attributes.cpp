@@ -35,6 +35,26 @@ void add_attribute(Mesh& mesh, Attribute attribute) {
     mesh.attributes.push_back(std::move(attribute));
 }
 
+std::vector<Vec3> to_vectors(const Attribute& attribute) {
+    std::vector<Vec3> vectors(attribute.size());
+    std::visit(
+        [&](const auto& numbers) {
+            using T = typename std::decay_t<decltype(numbers)>::value_type;
+            const auto width = static_cast<std::size_t>(attribute.components);
+            const bool fractions = std::is_integral_v<T> && attribute.normalised;
+            parallel_for(vectors.size(), [&](std::size_t i) {
+                const T* const n = numbers.data() + width * i;
+                if (fractions)
+                    vectors[i] = {attribute.value(i, 0), attribute.value(i, 1), attribute.value(i, 2)};
+                else
+                    vectors[i] = {static_cast<double>(n[0]), static_cast<double>(n[1]),
+                                  static_cast<double>(n[2])};
+            });
+        },
+        attribute.data);
+    return vectors;
+}
+
 void extend_to_wedges(Attribute& attribute, std::span<const Index> wedge_vertex, std::size_t vertices) {
     const auto n = static_cast<std::size_t>(attribute.components);
     std::visit(

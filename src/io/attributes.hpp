@@ -20,6 +20,9 @@ Role role_of(const std::string& name, int components, const AttributeData& data)
 /// and another name than those that the mesh keeps for itself ("primitive").
 void add_attribute(Mesh& mesh, Attribute attribute);
 
+/// The elements of three components as vectors, in parallel.
+std::vector<Vec3> to_vectors(const Attribute& attribute);
+
 /// Gives the wedges behind the first `vertices` the values of the vertex they are at.
 void extend_to_wedges(Attribute& attribute, std::span<const Index> wedge_vertex, std::size_t vertices);
 

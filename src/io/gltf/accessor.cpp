@@ -12,11 +12,17 @@ namespace {
 
 constexpr std::size_t max_zeros = std::size_t{256} << 20;
 
-/// Copies count elements of `components` numbers, `stride` bytes apart.
+/// Count elements of `components` numbers, `stride` bytes apart.
 template <class T>
 void gather(const std::byte* from, std::size_t count, std::size_t stride, int components,
             std::vector<T>& to) {
     const std::size_t width = static_cast<std::size_t>(components), bytes = width * sizeof(T);
+    if (stride == bytes && reinterpret_cast<std::uintptr_t>(from) % alignof(T) == 0) {
+        const auto* const numbers = reinterpret_cast<const T*>(from); // no zeros are written before
+        to.assign(numbers, numbers + count * width);
+        return;
+    }
+    to.resize(count * width);
     parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
         if (stride == bytes)
             std::memcpy(to.data() + begin * width, from + begin * bytes, (end - begin) * bytes);
@@ -190,8 +196,10 @@ AttributeData decode(Source& source, const Accessor& a) {
     }
     std::visit(
         [&](auto& numbers) {
-            numbers.resize(a.count * static_cast<std::size_t>(a.components));
-            if (from) gather(from, a.count, stride, a.components, numbers);
+            if (from)
+                gather(from, a.count, stride, a.components, numbers);
+            else
+                numbers.resize(a.count * static_cast<std::size_t>(a.components));
             apply_sparse(source, a, numbers);
         },
         data);

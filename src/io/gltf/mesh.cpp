@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "geometry/edit/equal_wedges.hpp"
+#include "io/attributes.hpp"
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/features.hpp"
 #include "io/gltf/lines.hpp"
@@ -43,20 +44,6 @@ struct Merge {
         out.warnings.push_back({Severity::warning, id, message, {}, hint});
     }
 };
-
-std::vector<Vec3> to_positions(const Attribute& a) {
-    std::vector<Vec3> positions(a.size());
-    if (const auto* floats = std::get_if<std::vector<float>>(&a.data))
-        parallel_for(positions.size(), [&](std::size_t i) {
-            const float* const p = floats->data() + 3 * i;
-            positions[i] = {p[0], p[1], p[2]};
-        });
-    else
-        parallel_for(positions.size(), [&](std::size_t i) {
-            positions[i] = {a.value(i, 0), a.value(i, 1), a.value(i, 2)};
-        });
-    return positions;
-}
 
 /// True when an accessor can be a mesh attribute; matrices of small numbers are padded and not read.
 bool usable(const Accessor& a) {
@@ -121,7 +108,7 @@ std::size_t plain_block(Merge& merge, const Place& primitive) {
     if (positions.components != 3) positions.place.fail("POSITION must be VEC3");
     block.count = positions.count;
     if (block.count > merge.max_vertices) add_vertices(merge, block); // refuses
-    block.positions = to_positions(to_attribute(merge, "POSITION", positions, block.count));
+    block.positions = to_vectors(to_attribute(merge, "POSITION", positions, block.count));
     for (const auto& [name, reference] : attributes.json().items())
         if (name != "POSITION")
             add_accessor_attribute(merge, block, name, Place(reference, attributes.path() + "." + name));
@@ -188,7 +175,7 @@ std::size_t draco_block(Merge& merge, const Place& primitive, const Place& draco
         Attribute attribute = from_column(name, std::move(*column), promised);
         if (name == "POSITION") {
             if (attribute.components != 3) promised.place.fail("POSITION must be VEC3");
-            block.positions = to_positions(attribute);
+            block.positions = to_vectors(attribute);
             positions = true;
         } else if (usable(promised)) {
             block.attributes.push_back(std::move(attribute));
@@ -264,7 +251,10 @@ void add_primitive(Merge& merge, const Place& primitive) {
         mesh.corners.resize(before + indices.size());
         parallel_for(indices.size(), [&](std::size_t i) { mesh.corners[before + i] = first + indices[i]; });
     }
-    merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
+    if (!mesh.primitives.empty()) { // of one, it is not needed
+        merge.face_primitive.resize(before / 3, 0);
+        merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
+    }
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <meshoptimizer.h>
 #include <numeric>
@@ -137,6 +138,8 @@ std::size_t stream_bytes(const Mesh& mesh, const Table& table, const std::vector
                          const Box& box) {
     std::vector<Index> number(table.wedges.size(), none), numbered;
     std::vector<std::array<std::uint16_t, 4>> places;
+    numbered.reserve(indices.size());
+    places.reserve(table.wedges.size());
     const Vec3 e = box.extent();
     const double steps = 16383 / std::max({e.x, e.y, e.z, 1e-300});
     for (const Index w : indices) {
@@ -155,21 +158,43 @@ std::size_t stream_bytes(const Mesh& mesh, const Table& table, const std::vector
            encode_meshopt(std::as_bytes(std::span(places)), vertices, 0).size();
 }
 
-/// Corners by triangles along a direction; those of one place as given.
-std::vector<Index> sorted_along(const Mesh& mesh, const Table& table, const std::vector<Index>& corners,
-                                const Vec3& direction) {
-    std::vector<std::pair<double, std::size_t>> triangles(corners.size() / 3);
-    for (std::size_t c = 0; c < corners.size(); ++c)
-        triangles[c / 3] = {
-            triangles[c / 3].first +
-                dot(direction, mesh.positions[mesh.vertex_of_wedge(table.wedges[corners[c]])]),
-            c / 3};
-    std::sort(triangles.begin(), triangles.end());
-    std::vector<Index> sorted;
-    sorted.reserve(corners.size());
-    for (const auto& [_, t] : triangles)
-        sorted.insert(sorted.end(), {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]});
+/// A triangle, and its place along an axis as a number that sorts as the places do.
+struct Placed {
+    std::uint64_t key;
+    Index triangle;
+};
+
+/// The triangles by the sum of one of their corners' coordinates; those of one sum as given.
+std::vector<Placed> triangles_along(const Mesh& mesh, const Table& table, std::size_t axis) {
+    std::vector<Placed> sorted(table.indices.size() / 3);
+    for (std::size_t t = 0; t < sorted.size(); ++t) {
+        double sum = 0;
+        for (std::size_t c = 3 * t; c < 3 * t + 3; ++c)
+            sum += mesh.positions[mesh.vertex_of_wedge(table.wedges[table.indices[c]])][axis];
+        const auto bits = std::bit_cast<std::uint64_t>(sum + 0.0); // -0 + 0 is 0
+        constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+        sorted[t] = {bits & sign ? ~bits : bits | sign, static_cast<Index>(t)};
+    }
+    radix_sort(sorted, [](const Placed& p) { return p.key; });
     return sorted;
+}
+
+/// The corners of the triangles, there or back; back, too, those of one place are as given.
+std::vector<Index> corners_along(const Table& table, const std::vector<Placed>& sorted, bool back) {
+    std::vector<Index> corners;
+    corners.reserve(3 * sorted.size());
+    const auto add = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto from = table.indices.begin() + std::ptrdiff_t{3} * sorted[i].triangle;
+            corners.insert(corners.end(), from, from + 3);
+        }
+    };
+    if (!back) add(0, sorted.size());
+    for (std::size_t end = sorted.size(), begin = end; back && end > 0; end = begin) {
+        while (begin > 0 && sorted[begin - 1].key == sorted[end - 1].key) --begin;
+        add(begin, end);
+    }
+    return corners;
 }
 
 /// The order for caches; strips begun in it, in the given one, and in those strips; for meshes that are not
@@ -177,9 +202,9 @@ std::vector<Index> sorted_along(const Mesh& mesh, const Table& table, const std:
 /// fewest bytes.
 void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
     constexpr std::size_t large = 100000; // triangles
-    static const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     const std::size_t vertices = table.wedges.size(), corners = table.indices.size();
-    std::vector<std::vector<Index>> orders(corners / 3 > large ? 4 : 10, table.indices);
+    std::vector<std::vector<Index>> orders(4, table.indices);
+    if (corners / 3 <= large) orders.resize(10);
     const auto strips = [&](std::vector<Index>& order) {
         meshopt_optimizeVertexCacheStrip(order.data(), order.data(), corners, vertices);
     };
@@ -187,11 +212,15 @@ void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
     orders[1] = orders[0];
     strips(orders[1]);
     orders[2] = orders[1];
+    std::vector<Placed> along[3];
+    if (orders.size() > 4)
+        parallel_for(
+            3, [&](std::size_t axis) { along[axis] = triangles_along(mesh, table, axis); }, 1);
     std::vector<std::size_t> bytes(orders.size());
     parallel_for(
         orders.size(),
         [&](std::size_t i) {
-            if (i >= 4) orders[i] = sorted_along(mesh, table, table.indices, axes[i - 4]);
+            if (i >= 4) orders[i] = corners_along(table, along[(i - 4) % 3], i >= 7);
             if (i >= 2) strips(orders[i]);
             bytes[i] = stream_bytes(mesh, table, orders[i], box);
         },

@@ -1,6 +1,7 @@
 // Attributes rounded when the document is otherwise as it will be: whatever wrote them, and those of meshes
 // that are left alone, points and lines among them.
 
+#include "io/attributes.hpp"
 #include "io/gltf/encode.hpp"
 #include "io/gltf/instances.hpp"
 #include "io/gltf/patch.hpp"
@@ -120,9 +121,7 @@ std::vector<Vec3> Store::positions(std::size_t accessor) {
     if (a.components != 3)
         throw Error(ErrorKind::malformed, "E-GLTF",
                     fmt::format("accessors[{}]: POSITION must be VEC3", accessor));
-    std::vector<Vec3> all;
-    for (std::size_t i = 0; i < a.size(); ++i) all.push_back({a.value(i, 0), a.value(i, 1), a.value(i, 2)});
-    return all;
+    return to_vectors(a);
 }
 
 /// The accessor that has the numbers in place of the given one; the same when there is nothing new.

@@ -1,6 +1,7 @@
 // Plain Draco files: one mesh, without materials or nodes.
 
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
 
@@ -46,9 +47,7 @@ Mesh to_mesh(DracoMesh decoded) {
     for (auto& column : decoded.columns) {
         if (column.kind == DracoKind::position && mesh.positions.empty() && column.components == 3) {
             const Attribute a{"", Domain::wedge, Role::generic, 3, column.normalised, std::move(column.data)};
-            mesh.positions.resize(decoded.points);
-            for (std::size_t p = 0; p < decoded.points; ++p)
-                mesh.positions[p] = {a.value(p, 0), a.value(p, 1), a.value(p, 2)};
+            mesh.positions = to_vectors(a);
             continue;
         }
         const std::string name = name_of(column, taken);

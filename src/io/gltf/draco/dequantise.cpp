@@ -1,6 +1,7 @@
 #include "io/gltf/draco/dequantise.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 
 #include <algorithm>
 
@@ -35,12 +36,13 @@ Dequantised off_the_grid(const ::draco::PointAttribute& attribute) {
         grid.min_values().size() < static_cast<std::size_t>(components))
         fail();
     const float step = grid.range() / static_cast<float>((1 << grid.quantization_bits()) - 1);
-    Dequantised out{components, {}};
-    out.numbers.reserve(attribute.size() * static_cast<std::size_t>(components));
-    for (std::size_t i = 0; i < attribute.size(); ++i)
+    const auto width = static_cast<std::size_t>(components);
+    Dequantised out{components, std::vector<float>(attribute.size() * width)};
+    parallel_for(attribute.size(), [&](std::size_t i) {
         for (int c = 0; c < components; ++c)
-            out.numbers.push_back(static_cast<float>(whole_number(attribute, i, c)) * step +
-                                  grid.min_value(c));
+            out.numbers[width * i + static_cast<std::size_t>(c)] =
+                static_cast<float>(whole_number(attribute, i, c)) * step + grid.min_value(c);
+    });
     return out;
 }
 

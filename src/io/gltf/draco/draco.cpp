@@ -224,13 +224,25 @@ namespace {
 
 void add_triangles(const ::draco::Mesh& mesh, DracoMesh& result) {
     result.triangles.resize(std::size_t{3} * mesh.num_faces());
-    for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t point = mesh.face(::draco::FaceIndex(f))[k].value();
-            if (point >= result.points)
-                fail(fmt::format("face {} refers to point {} of {}", f, point, result.points));
-            result.triangles[std::size_t{3} * f + static_cast<std::size_t>(k)] = point;
-        }
+    const auto face = [&](std::size_t f) -> const ::draco::Mesh::Face& {
+        return mesh.face(::draco::FaceIndex(static_cast<std::uint32_t>(f)));
+    };
+    const std::size_t faces = mesh.num_faces();
+    const std::size_t bad = parallel_reduce(
+        faces, faces,
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t point = face(f)[k].value();
+                    if (point >= result.points) return f;
+                    result.triangles[3 * f + k] = point;
+                }
+            return faces;
+        },
+        [](std::size_t x, std::size_t y) { return std::min(x, y); });
+    if (bad < faces)
+        fail(fmt::format("face {} refers to one of points {}, {} and {}, of {}", bad, face(bad)[0].value(),
+                         face(bad)[1].value(), face(bad)[2].value(), result.points));
 }
 
 } // namespace
