@@ -19,15 +19,6 @@ bool resolve_t_junctions(Work& work, double tolerance) {
     return true;
 }
 
-bool take_apart_non_manifold(Work& work, bool divide_all) {
-    NonManifoldSplit split = split_non_manifold(std::move(work.mesh), divide_all);
-    work.mesh = std::move(split.mesh);
-    work.counts.split_vertices += split.split_vertices;
-    work.counts.split_edges += split.split_edges;
-    if (split.split_edges > 0) work.changes = std::move(split.changes);
-    return split.changed();
-}
-
 } // namespace facetmill::clean_steps
 
 namespace facetmill {
@@ -125,7 +116,7 @@ bool one_round(Work& work, const CleanSettings& s) {
         did(fill_holes(work, *s.holes, nullptr, may_cross));
         work.not_done.resize(told); // those that stay are told below
     }
-    if (s.non_manifold) did(take_apart_non_manifold(work));
+    if (s.non_manifold) did(take_apart_non_manifold(work, {.single = s.single}));
     steps.next();
     changed |= untangle(work, s);
     steps.next();

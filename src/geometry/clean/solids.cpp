@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/inspect/evidence.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "geometry/spatial/components_around.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
@@ -103,6 +104,44 @@ Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
     }
     normalise_offsets(some);
     return some;
+}
+
+namespace {
+
+/// Those whose boxes meet the box of a flagged face, ascending.
+std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
+    const auto box_of = [&](Index f) {
+        Box box;
+        add_corners(box, mesh, f);
+        return box;
+    };
+    std::vector<Box> boxes;
+    for (Index f = 0; f < flags.size(); ++f)
+        if (flags[f]) boxes.push_back(box_of(f));
+    const BoxTree tree(std::move(boxes));
+    std::vector<std::uint8_t> near(flags);
+    parallel_for(near.size(), [&](std::size_t f) {
+        if (!near[f]) tree.visit(box_of(static_cast<Index>(f)), [&](Index) { near[f] = 1; });
+    });
+    std::vector<Index> faces;
+    for (Index f = 0; f < near.size(); ++f)
+        if (near[f]) faces.push_back(f);
+    return faces;
+}
+
+} // namespace
+
+SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
+                                 std::size_t max_box_pairs) {
+    const std::vector<Index> near = faces_near(mesh, flags);
+    std::vector<std::uint8_t> among(near.size());
+    for (std::size_t i = 0; i < near.size(); ++i) among[i] = flags[near[i]];
+    SelfIntersections found = crossings(only_faces(mesh, near), std::move(among), max_box_pairs);
+    for (auto& [f, g] : found.pairs) {
+        f = near[f];
+        g = near[g];
+    }
+    return found;
 }
 
 Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {

@@ -55,8 +55,9 @@ bool remove_duplicates(Work& work);
 /// A vertex on (near: within tolerance of) a boundary edge of another face, with a boundary edge of its own
 /// along that one, is put on it.
 bool resolve_t_junctions(Work& work, double tolerance);
-/// See split_non_manifold.
-bool take_apart_non_manifold(Work& work, bool divide_all = false);
+/// See part_fans and divide_crowded_edges. An edge whose middle cannot be put exactly on it stays as it is
+/// where faces would intersect others for that, or lose their area, and is told.
+bool take_apart_non_manifold(Work& work, const EdgeDivision& how);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of boundary edges as the settings say; holes that touch at a vertex each for itself. Loops
@@ -74,6 +75,9 @@ bool remove_isolated(Work& work);
 /// max_pairs are listed; none when more than max_box_pairs would have to be looked at.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
                             std::size_t max_box_pairs = std::size_t(-1));
+/// The same pairs of faces that are flagged, for a few of many faces: only what is near them is looked at.
+SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
+                                 std::size_t max_box_pairs = std::size_t(-1));
 /// The bare mesh of some of the faces, in that order, with the vertices that they use.
 Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces);
 inline constexpr std::size_t max_pairs = std::size_t{1} << 22;

@@ -1,8 +1,5 @@
 #include "geometry/clean/trial.hpp"
 
-#include "base/parallel.hpp"
-#include "geometry/spatial/box_tree.hpp"
-#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -108,48 +105,16 @@ void Trial::tidy() {
         remove_degenerate(work_);
     }
     if (settings_.duplicates) remove_duplicates(work_);
-    if (settings_.non_manifold) take_apart_non_manifold(work_, true);
+    if (settings_.non_manifold) take_apart_non_manifold(work_, {.all = true, .single = settings_.single});
     work_.counts = before; // a part of the union
 }
-
-namespace {
-
-/// Those whose boxes meet the box of a flagged face, ascending.
-std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
-    const auto box_of = [&](Index f) {
-        Box box;
-        add_corners(box, mesh, f);
-        return box;
-    };
-    std::vector<Box> boxes;
-    for (Index f = 0; f < flags.size(); ++f)
-        if (flags[f]) boxes.push_back(box_of(f));
-    const BoxTree tree(std::move(boxes));
-    std::vector<std::uint8_t> near(flags);
-    parallel_for(near.size(), [&](std::size_t f) {
-        if (!near[f]) tree.visit(box_of(static_cast<Index>(f)), [&](Index) { near[f] = 1; });
-    });
-    std::vector<Index> faces;
-    for (Index f = 0; f < near.size(); ++f)
-        if (near[f]) faces.push_back(f);
-    return faces;
-}
-
-} // namespace
 
 /// Faces that are not fresh cross as little as they did before the last pass.
 SelfIntersections Trial::crossings_of_fresh() const {
     const auto marks = marks_of(work_.mesh);
     std::vector<std::uint8_t> among(marks.size());
     for (std::size_t f = 0; f < among.size(); ++f) among[f] = (marks[f] & fresh) != 0;
-    const std::vector<Index> near = faces_near(work_.mesh, among);
-    std::vector<std::uint8_t> among_near(near.size());
-    for (std::size_t i = 0; i < near.size(); ++i) among_near[i] = among[near[i]];
-    SelfIntersections found = crossings(only_faces(work_.mesh, near), std::move(among_near));
-    for (auto& [f, g] : found.pairs) {
-        f = near[f];
-        g = near[g];
-    }
+    SelfIntersections found = crossings_near(work_.mesh, among);
     std::erase_if(found.pairs, [&](const auto& pair) { // there before
         const auto m = marks[pair.first] & ~fresh, n = marks[pair.second] & ~fresh;
         return (m == 0 && solids_.meets_unfit[n - 1]) || (n == 0 && solids_.meets_unfit[m - 1]);

@@ -1,5 +1,6 @@
 #include "geometry/edit/split_non_manifold.hpp"
 
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "geometry/edit/around_edge.hpp"
 #include "geometry/edit/surgery.hpp"
@@ -93,33 +94,27 @@ class Joints {
     std::vector<std::uint8_t> open_; ///< [faces] where there are crowded edges
 };
 
-/// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair (but the first
-/// unless `all`) and every face left over.
-void divide_crowded_edges(NonManifoldSplit& work, const EdgeTable& edges, bool all) {
-    const Mesh& mesh = work.mesh;
-    if (!has_crowded_edges(edges)) return;
-    const auto faces = corner_faces(mesh);
-    const Joints joints(mesh, edges, faces);
-    std::vector<Insertion> insertions;
-    std::vector<Lineage::Edge> added;
-    for (Index e = 0; e < edges.size(); ++e) {
-        const auto corners = edges.corners_of(e);
-        if (corners.size() <= 2) continue;
-        auto groups = joints.at(e);
-        std::vector<std::uint8_t> paired(corners.size(), 0);
-        for (const auto& [a, b] : groups)
-            for (std::size_t i = 0; i < corners.size(); ++i) paired[i] |= corners[i] == a || corners[i] == b;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            if (!paired[i]) groups.emplace_back(corners[i], corners[i]);
-        for (std::size_t g = all ? 0 : 1; g < groups.size(); ++g) {
-            const auto v = static_cast<Index>(mesh.vertex_count() + added.size());
-            added.push_back({edges.edges[e].low, edges.edges[e].high, 0.5});
-            insertions.push_back({groups[g].first, 0.5, v});
-            if (groups[g].second != groups[g].first) insertions.push_back({groups[g].second, 0.5, v});
-        }
-        ++work.split_edges;
-    }
-    work.mesh = insert_on_edges(mesh, std::move(insertions), added, &work.changes);
+/// The corners of a crowded edge that get a point together, as pairs; a face left over twice.
+std::vector<std::pair<Index, Index>> groups_at(const EdgeTable& edges, const Joints& joints, Index e) {
+    const auto corners = edges.corners_of(e);
+    auto groups = joints.at(e);
+    std::vector<std::uint8_t> paired(corners.size(), 0);
+    for (const auto& [a, b] : groups)
+        for (std::size_t i = 0; i < corners.size(); ++i) paired[i] |= corners[i] == a || corners[i] == b;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        if (!paired[i]) groups.emplace_back(corners[i], corners[i]);
+    return groups;
+}
+
+/// The faces that the faces of a mesh come from once vertices were put on its edges.
+std::vector<Index> parents_of(const Mesh& mesh, const std::vector<Index>& faces,
+                              const std::vector<Insertion>& insertions) {
+    std::vector<Index> pieces(mesh.face_count(), 1);
+    for (const Insertion& i : insertions)
+        if (const Index f = faces[i.corner]; mesh.face_size(f) == 3) ++pieces[f];
+    std::vector<Index> parents;
+    for (Index f = 0; f < pieces.size(); ++f) parents.insert(parents.end(), pieces[f], f);
+    return parents;
 }
 
 } // namespace
@@ -158,17 +153,54 @@ Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges) {
     return result;
 }
 
-NonManifoldSplit split_non_manifold(Mesh mesh, bool divide_all) {
-    NonManifoldSplit result{std::move(mesh), {}, 0, 0};
-    EdgeTable edges = build_edges(result.mesh);
-    const Fans fans = disjoint_fans(result.mesh, edges);
-    if (!fans.copies.empty()) {
-        result.split_vertices = fans.copies.size();
-        result.mesh = part_corners(result.mesh, fans.vertex_of_corner, fans.copies);
-        edges = build_edges(result.mesh);
+EdgeTable part_fans(Mesh& mesh, std::size_t& parted) {
+    EdgeTable edges = build_edges(mesh);
+    const Fans fans = disjoint_fans(mesh, edges);
+    parted = fans.copies.size();
+    if (parted == 0) return edges;
+    mesh = part_corners(mesh, fans.vertex_of_corner, fans.copies);
+    return build_edges(mesh);
+}
+
+DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges, const EdgeDivision& how) {
+    DividedEdges result;
+    if (!has_crowded_edges(edges)) return result;
+    const auto faces = corner_faces(mesh);
+    const Joints joints(mesh, edges, faces);
+    std::vector<Insertion> insertions;
+    std::vector<Lineage::Edge> added;
+    std::vector<Vec3> points;
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto& [low, high] = edges.edges[e];
+        if (edges.corners_of(e).size() <= 2 || how.leave.contains({low, high})) continue;
+        const Vec3 &a = mesh.positions[low], &b = mesh.positions[high];
+        const Vec3 middle = mix(a, b, 0.5), rounded = as_float32(middle);
+        const Vec3 point = how.single && is_finite(rounded) ? rounded : middle;
+        const bool beside = is_finite(a) && is_finite(b) && is_finite(point) && !collinear(a, b, point);
+        result.edges.push_back({low, high, point, beside});
+        const auto groups = groups_at(edges, joints, e);
+        for (std::size_t g = how.all || beside ? 0 : 1; g < groups.size(); ++g) {
+            const auto v = static_cast<Index>(mesh.vertex_count() + added.size());
+            added.push_back({low, high, 0.5});
+            points.push_back(point);
+            result.edge_of_point.push_back(static_cast<Index>(result.edges.size() - 1));
+            insertions.push_back({groups[g].first, 0.5, v});
+            if (groups[g].second != groups[g].first) insertions.push_back({groups[g].second, 0.5, v});
+        }
     }
-    divide_crowded_edges(result, edges, divide_all);
+    if (result.edges.empty()) return result;
+    result.parents = parents_of(mesh, faces, insertions);
+    result.mesh = insert_on_edges(mesh, std::move(insertions), added, &result.changes);
+    std::copy(points.begin(), points.end(),
+              result.mesh.positions.begin() + static_cast<std::ptrdiff_t>(mesh.vertex_count()));
     return result;
+}
+
+Mesh split_non_manifold(Mesh mesh) {
+    std::size_t parted = 0;
+    const EdgeTable edges = part_fans(mesh, parted);
+    DividedEdges divided = divide_crowded_edges(mesh, edges, {});
+    return divided.edges.empty() ? std::move(mesh) : std::move(divided.mesh);
 }
 
 } // namespace facetmill

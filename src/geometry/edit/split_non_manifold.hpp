@@ -1,7 +1,12 @@
 #pragma once
 // Edges and vertices taken apart where a surface is not a manifold.
 
+#include "mesh/lineage.hpp"
 #include "mesh/topology.hpp"
+
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace facetmill {
 
@@ -16,16 +21,36 @@ struct Fans {
 Fans disjoint_fans(const Mesh& mesh);
 Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges); ///< given its edges
 
-struct NonManifoldSplit {
-    Mesh mesh;
-    AttributeChanges changes; ///< empty when nothing was mixed
-    std::size_t split_vertices = 0, split_edges = 0;
-    bool changed() const { return split_vertices + split_edges > 0; }
+/// Gives each fan of disjoint_fans its own vertex; `parted`: how many vertices that adds. The edges of the
+/// result.
+EdgeTable part_fans(Mesh& mesh, std::size_t& parted);
+
+struct EdgeDivision {
+    /// The first pair of faces gets a point of its own, too, so that none lies in the middle of its edge.
+    bool all = false;
+    bool single = false; ///< points have coordinates of 32-bit floats, as far as those are finite
+    std::set<std::pair<Index, Index>> leave = {}; ///< edges (low vertex, high vertex) that stay as they are
 };
-/// The mesh with each fan of disjoint_fans on its own vertices. Where both ends of an edge of more than two
-/// faces are held together by other faces, every pair but the first gets a point in the middle of the edge;
-/// attributes are interpolated there. With `divide_all` the first pair, too, gets a point of its own, so that
-/// none lies in the middle of another's edge.
-NonManifoldSplit split_non_manifold(Mesh mesh, bool divide_all = false);
+
+struct DividedEdges {
+    struct Edge {
+        Index low, high; ///< its vertices, which stay
+        Vec3 point;
+        bool beside; ///< the point, as rounded, is not on the edge: faces have moved
+    };
+    Mesh mesh; ///< empty when no edge was divided
+    AttributeChanges changes;
+    std::vector<Edge> edges;
+    std::vector<Index> edge_of_point; ///< [new vertices, the last of the mesh] into edges
+    std::vector<Index> parents;       ///< [faces of the mesh] the faces that they were or are a piece of
+};
+/// Edges of more than two faces that are left once fans are parted, since other faces hold both ends
+/// together: every pair of faces but the first, and every face left over, gets a point in the middle of the
+/// edge, with interpolated attributes. Where the point cannot lie exactly on the edge the first pair gets one
+/// too, at the same place, as no face may pass beside another's corner.
+DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges, const EdgeDivision& how);
+
+/// The mesh with its fans parted and the crowded edges that are left divided.
+Mesh split_non_manifold(Mesh mesh);
 
 } // namespace facetmill

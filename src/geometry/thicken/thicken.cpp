@@ -381,7 +381,7 @@ ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
     const Connectivity connectivity = connectivity_of(mesh);
     if (connectivity.crowded_edges == 0 && connectivity.non_manifold_vertices == 0)
         return thicken_sheets(mesh, s);
-    return thicken_sheets(split_non_manifold(mesh).mesh, s);
+    return thicken_sheets(split_non_manifold(mesh), s);
 }
 
 namespace {

@@ -17,7 +17,10 @@ removed, the vertices on their line are inserted into the surrounding edges, so 
 stays closed. Duplicate faces of opposite orientation are removed when they form an inner wall or a
 fin on other faces; one of each pair is kept when they form a separate sheet (both are kept
 where they belong to a closed surface, which stays closed). Where more than two faces meet at an
-edge, the faces that enclose the inside between them stay connected.
+edge, the faces that enclose the inside between them stay connected. If other faces hold both ends
+of the edge together, a point is added in its middle. Where that point must be rounded, all faces at
+the edge get it; the edge stays as it is if faces would then intersect others or lose their area
+(W-CLEAN).
 
 self_intersections: union combines closed components that pass through each other or through
 themselves into one solid. Their faces are cut along each other exactly, and a face is kept when it

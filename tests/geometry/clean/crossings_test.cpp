@@ -1,9 +1,11 @@
-// clean's steps for faces that intersect, that are doubled, and for holes that touch.
+// clean's steps for faces that intersect, that are doubled, for holes that touch, and for points that would
+// make faces intersect.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 
+#include "base/numbers.hpp"
 #include "geometry/clean/clean.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/inspect.hpp"
@@ -54,6 +56,36 @@ Mesh sheet_without(int columns, int rows, const std::vector<std::pair<int, int>>
             add_face(mesh, std::vector<Index>{v, v + 1, up + 1, up});
         }
     return mesh;
+}
+
+/// Cubes around a hole that has closed to the edge from (1, 1, 1) to (1, 1, 2), whose ends lie inside the
+/// surface of a slab below and one above.
+Mesh closed_ring() {
+    Mesh mesh;
+    for (int z = 0; z < 3; ++z)
+        for (int x = 0; x < 2; ++x)
+            for (int y = 0; y < 2; ++y) {
+                if (z == 1 && x != y) continue;
+                Mesh cube = shapes::cube();
+                for (Vec3& p : cube.positions) p += Vec3{double(x), double(y), double(z)};
+                append(mesh, cube);
+            }
+    weld_exact(mesh);
+    CleanSettings s; // without the walls between cubes
+    s.non_manifold = false;
+    return clean(std::move(mesh), s).mesh;
+}
+
+CleanSettings to_single() {
+    CleanSettings s;
+    s.single = true;
+    return s;
+}
+
+Index vertex_at(const Mesh& mesh, const Vec3& place) {
+    const auto at = std::find(mesh.positions.begin(), mesh.positions.end(), place);
+    REQUIRE(at != mesh.positions.end());
+    return static_cast<Index>(at - mesh.positions.begin());
 }
 
 } // namespace
@@ -186,4 +218,72 @@ TEST_CASE("clean does not open a closed surface by a doubled sheet", "[geometry]
     CHECK(r.mesh.face_count() == 14);
     REQUIRE(r.not_done.size() == 1);
     CHECK(r.not_done[0].step == "duplicates");
+}
+
+TEST_CASE("clean lets no face pass beside the rounded middle of another's edge", "[geometry]") {
+    const Mesh ring = closed_ring();
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        Mesh mesh = ring;
+        double m[9];
+        for (std::size_t i = 0; i < 9; ++i)
+            m[i] = (i % 4 == 0 ? 1 : 0) + 1e-3 * static_cast<double>(hashed(seed, i) % 700);
+        for (Vec3& p : mesh.positions)
+            p = as_float32(Vec3{m[0] * p.x + m[1] * p.y + m[2] * p.z, m[3] * p.x + m[4] * p.y + m[5] * p.z,
+                                m[6] * p.x + m[7] * p.y + m[8] * p.z});
+        INFO(seed);
+        REQUIRE(intersections(mesh) == 0);
+        const CleanResult r = clean(mesh, to_single());
+        CHECK(r.counts.split_edges == 1);
+        CHECK(intersections(r.mesh) == 0);
+        CHECK(inspect(r.mesh).edge_manifold);
+        CHECK(inspect(r.mesh).closed);
+        CHECK(broken_clean_law(mesh, to_single()) == "");
+    }
+}
+
+TEST_CASE("clean adds one point less where the middle of an edge is exact", "[geometry]") {
+    const Mesh ring = closed_ring();
+    const CleanResult r = clean(ring, to_single());
+    CHECK(r.counts.split_edges == 1);
+    CHECK(r.mesh.vertex_count() == ring.vertex_count() + 1);
+    CHECK(r.not_done.empty());
+}
+
+TEST_CASE("clean leaves an edge of more than two faces where its rounded middle would spoil faces",
+          "[geometry]") {
+    // The middle rounds onto a line through a vertex that lies beside the edge.
+    Mesh mesh = closed_ring();
+    const double step = std::ldexp(1.0, -23);
+    const Index a = vertex_at(mesh, {1, 1, 1}), b = vertex_at(mesh, {1, 1, 2});
+    mesh.positions[b].x += step;
+    Mesh result;
+    result.positions = mesh.positions;
+    result.positions.push_back({1, 1, 1.25});
+    const auto p = static_cast<Index>(mesh.vertex_count());
+    int cut = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto face = mesh.face_wedges(f);
+        std::vector<Index> corners(face.begin(), face.end());
+        const auto third = std::find_if(corners.begin(), corners.end(),
+                                        [&](Index v) { return mesh.positions[v].x < 1 && v != a && v != b; });
+        const bool holds = std::count(corners.begin(), corners.end(), a) == 1 &&
+                           std::count(corners.begin(), corners.end(), b) == 1;
+        if (!holds || third == corners.end() || mesh.positions[*third].y != 1) {
+            add_face(result, corners);
+            continue;
+        }
+        ++cut;
+        for (std::size_t i = 0; i < 3; ++i)
+            add_face(result, std::vector<Index>{corners[i], corners[(i + 1) % 3], p});
+    }
+    REQUIRE(cut == 1);
+    REQUIRE(intersections(result) == 0);
+    const CleanResult r = clean(result, to_single());
+    CHECK(r.counts.split_edges == 0);
+    CHECK(intersections(r.mesh) == 0);
+    CHECK(inspect(r.mesh).degenerate_faces == 0);
+    REQUIRE(r.not_done.size() == 1);
+    CHECK(r.not_done[0].step == "non_manifold");
+    CHECK(r.not_done[0].at == Vec3{1, 1, 1.5});
+    CHECK(broken_clean_law(result, to_single()) == "");
 }
