@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
-"""sweep.py FOLDER [--mill FACETMILL] [--seed N] [--only GLOB] [--min_bytes N] [--max_bytes N] [--json FILE]: every stage on every mesh of a folder.
+"""sweep.py FOLDER [--mill FACETMILL] [--seed N] [--only GLOB] [--min_bytes N] [--max_bytes N] [--json FILE] [--threads N N ...]:
+every stage on every mesh of a folder.
 
 Each file goes through every stage with its usual options, one run a stage, and through one chain of three stages drawn by
 the seed. A run has 20 seconds of processor time, ten times as much in all, and 4 GiB. Exit codes are counted; told one by one
 are crashes (a signal, or 70), hangs (no answer in time; with the processor time, which is less than 20 s where other work took
 the machine) and surface lost in silence: faces went in and none came out, or less than a tenth of the area, and neither a
 warning nor the stage's own options say why. Exit code 1 when there is any of these. A file that does not load is loaded once.
+With --threads 1 3 each run is made with one and with three threads, its result written to a GLB where no other file is, and
+it is told where exit codes, or bytes of outputs or reports, differ ("differs"); runs that one of them ends for want of time or memory are
+counted ("not compared").
 """
 import argparse
 import collections
@@ -15,6 +19,7 @@ import os
 import pathlib
 import random
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -61,14 +66,20 @@ class Sweep:
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
         self.codes, self.told, self.slowest = collections.Counter(), [], []
+        self.compared = collections.Counter()
 
-    def run(self, file, stages):
+    def run(self, file, stages, threads=None):
         """The exit code (None: no answer in time) and the report of the file through these stages."""
+        for old in self.folder.iterdir():
+            shutil.rmtree(old) if old.is_dir() else old.unlink()
         report = self.folder / "run.json"
-        report.unlink(missing_ok=True)
         line = ["load", str(file)]
         for stage in stages:
             line += ["!", *stage.split()]
+        if threads:
+            line[:0] = ["-j", str(threads)]
+            if not stages[-1].startswith("write "):
+                line += ["!", "write", "result.glb"]
         start = spent()
         try:
             done = subprocess.run([str(self.options.mill), "pipe", "--report", "run.json", *line], cwd=self.folder,
@@ -82,9 +93,31 @@ class Sweep:
         except (OSError, ValueError):
             return code, None
 
+    def files(self):
+        """What the last run wrote."""
+        return {str(f.relative_to(self.folder)): f.read_bytes() for f in self.folder.rglob("*") if f.is_file()}
+
+    def run_with_threads(self, file, stages):
+        """The same of the first number of threads; what the others give differently is told."""
+        first, *others = self.options.threads
+        code, report = self.run(file, stages, first)
+        wrote = self.files()
+        for threads in others:
+            other_code = self.run(file, stages, threads)[0]
+            if {code, other_code} & {None, 7}:
+                self.compared["not compared"] += 1
+                continue
+            self.compared["compared"] += 1
+            others_wrote = self.files()
+            unlike = sorted(name for name in wrote.keys() | others_wrote.keys() if wrote.get(name) != others_wrote.get(name))
+            if code != other_code or unlike:
+                self.told.append(("differs", f"{file.name}: {' ! '.join(stages)} (-j {first} and {threads}: exit codes {code}, "
+                                             f"{other_code}; {', '.join(unlike)})"))
+        return code, report
+
     def judge(self, file, stages, area=None):
         """area: of the file as it is loaded."""
-        code, report = self.run(file, stages)
+        code, report = self.run_with_threads(file, stages) if self.options.threads else self.run(file, stages)
         self.codes["hang" if code is None else code] += 1
         name = f"{file.relative_to(self.options.folder)}: {' ! '.join(stages) or 'load'}"
         if code is None:
@@ -134,6 +167,7 @@ def main():
     parser.add_argument("--min_bytes", type=int, default=0, help="of a file; smaller ones are left out")
     parser.add_argument("--max_bytes", type=int, default=1 << 40, help="of a file; larger ones are left out")
     parser.add_argument("--json", type=pathlib.Path, help="where the result goes as well")
+    parser.add_argument("--threads", type=int, nargs="+", metavar="N", help="each run with each of these numbers of threads")
     options = parser.parse_args()
     options.folder, options.mill = options.folder.resolve(), options.mill.resolve()
     files = sorted(f for f in options.folder.rglob("*") if f.suffix.lower() in SUFFIXES and f.is_file() and
@@ -145,6 +179,8 @@ def main():
     codes = {str(k): n for k, n in sorted(sweep.codes.items(), key=lambda item: str(item[0]))}
     print(f"{len(files)} files, {sum(sweep.codes.values())} runs; exit codes: " +
           ", ".join(f"{code}: {n}" for code, n in codes.items()))
+    if options.threads:
+        print(", ".join(f"{what}: {n}" for what, n in sorted(sweep.compared.items())))
     for kind, what in sweep.told:
         print(f"{kind}: {what}")
     for seconds, what in sorted(sweep.slowest, reverse=True)[:10]:

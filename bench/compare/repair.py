@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Repairing meshes that are wrong in every way, for printing: facetmill beside admesh, MeshFix, pymeshlab and manifold3d.
 
-repair.py [--count 300] [--first 1] [--build build/release] [--peers NAME ...] [MESH ...]
+repair.py [--count 300] [--first 1] [--build build/release] [--peers NAME ...] [--without_reports] [MESH ...]
 
 Without MESH the meshes are generated: spheres, boxes and tori of some hundred faces, alone or several that pass through
 each other, with faces left out, doubled, turned or degenerate, unwelded and slightly moved corners, T-junctions, fins and
@@ -128,8 +128,9 @@ def generated(seed):
 
 # --- tools: the file of a mesh -> vertices and faces, None when the tool gives up
 
-def by_facetmill(program, source, target):
-    subprocess.run([program, "run", "repair", "-q", "-D", f"input={source}", "-D", "format=ply", "-o", source.parent],
+def by_facetmill(program_and_pipeline, source, target):
+    program, pipeline = program_and_pipeline
+    subprocess.run([program, "run", pipeline, "-q", "-D", f"input={source}", "-D", "format=ply", "-o", source.parent],
                    capture_output=True, timeout=LIMIT)
     made = source.with_name(f"{source.stem}.repaired.ply")
     if made.exists():
@@ -238,10 +239,11 @@ def main():
     ask.add_argument("--first", type=int, default=1)
     ask.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     ask.add_argument("--peers", nargs="*", default=list(TOOLS))
+    ask.add_argument("--without_reports", action="store_true", help="of facetmill's pipeline, most of its time")
     ask.add_argument("meshes", nargs="*", type=pathlib.Path)
     given = ask.parse_args()
     program = given.build / "facetmill"
-    tools = {"facetmill": (by_facetmill, program)}
+    tools = {}
     for name in given.peers:
         there = shutil.which("admesh") if name == "admesh" else __import__("importlib.util").util.find_spec(
             {"MeshFix": "pymeshfix"}.get(name, name))
@@ -249,8 +251,14 @@ def main():
             tools[name] = (TOOLS[name], there)
         else:
             print(f"missing: {name}", file=sys.stderr)
-    results = {name: [] for name in tools}
     with tempfile.TemporaryDirectory() as room:
+        pipeline = "repair"
+        if given.without_reports:
+            lines = (ROOT / "pipelines/repair.yaml").read_text().splitlines(keepends=True)
+            pipeline = pathlib.Path(room) / "repair.yaml"
+            pipeline.write_text("".join(line for line in lines if not line.startswith("report:")))
+        tools = {"facetmill": (by_facetmill, (program, pipeline)), **tools}
+        results = {name: [] for name in tools}
         for case in given.meshes or range(given.first, given.first + given.count):
             volume, source = None, pathlib.Path(room) / "in.ply"
             if isinstance(case, int):
