@@ -12,6 +12,21 @@ namespace facetmill::cli {
 
 namespace {
 
+/// CLI11's, whose usage line knows only the arguments that are declared.
+class Help : public CLI::Formatter {
+  public:
+    explicit Help(std::string the_rest) : the_rest_(std::move(the_rest)) {}
+
+    std::string make_usage(const CLI::App* app, std::string name) const override {
+        std::string line = CLI::Formatter::make_usage(app, std::move(name));
+        if (!the_rest_.empty()) line.insert(line.find_last_not_of('\n') + 1, " " + the_rest_);
+        return line;
+    }
+
+  private:
+    std::string the_rest_;
+};
+
 /// What is wrong with a number that must be 0 or more, or nothing.
 std::string negative(const std::string& text) {
     const auto number = parse_real(text);
@@ -72,9 +87,10 @@ const Argument* Arguments::find(const std::string& name) const {
     return nullptr;
 }
 
-Parsed Arguments::parse(const std::string& command, const std::string& about,
-                        std::vector<std::string> words) const {
+Parsed Arguments::parse(const std::string& command, const std::string& about, std::vector<std::string> words,
+                        const std::string& the_rest) const {
     CLI::App app{about, command};
+    app.formatter(std::make_shared<Help>(the_rest));
     app.allow_extras();
     app.set_help_flag("-h,--help", "Print this help and exit.");
     for (const auto& a : all_) declare(app, a);

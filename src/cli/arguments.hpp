@@ -78,8 +78,10 @@ class Arguments {
     std::vector<std::string> long_names() const;
     /// The option of this name ("-j", "--threads"), or null.
     const Argument* find(const std::string& name) const;
-    /// Reads words into the targets. Throws std::invalid_argument, with the reason, when they cannot be read.
-    Parsed parse(const std::string& command, const std::string& about, std::vector<std::string> words) const;
+    /// Reads words into the targets. the_rest: what the usage line of --help names behind them. Throws
+    /// std::invalid_argument, with the reason, when they cannot be read.
+    Parsed parse(const std::string& command, const std::string& about, std::vector<std::string> words,
+                 const std::string& the_rest = {}) const;
 
   private:
     std::vector<Argument> all_;

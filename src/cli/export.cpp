@@ -101,7 +101,7 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
 
 Command export_command() {
     return {"export", "Writes the runs of many inputs as a workflow for Ninja, Make or Snakemake.",
-            export_examples, false, [](Arguments& arguments, Console& console) {
+            export_examples, {}, [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<ExportOptions>();
                 options->common.threads = 1;
                 arguments.add("--to", &options->engine, "The engine that the workflow is for.")

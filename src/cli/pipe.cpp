@@ -100,7 +100,7 @@ Command pipe_command() {
     return {"pipe",
             "Runs a pipeline written on the command line.",
             pipe_examples,
-            true,
+            "STAGE ... ! STAGE ...",
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto save_to = std::make_shared<std::string>();

@@ -157,16 +157,16 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
     Arguments arguments;
     const auto work = command.declare(arguments, console);
     std::vector<std::string> words(line.arguments().begin() + 1, line.arguments().end());
-    words = expanded(std::move(words), command.takes_the_rest, line);
+    words = expanded(std::move(words), !command.the_rest.empty(), line);
     Invocation invocation{line, 0};
-    if (command.takes_the_rest) {
+    if (!command.the_rest.empty()) {
         const auto count = leading_options(arguments, words);
         words.resize(count);
         invocation.rest = 1 + count;
     }
     Parsed parsed;
     try {
-        parsed = arguments.parse(command.name, command.about, std::move(words));
+        parsed = arguments.parse(command.name, command.about, std::move(words), command.the_rest);
     } catch (const std::invalid_argument& e) {
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
                     fmt::format("see facetmill {} --help", command.name), line.mark(0));

@@ -105,7 +105,7 @@ Command render_command() {
         "render",
         "Renders a PNG image of a mesh file, or of two beside each other.",
         render_examples,
-        true,
+        "MESH [MESH] [OPTIONS OF THE STAGE]",
         [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<RenderCommandOptions>();
             arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.");

@@ -168,7 +168,7 @@ int code_of(const Console& console, Body&& body) {
 } // namespace
 
 Command run_command() {
-    return {"run", "Runs pipelines.", run_examples, false, [](Arguments& arguments, Console& console) {
+    return {"run", "Runs pipelines.", run_examples, {}, [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
                 arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();

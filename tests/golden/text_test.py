@@ -30,6 +30,9 @@ class Text(Case):
             self.assertIn("Examples", text, command)
             self.assertIn(f"facetmill {command}", text)
             self.assertLessEqual(max(map(len, text.splitlines())), 120, command)
+        for command, what in (("render", "MESH [MESH] [OPTIONS OF THE STAGE]"), ("pipe", "STAGE ... ! STAGE ..."),
+                              ("diff", "A B"), ("info", "MESH...")):
+            self.assertRegex(self.mill(command, "--help").stdout, rf"\nUsage: facetmill {command} \[OPTIONS\] {re.escape(what)}")
         self.assertTrue(self.mill("pipe", "load", "a.stl", "!", "clip", "--help").stdout.startswith("clip: "))
 
     def test_a_new_pipeline_runs_as_it_is(self):
