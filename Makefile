@@ -11,7 +11,8 @@
 #                 TARGET=ply and such: libFuzzer over what reads bytes, with clang (TARGET=all: each for its share)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make site     the manual as a site, in build/site/html
-#   make pictures the pictures of docs/figures.md anew, which changes nothing on an unchanged tree
+#   make pictures all pictures of the manual anew: those of docs/figures, which on an unchanged tree stay as they are, and
+#                 those of the stages' pages and the gallery, with the site around them
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
 #   make format   run clang-format over the sources
@@ -89,6 +90,7 @@ site: build
 
 pictures: build
 	python3 tools/pictures.py --mill $(BUILD)/facetmill
+	@$(MAKE) --no-print-directory site
 
 install: build
 	cmake --install $(BUILD) --prefix $(PREFIX)

@@ -82,6 +82,23 @@ class Guides(Case):
         self.assertEqual((self.dir / "marked.png").read_bytes(), (SOURCE / "docs/figures/marked.png").read_bytes(),
                          "make pictures, and look at them")
 
+    def test_one_command_makes_all_pictures(self):
+        """Each picture that a page of the manual shows is stored by tools/pictures.py or made with the site, and `make
+        pictures` runs both."""
+        sys.path.insert(0, str(SOURCE / "tools"))
+        import pictures
+        made = {f"docs/figures/{name}.png" for name in pictures.FIGURES}
+        made |= {f"docs/figures/{name}" for name in pictures.SECTIONS.values()}
+        shown = set()
+        for page in [*SOURCE.glob("*.md"), *(SOURCE / "docs").rglob("*.md")]:
+            for target in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", page.read_text()):
+                shown.add((page.parent / target).resolve().relative_to(SOURCE).as_posix())
+        self.assertEqual(shown, made)
+        self.assertEqual({f"docs/figures/{path.name}" for path in (SOURCE / "docs/figures").iterdir()}, made)
+        rule = re.search(r"^pictures: build\n((?:\t.*\n)+)", (SOURCE / "Makefile").read_text(), flags=re.M)[1]
+        self.assertIn("tools/pictures.py", rule)
+        self.assertRegex(rule, r"\$\(MAKE\).* site\n")
+
     @unittest.skipIf(SLOW, "pictures of the same scenes, ten times slower")
     def test_the_pages_of_the_manual_can_be_made(self):
         python = self.python_with_yaml()

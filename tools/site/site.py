@@ -77,8 +77,8 @@ class Site:
 
     def gallery(self, stages):
         """All pictures of the stages, each stage's beside each other, and the figures."""
-        text = ("# Gallery\n\nWhat the stages do, before and after; the commands are on the page of each. All pictures are made "
-                "by `make site`. More: [figures](figures.md) after the notes that facetmill is based on.\n")
+        text = ("# Gallery\n\nWhat the stages do, before and after; the commands are on the page of each. `make pictures` "
+                "makes all pictures anew. More: [figures](figures.md) after the notes that facetmill is based on.\n")
         for name in stages:
             pictures = sorted((self.pages / "stages").glob(f"{name}-[0-9].png"))
             if pictures:
