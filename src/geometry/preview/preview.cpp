@@ -18,7 +18,7 @@ namespace {
 /// Scenes of so many times the triangles asked for go through a grid first, which costs a tenth of what their
 /// simplification would; textures would be torn by it, so scenes with them do so later, and their textures
 /// become colours.
-constexpr std::size_t many = 4, many_with_textures = 20;
+constexpr std::size_t many = 2, many_with_textures = 20;
 
 std::size_t triangles_in(const Mesh& mesh) {
     if (mesh.all_triangles()) return mesh.face_count();
