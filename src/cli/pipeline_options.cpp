@@ -371,7 +371,8 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
     settings.commit = {.keep_unchanged = options.restat, .sync = !options.no_sync};
-    settings.takes_pictures = options.timings.ends_with(".html");
+    Json view; // of the page with times
+    if (options.timings.ends_with(".html")) settings.on_view = [&](const Json& shown) { view = shown; };
     if (options.explain && !store)
         console.say(
             "--explain has nothing to compare with: no cache is used (--no-cache, FACETMILL_CACHE=off, "
@@ -395,7 +396,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else said already
     if (!options.timings.empty() && writable) {
         const std::string text = options.timings.ends_with(".html")
-                                     ? report::to_html_with_times(record)
+                                     ? report::to_html_with_times(record, view)
                                      : report::timings_json(record).dump(2) + "\n";
         io::write_now(plan.places.output(options.timings), std::as_bytes(std::span(text)));
     }

@@ -39,7 +39,7 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     PictureSettings settings = page_settings();
     settings.width = 640;
     settings.height = 480;
-    // Distances are those of the meshes, in bind pose; what is seen is the pose.
+    // Distances are those in the pose that is seen.
     const auto posed_a = io::posed(a), posed_b = io::posed(b);
     const Scene &seen_a = posed_a ? *posed_a : a, &seen_b = posed_b ? *posed_b : b;
     Camera camera = camera_of(seen_a);
@@ -48,13 +48,16 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     settings.camera = camera;
     const auto looks_a = looks_of(a), looks_b = looks_of(b);
     ComparisonPictures out{png_of(seen_a, settings, looks_a), png_of(seen_b, settings, looks_b), {}, {}, {}};
-    if (posed_a || posed_b) settings.camera.reset();
-    const Surface surface_a = surface_or_points_of(a, filled_surface),
-                  surface_b = surface_or_points_of(b, filled_surface);
+    const Surface surface_a = surface_or_points_of(seen_a, filled_surface),
+                  surface_b = surface_or_points_of(seen_b, filled_surface);
     const FaceTree tree(surface_a, FaceTree::Use::few);
-    out.backward = distances_from(tree, surface_a.bounds().diagonal(), "the first file", b, settings);
+    settings.width = 480; // three beside each other
+    settings.height = 360;
+    out.backward = distances_from(tree, surface_a.bounds().diagonal(), "the first file", seen_b, settings);
     out.forward = distances_from(FaceTree(surface_b, FaceTree::Use::few), surface_b.bounds().diagonal(),
-                                 "the second file", a, settings);
+                                 "the second file", seen_a, settings);
+    for (auto* view : {&out.backward, &out.forward})
+        if (*view) (*view)->posed = posed_a || posed_b;
     ViewedScenes viewed(2);
     viewed.add_before(a, name_a, looks_a);
     viewed.add_after(b, name_b, looks_b, &tree, name_a);

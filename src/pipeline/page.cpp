@@ -1,8 +1,9 @@
 #include "pipeline/page.hpp"
 
+#include "cache/state.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/pose.hpp"
-#include "mesh/face.hpp"
+#include "pipeline/page_failures.hpp"
 #include "report/check_text.hpp"
 #include "report/deviation_view.hpp"
 #include "report/scene_picture.hpp"
@@ -19,65 +20,30 @@ namespace {
 constexpr std::size_t bytes_of_large = 1'100'000, most_bytes = 1'600'000;
 constexpr std::size_t most_results = 8, most_measured = 6, most_failures = 8;
 constexpr std::size_t most_faces_of_a_stage = 500'000; // a tree of more takes too long for what it shows
-constexpr int close_zoom = 10;
-
-bool is_same(const Surface& a, const Surface& b) {
-    return a.positions == b.positions && a.corners == b.corners;
-}
 
 bool measures(const Step& step) {
     return step.stage->measures_deviation || (step.ensure && step.ensure->deviation);
 }
 
-/// 1 on the faces that the check names, else 0; in colours, red on grey.
-Scene with_failing_faces(const Scene& scene, const report::Check& check) {
-    Scene out = scene;
-    for (Part& part : out.parts) {
-        std::vector<float> failing(part.mesh.face_count());
-        for (const auto& entry : *check.evidence)
-            if (entry.name == part.name)
-                for (const auto& face : {entry.face, entry.with})
-                    if (face && *face < failing.size()) failing[*face] = 1;
-        std::erase_if(part.mesh.attributes, [](const Attribute& a) { return a.name == "failing"; });
-        part.mesh.attributes.push_back(
-            {"failing", Domain::face, Role::generic, 1, false, std::move(failing)});
-    }
-    return out;
-}
-
-/// The first face that the check names, seen from its front and taking a sixth of the picture.
-void look_at_first(const Scene& scene, const report::Check& check, PictureSettings& settings) {
-    const report::EvidenceEntry& first = check.evidence->front();
-    const double whole = scene.bounds().diagonal();
-    settings.zoom = close_zoom;
-    if (!first.face || !(whole > 0)) return;
-    for (const Part& part : scene.parts) {
-        if (part.name != first.name || *first.face >= part.mesh.face_count()) continue;
-        Box box;
-        const auto f = static_cast<Index>(*first.face);
-        for (Index c = part.mesh.face_begin(f); c < part.mesh.face_end(f); ++c)
-            box.add(part.transform.point(part.mesh.point(c)));
-        const double zoom = whole / (6 * box.diagonal());
-        if (std::isfinite(zoom)) settings.zoom = std::clamp(zoom, 3.0, 400.0);
-        const Vec3 normal = area_vector(part.mesh, f, part.transform);
-        if (is_finite(normal) && length(normal) > 0) settings.from = normal;
-        return;
-    }
-}
-
 } // namespace
 
-const FaceTree& Page::Reference::tree() {
-    if (!tree_) tree_ = std::make_shared<const FaceTree>(*surface, FaceTree::Use::few);
+Page::Shown::Shown(const Scene& scene) {
+    const auto posed = io::posed(scene);
+    surface_ = surface_or_points_of(posed ? *posed : scene, filled_surface);
+}
+
+bool Page::Shown::is_same(const Shown& other) const {
+    return surface_.positions == other.surface_.positions && surface_.corners == other.surface_.corners;
+}
+
+const FaceTree& Page::Shown::tree() {
+    if (!tree_) tree_.emplace(surface_, FaceTree::Use::few);
     return *tree_;
 }
 
 std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::string name) {
-    auto reference = std::make_shared<Reference>();
-    reference->name = std::move(name);
-    reference->surface = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
-    reference->faces = scene.face_count();
-    return reference;
+    return std::make_shared<Reference>(
+        Reference{std::move(name), std::make_shared<Shown>(scene), {}, scene.face_count()});
 }
 
 bool Page::is_full() const { return bytes_ > most_bytes; }
@@ -118,6 +84,11 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
         ++record_.pictures_left_out;
         return;
     }
+    // A digest takes a twentieth of the time of a picture.
+    std::string digest = cache::digest_of(scene);
+    if (digest == pictured_) return;
+    pictured_ = std::move(digest);
+    looks_.looks(scene, record_.not_drawn); // each texture is told once, and then read already
     PictureSettings settings = sized_for_page(1);
     const auto posed = io::posed(scene);
     settings.camera = camera_for(posed ? *posed : scene);
@@ -129,15 +100,19 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
 }
 
 report::DeviationView Page::distances(const Scene& scene, Reference& from) {
+    const auto posed = io::posed(scene);
+    const Scene& seen = posed ? *posed : scene;
     std::optional<PictureSettings> settings;
     if (is_full())
         record_.pictures_left_out += 3;
-    else
+    else {
         settings = sized_for_page(0.75); // three beside each other
-    if (settings && !io::posed(scene))
-        settings->camera = camera_for(scene); // distances are those in bind pose
-    auto view =
-        report::deviation_view(scene, {from.name, from.surface->bounds().diagonal(), from.tree()}, settings);
+        settings->camera = camera_for(seen);
+    }
+    Shown& earlier = *from.shown;
+    auto view = report::deviation_view(
+        seen, {from.name, earlier.surface().bounds().diagonal(), earlier.tree()}, settings);
+    view.posed = posed.has_value();
     bytes_ += view.picture.size() + view.behind.size() + view.close.size();
     return view;
 }
@@ -147,6 +122,7 @@ void Page::before(const Step& step, const Scene& scene) {
     if (step.stage->loads || !measures(step) || measured_stages_ >= most_measured) return;
     if (scene.face_count() > most_faces_of_a_stage) return;
     entering_ = reference_to(scene, fmt::format("the scene before '{}'", step.name));
+    if (loaded_ && loaded_->shown->is_same(*entering_->shown)) entering_->shown = loaded_->shown; // one tree
 }
 
 void Page::after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output) {
@@ -161,13 +137,15 @@ void Page::after(const Step& step, const Scene& scene, report::StageRecord& stag
         loaded_->shape = shape_histograms(scene);
     }
     if (entering_) {
-        auto now = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
-        if (!is_same(*now, *entering_->surface) && entering_->surface->size() > 0 && now->size() > 0) {
+        auto now = std::make_shared<const Shown>(scene);
+        const Surface& earlier = entering_->shown->surface();
+        if (!now->is_same(*entering_->shown) && earlier.size() > 0 && now->surface().size() > 0) {
             ++measured_stages_;
             stage.deviation = distances(scene, *entering_);
             shown_ = std::move(now);
-            shown_from_ = entering_->surface;
+            shown_from_ = entering_->shown;
             shown_at_ = fmt::format("at '{}'", step.name);
+            shown_stage_ = step.name;
         }
         entering_.reset();
     }
@@ -185,18 +163,22 @@ void Page::add_result(const std::string& name, const Scene& scene) {
     if (loaded_) {
         view.input_shape = loaded_->shape;
         view.input_faces = loaded_->faces;
-        auto now = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
-        if (now->size() == 0 || loaded_->surface->size() == 0)
+        auto now = std::make_shared<const Shown>(scene);
+        if (now->surface().size() == 0 || loaded_->shown->surface().size() == 0)
             view.no_deviation = "There are no distances: one of the scenes is empty.";
-        else if (is_same(*now, *loaded_->surface))
+        else if (now->is_same(*loaded_->shown))
             view.no_deviation = fmt::format("Its surface is that of {}.", loaded_->name);
-        else if (shown_ && is_same(*now, *shown_) && is_same(*shown_from_, *loaded_->surface))
+        else if (shown_ && now->is_same(*shown_) && shown_from_->is_same(*loaded_->shown)) {
             view.no_deviation = fmt::format("How far it is from {} is shown {}.", loaded_->name, shown_at_);
-        else {
+            view.same_as = shown_stage_;
+            view.differs = true;
+        } else {
             view.deviation = distances(scene, *loaded_);
+            view.differs = true;
             shown_ = std::move(now);
-            shown_from_ = loaded_->surface;
+            shown_from_ = loaded_->shown;
             shown_at_ = fmt::format("for '{}'", name);
+            shown_stage_.clear();
         }
     }
     record_.views.push_back(std::move(view));
@@ -207,16 +189,16 @@ std::string Page::picture_of_failure(const Scene& scene, const report::Check& ch
     const Scene marked = with_failing_faces(scene, check);
     PictureSettings whole = report::page_settings();
     if (!io::posed(scene)) whole.camera = camera_for(scene);
-    whole.attribute = "failing";
+    whole.attribute = failing_attribute;
     whole.range = {ColourRange::Kind::given, -1, 1, true};
-    PictureSettings close = whole;
+    CloseView close = close_view(marked, check, whole);
     whole.marks = locations;
-    close.marks = {locations.front()};
-    close.at = locations.front();
-    look_at_first(scene, check, close);
-    if (close.camera) close.camera = camera_of(marked, close);
-    close.edges = EdgeLines::all;
-    return report::page_text(sheet_of({picture_of(marked, whole), picture_of(marked, close)}, 2));
+    close.settings.marks = {locations.front()};
+    close.settings.at = locations.front();
+    close.settings.camera = camera_of(marked, close.settings);
+    close.settings.edges = EdgeLines::all;
+    return report::page_text(
+        sheet_of({picture_of(marked, whole), picture_of(close.scene, close.settings)}, 2));
 }
 
 bool Page::failures(const std::string& step, const Scene& scene, std::size_t first_check) {
@@ -235,6 +217,11 @@ bool Page::failures(const std::string& step, const Scene& scene, std::size_t fir
     }
     if (fails) add_result(fmt::format("the scene at '{}'", step), scene);
     return fails;
+}
+
+bool Page::differs(const std::string& name) const {
+    return std::any_of(record_.views.begin(), record_.views.end(),
+                       [&](const report::OutputView& view) { return view.name == name && view.differs; });
 }
 
 void Page::at_end(const Scene& scene) {

@@ -17,18 +17,24 @@ class Page {
   public:
     explicit Page(report::RunRecord& record) : record_(record) {}
 
-    /// A scene that distances are taken from. Shared by the arms of a branch.
-    struct Reference {
-        std::string name; ///< "the scene as loaded"
-        std::shared_ptr<const Surface> surface;
-        ShapeHistograms shape;
-        std::size_t faces = 0;
-
-        /// Made when it is first needed.
+    /// What a scene shows, in the pose that pictures show, and its tree, made when it is first needed.
+    class Shown {
+      public:
+        explicit Shown(const Scene& scene);
+        bool is_same(const Shown& other) const;
+        const Surface& surface() const { return surface_; }
         const FaceTree& tree();
 
       private:
-        std::shared_ptr<const FaceTree> tree_;
+        Surface surface_;
+        std::optional<FaceTree> tree_;
+    };
+    /// A scene that distances are taken from. Shared by the arms of a branch.
+    struct Reference {
+        std::string name; ///< "the scene as loaded"
+        std::shared_ptr<Shown> shown;
+        ShapeHistograms shape{};
+        std::size_t faces = 0;
     };
     static std::shared_ptr<Reference> reference_to(const Scene& scene, std::string name);
     /// Of results; an arm that moves the scene has one of its own from there on.
@@ -46,6 +52,8 @@ class Page {
     /// Pictures of the checks from that number on that did not hold; a run that ends there shows its scene.
     /// Whether it ends there.
     bool failures(const std::string& step, const Scene& scene, std::size_t first_check);
+    /// Whether the result of that name, or the scene where the run ends, is off the reference.
+    bool differs(const std::string& name) const;
     /// When nothing was written.
     void at_end(const Scene& scene);
 
@@ -60,9 +68,9 @@ class Page {
 
     report::RunRecord& record_;
     std::shared_ptr<Reference> loaded_, entering_;
-    std::shared_ptr<const Surface> shown_, shown_from_; ///< of the last distances, and of what they were from
-    std::string shown_at_;                              ///< where these stand
-    std::string last_picture_;
+    std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances, and of what they were from
+    std::string shown_at_, shown_stage_;  ///< where these stand, and the name of the stage if it is one
+    std::string last_picture_, pictured_; ///< the text of it, and the digest of its scene
     Camera camera_;
     UpAxis camera_up_{};   ///< of the scene that it is of
     int cameras_ = 0;      ///< so far

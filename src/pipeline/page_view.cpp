@@ -20,16 +20,6 @@ std::size_t count_outputs(const Steps& steps) {
     return count;
 }
 
-bool has_measured(const report::RunRecord& record) {
-    const auto told = [](const report::StageRecord& stage) {
-        return stage.result.is_object() && stage.result.contains("deviation") &&
-               !stage.result["deviation"].is_null();
-    };
-    return std::any_of(record.stages.begin(), record.stages.end(), told) ||
-           std::any_of(record.checks.begin(), record.checks.end(),
-                       [](const report::Check& check) { return check.name == "deviation"; });
-}
-
 } // namespace
 
 PageView::PageView(const Steps& steps, Page& page) : viewed_(1 + count_outputs(steps)), page_(page) {}
@@ -40,21 +30,17 @@ std::shared_ptr<const MaterialLooks> PageView::looks(const Scene& scene) {
 }
 
 void PageView::before(const Step& step, const Scene& scene) {
-    if (step.stage->loads) {
-        if (has_before_) loaded_.reset(); // another scene begins
-        return;
-    }
-    if (has_before_) return;
+    if (step.stage->loads || has_before_) return;
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     viewed_.add_before(scene, "as loaded", looks(scene));
-    if (scene.face_count() > 0 && scene.face_count() <= most_to_compare)
-        loaded_ = page_.reference() ? page_.reference() : Page::reference_to(scene, "the scene as loaded");
 }
 
-void PageView::add(const Scene& scene, const std::string& name, bool show_deviation) {
-    viewed_.add_after(scene, name, looks(scene), show_deviation && loaded_ ? &loaded_->tree() : nullptr,
-                      "the scene as loaded");
+void PageView::add(const Scene& scene, const std::string& name) {
+    const auto from = page_.reference();
+    const bool compared = from && page_.differs(name) && from->faces > 0 && from->faces <= most_to_compare;
+    viewed_.add_after(scene, name, looks(scene), compared ? &from->shown->tree() : nullptr,
+                      compared ? from->name : std::string());
     any_after_ = true;
 }
 
@@ -62,15 +48,15 @@ void PageView::after(const Step& step, const Scene& scene, const report::RunReco
                      std::size_t first_output) {
     if (step.stage->loads) return;
     for (std::size_t i = first_output; i < record.outputs.size(); ++i)
-        if (io::codec_for(record.outputs[i].path)) add(scene, record.outputs[i].path, has_measured(record));
+        if (io::codec_for(record.outputs[i].path)) add(scene, record.outputs[i].path);
 }
 
 void PageView::failed(const std::string& name, const Scene& scene) {
-    add(scene, fmt::format("the scene at '{}'", name), false);
+    add(scene, fmt::format("the scene at '{}'", name));
 }
 
 void PageView::at_end(const Scene& scene) {
-    if (!any_after_) add(scene, "the scene at the end", false);
+    if (!any_after_) add(scene, "the scene at the end");
 }
 
 } // namespace facetmill::pipeline

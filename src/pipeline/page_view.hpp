@@ -9,13 +9,13 @@ namespace facetmill::pipeline {
 /// Collects it while a run goes on. Calls throw as pictures do (limit).
 class PageView {
   public:
-    /// The page's textures and its surface of what was loaded are used, too.
+    /// The page's textures and its references are used, too.
     PageView(const Steps& steps, Page& page);
 
-    /// Before a stage works on the scene: what has been loaded by then is what outputs are compared with.
+    /// Before a stage works on the scene: what has been loaded by then is shown beside the outputs.
     void before(const Step& step, const Scene& scene);
-    /// After a stage: what it wrote are the outputs of the record from that number on. Their deviation from
-    /// what was loaded is shown where the run has measured one.
+    /// After a stage, and after the page knows of it: what it wrote are the outputs of the record from that
+    /// number on. Their distances from the page's reference are shown where they are off it.
     void after(const Step& step, const Scene& scene, const report::RunRecord& record,
                std::size_t first_output);
     /// Where the run ended at a check of the stage of that name.
@@ -26,13 +26,12 @@ class PageView {
     Json json() const { return viewed_.json(); }
 
   private:
-    void add(const Scene& scene, const std::string& name, bool show_deviation);
+    void add(const Scene& scene, const std::string& name);
     std::shared_ptr<const MaterialLooks> looks(const Scene& scene);
 
     report::ViewedScenes viewed_;
     Page& page_;
     bool has_before_ = false, any_after_ = false;
-    std::shared_ptr<Page::Reference> loaded_; ///< none: nothing was, or something more later on
 };
 
 } // namespace facetmill::pipeline

@@ -92,7 +92,7 @@ class Runner {
         if (keeps_loaded_) reuse_.keep_loads();
         const auto is_page = [](const std::string& path) { return path.ends_with(".html"); };
         takes_pictures_ =
-            settings_.takes_pictures || std::any_of(plan_.reports.begin(), plan_.reports.end(), is_page);
+            settings_.on_view || std::any_of(plan_.reports.begin(), plan_.reports.end(), is_page);
         for (const auto& warning : plan_.warnings) {
             failures_.warn(warning);
             record().warnings.push_back(warning);
@@ -107,13 +107,13 @@ class Runner {
         try_outputs(headers);
         Flow flow;
         const bool small = !failures_.any() && run_on_cells(flow);
-        if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) && !plan_.reports.empty() &&
-            fetch({}, "the inspection at the end", flow))
+        if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
+            (takes_pictures_ || !plan_.reports.empty()) && fetch({}, "the inspection at the end", flow))
             failures_.guarded({}, "the inspection at the end", [&] {
                 const Share share = beside_stages("inspection at the end");
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
-                if (takes_pictures_) view_.at_end(flow.scene);
                 if (takes_pictures_) page_.at_end(flow.scene);
+                if (takes_pictures_) view_.at_end(flow.scene);
             });
         if (small && settings_.last_picture && !takes_pictures_ && !failures_.any() &&
             !record().stages.empty() && fetch({}, "a picture", flow))
@@ -541,6 +541,7 @@ class Runner {
 
     /// All that can be written are, whatever became of the others.
     void write_reports() {
+        if (settings_.on_view) settings_.on_view(view_.json());
         for (const auto& path : plan_.reports) {
             const Share share = beside_stages(path);
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&

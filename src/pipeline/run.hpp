@@ -13,8 +13,9 @@ struct RunSettings {
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
     bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
-    bool last_picture = false;   ///< the record of the last stage gets a small picture, whatever the reports
-    bool takes_pictures = false; ///< the record is for a page, whatever the reports
+    bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
+    /// The record is for a page, whatever the reports: called at the end with what its 3D view shows.
+    std::function<void(const Json&)> on_view = {};
     cache::Store* store = nullptr; ///< results of stages are taken from it, and put there; none: no cache
     io::CommitSettings commit{};   ///< of outputs and reports
     CellSettings cells{};          ///< whether a mesh that is larger than memory is processed on disk

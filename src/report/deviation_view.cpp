@@ -2,7 +2,6 @@
 
 #include "base/portable_math.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
-#include "io/gltf/pose.hpp"
 #include "report/scene_picture.hpp"
 
 #include <algorithm>
@@ -59,7 +58,6 @@ DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
     const SignedDeviation d = signed_deviation(scene, from.tree);
     DeviationView view;
     view.from = from.name;
-    view.in_bind_pose = io::posed(scene).has_value();
     view.unit = scene.unit == Unit::unknown ? "" : to_string(scene.unit);
     view.diagonal = from.diagonal;
     view.points = d.looked_up;

@@ -14,9 +14,9 @@ struct EarlierSurface {
     const FaceTree& tree;
 };
 
-/// Both in world space. pictures: their size and camera; none: only numbers. Throws as picture_of.
-/// O((vertices + faces) log n), of at most 20000 vertices or some tens of thousands of cells, and those
-/// around the worst place.
+/// Both in world space, and in one pose. pictures: their size and camera; none: only numbers. Throws as
+/// picture_of. O((vertices + faces) log n), of at most 20000 vertices or some tens of thousands of cells, and
+/// those around the worst place.
 DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
                              const std::optional<PictureSettings>& pictures);
 

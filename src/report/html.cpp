@@ -45,6 +45,6 @@ std::string page(const RunRecord& record, const Json& view, bool with_times) {
 } // namespace
 
 std::string to_html(const RunRecord& record, const Json& view) { return page(record, view, false); }
-std::string to_html_with_times(const RunRecord& record) { return page(record, nullptr, true); }
+std::string to_html_with_times(const RunRecord& record, const Json& view) { return page(record, view, true); }
 
 } // namespace facetmill::report

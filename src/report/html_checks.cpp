@@ -71,8 +71,9 @@ std::string term(const char* name, const std::string& text) {
 
 std::string picture_of_check(const Check& c, std::size_t number) {
     if (c.picture.empty()) return {};
-    const std::string caption = fmt::format(
-        "where '{}' does not hold: all places, and the first of them magnified, its faces in red", c.name);
+    const std::string caption = fmt::format("where '{}' does not hold: all places, and the first of them "
+                                            "magnified, its faces in red, without what would hide them",
+                                            c.name);
     return figure(picture(fmt::format("check-{}", number), caption, c.picture), caption, true);
 }
 

@@ -67,8 +67,7 @@ std::string beyond_text(const DeviationView& view) {
 
 std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name) {
     const std::string caption =
-        fmt::format("{}: signed distance from {}; red is outside, blue inside{}", name, view.from,
-                    view.in_bind_pose ? "; in bind pose, in which stages work" : "");
+        fmt::format("{}: signed distance from {}; red is outside, blue inside", name, view.from);
     std::string out = "<div class=\"deviation\">\n";
     if (!view.picture.empty()) out += figure(picture(id + "-colours", caption, view.picture), caption);
     if (!view.behind.empty()) {
@@ -83,8 +82,11 @@ std::string deviation_html(const DeviationView& view, const std::string& id, con
     out += "<div class=\"wide\">" + svg_of(chart_of(view, id)) +
            fmt::format(
                "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
-               "diagonal of {}.{} What {} has and {} lost is not seen here.</p>\n",
+               "diagonal of {}.{}{} What {} has and {} lost is not seen here.</p>\n",
                view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(view.from), beyond_text(view),
+               view.posed ? " Both are in the pose that the pictures show; what stages and checks measure is "
+                            "in bind pose."
+                          : "",
                escaped(view.from), escaped(name)) +
            subtable("Distances", "", number_rows(view)) + "</div>\n";
     return out + "</div>\n";

@@ -69,12 +69,13 @@ std::string read_back_tables(const std::vector<FileRecord>& outputs) {
     std::string out;
     for (const FileRecord& f : outputs)
         if (f.read_back.is_object())
-            out += fmt::format("<details><summary>{} read back: {} faces, {} vertices, positions within {}"
-                               "</summary>{}</details>\n",
-                               code(f.path), grouped(f.read_back.value("faces", std::uint64_t{0})),
-                               grouped(f.read_back.value("vertices", std::uint64_t{0})),
-                               readable(f.read_back.value("position_error", 0.0)),
-                               subtable("Read back", heads({"name", "value"}), value_rows(f.read_back)));
+            out +=
+                fmt::format("<details><summary>{} read back: {} faces, {} vertices, positions within {}"
+                            "</summary>{}</details>\n",
+                            code(f.path), grouped(f.read_back.value("faces", std::uint64_t{0})),
+                            grouped(f.read_back.value("vertices", std::uint64_t{0})),
+                            readable(f.read_back.value("position_error", 0.0)),
+                            subtable("Read back", heads({"name", "value"}), value_rows(f.read_back), "h3"));
     return out;
 }
 

@@ -35,13 +35,21 @@ std::string total_of(const std::vector<FileRecord>& files) {
     return fmt::format("{} in {}", sized(bytes), counted(files.size(), "file"));
 }
 
+/// Its own, or that of the stage that it is the same as; null when none was measured.
+const DeviationView* deviation_of(const OutputView& view, const RunRecord& record) {
+    if (view.deviation) return &*view.deviation;
+    for (const StageRecord& stage : record.stages)
+        if (stage.deviation && !view.same_as.empty() && stage.name == view.same_as) return &*stage.deviation;
+    return nullptr;
+}
+
 /// The largest of the outputs; empty when none was measured.
 std::string deviation_text(const RunRecord& record) {
     const DeviationView* worst = nullptr;
     for (const OutputView& view : record.views)
-        if (view.deviation &&
-            (!worst || std::abs(view.deviation->worst_distance) > std::abs(worst->worst_distance)))
-            worst = &*view.deviation;
+        if (const DeviationView* own = deviation_of(view, record);
+            own && (!worst || std::abs(own->worst_distance) > std::abs(worst->worst_distance)))
+            worst = own;
     if (!worst) return {};
     const double most = std::abs(worst->worst_distance);
     return worst->diagonal > 0 ? fmt::format("{:.3g} % of the diagonal, from {}",

@@ -93,8 +93,9 @@ std::string titled_table(const char* level, const std::string& title, const std:
 std::string table(const std::string& title, const std::string& header, const std::string& rows) {
     return titled_table("h2", title, header, rows);
 }
-std::string subtable(const std::string& title, const std::string& header, const std::string& rows) {
-    return titled_table("h4", title, header, rows);
+std::string subtable(const std::string& title, const std::string& header, const std::string& rows,
+                     const char* level) {
+    return titled_table(level, title, header, rows);
 }
 
 std::string picture(const std::string& id, const std::string& alt, const std::string& png) {

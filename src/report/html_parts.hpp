@@ -25,7 +25,8 @@ std::string compared_figure(const std::string& picture, const std::string& befor
 /// A row of headings; a leading # marks a column of numbers.
 std::string heads(std::initializer_list<const char*> titles);
 /// A table under a smaller heading; nothing when there are no rows.
-std::string subtable(const std::string& title, const std::string& header, const std::string& rows);
+std::string subtable(const std::string& title, const std::string& header, const std::string& rows,
+                     const char* level = "h4");
 /// A section with a table; nothing when there are no rows.
 std::string table(const std::string& title, const std::string& header, const std::string& rows);
 

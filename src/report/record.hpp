@@ -142,6 +142,7 @@ struct RunRecord {
     std::vector<OutputView> views;     ///< for pages: what was written, or where the run ended
     std::size_t pictures_left_out = 0; ///< of a page, which would have become too large
     bool pictures_shrunk = false;      ///< some are smaller than usual for the same reason
+    std::vector<Diagnostic> not_drawn; ///< textures that the pictures of a page do without
     std::vector<Diagnostic> warnings;  ///< of the run as a whole
     std::vector<RunError> errors;      ///< why it failed
     int exit_code = 0;

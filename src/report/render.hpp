@@ -29,8 +29,8 @@ std::string to_text(const RunRecord& record); ///< the report for people
 std::string to_terminal(const RunRecord& record, bool colour);
 /// One self-contained page. view: what its 3D view shows (report/viewer.hpp), or null.
 std::string to_html(const RunRecord& record, const Json& view = nullptr);
-/// ... that also tells times, memory and threads, which differ from run to run; without a 3D view.
-std::string to_html_with_times(const RunRecord& record);
+/// ... that also tells times, memory and threads, which differ from run to run.
+std::string to_html_with_times(const RunRecord& record, const Json& view = nullptr);
 std::string to_markdown(const RunRecord& record); ///< for the description of a change
 std::string to_junit(const RunRecord& record);    ///< checks as test cases
 /// The renderer for a report's file name (form_of). The same inputs give the same text, in any run. Throws

@@ -15,7 +15,7 @@ PictureSettings page_settings();
 std::string page_text(const Picture& picture);
 
 /// With the textures of its materials, a PNG in base64. A texture that cannot be drawn is left out without a
-/// word: the stage render warns of it.
+/// word, which is for who calls (io::LookReader).
 std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks);
 
 /// One of many in an index.

@@ -93,7 +93,6 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
                                          const FaceTree* from) {
     const auto posed = io::posed(given);
     const Scene& scene = posed ? *posed : given;
-    if (posed) from = nullptr; // distances are those in bind pose
     const Preview preview = preview_of(scene, {faces_, looks});
     if (preview.mesh.vertex_count() == 0) return {};
     std::vector<float> distances;

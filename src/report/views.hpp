@@ -13,11 +13,11 @@ namespace facetmill::report {
 
 /// Signed distances of a scene from an earlier one, as colours. Lengths are in scene units.
 struct DeviationView {
-    std::string from;                            ///< "the scene as loaded"
-    std::string unit;                            ///< empty: unknown
-    bool in_bind_pose = false;                   ///< other pictures show the pose
-    double diagonal = 0;                         ///< of the earlier scene: what percentages are of
-    std::size_t points = 0;                      ///< that were looked up
+    std::string from;       ///< "the scene as loaded"
+    std::string unit;       ///< empty: unknown
+    bool posed = false;     ///< distances are those in the pose that pictures show, not in bind pose
+    double diagonal = 0;    ///< of the earlier scene: what percentages are of
+    std::size_t points = 0; ///< that were looked up
     double low = 0, high = 0, mean = 0, rms = 0; ///< mean and rms of the amounts over the area
     Vec3 worst;
     double worst_distance = 0;
@@ -37,6 +37,8 @@ struct OutputView {
     std::size_t input_faces = 0;        ///< 0: nothing was loaded
     std::optional<DeviationView> deviation;
     std::string no_deviation; ///< why there is none
+    bool differs = false;     ///< from the scene as loaded, wherever that is shown
+    std::string same_as{};    ///< the stage whose deviation is that of this, too
 };
 
 } // namespace facetmill::report

@@ -129,6 +129,47 @@ class Pages(Case):
                 missing = [n for n in numbers(terminal) if n not in there]
                 self.assertEqual(missing, [], f"{line}\n{terminal}")
 
+    def test_distances_are_those_in_the_pose_that_is_seen(self):
+        """A ball that a morph target makes twice as large is compared as it is seen: at about twice the distances."""
+        self.mill("pipe", "generate", "icosphere", "!", "write", "ball.gltf")
+        scene = json.loads((self.dir / "ball.gltf").read_text())
+        primitive = scene["meshes"][0]["primitives"][0]
+        primitive["targets"] = [{"POSITION": primitive["attributes"]["POSITION"]}]
+        farthest, said = {}, "Both are in the pose that the pictures show"
+        for weight in (0, 1):
+            scene["meshes"][0]["weights"] = [weight]
+            self.write("ball.gltf", json.dumps(scene))
+            page, _ = self.report("load", "ball.gltf", "!", "simplify", "30%", "!", "write", "o.glb")
+            self.assertRegex(page, r'<th scope="row">deviation</th><td>[\d.e-]+ % of the diagonal, from the scene before')
+            farthest[weight] = float(re.search(r"farthest inside\s+(-[\d.]+)", shown(page))[1])
+            self.assertEqual(said in page, weight == 1)
+            self.assertIn('"deviation":', page, "the 3D view has the distances, too")
+            self.mill("diff", "ball.gltf", "o.glb", "--html", "d.html", expect=1)
+            self.assertEqual(said in (self.dir / "d.html").read_text(), weight == 1)
+        self.assertGreater(farthest[1] / farthest[0], 1.5)
+
+    def test_a_texture_that_is_not_drawn_is_told(self):
+        self.mill("pipe", "generate", "icosphere", "!", "write", "ball.gltf")
+        scene = json.loads((self.dir / "ball.gltf").read_text())
+        scene.update(images=[{"uri": "broken.png"}], textures=[{"source": 0}],
+                     materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])
+        scene["meshes"][0]["primitives"][0]["material"] = 0
+        self.write("ball.gltf", json.dumps(scene))
+        self.write("broken.png", "no picture")
+        page, _ = self.report("load", "ball.gltf", "!", "relax", "1", "!", "write", "o.glb", expect=None)
+        self.assertEqual(page.count("not drawn: it is broken"), 1)
+        self.assertIn("the plain colour is drawn in its place", page)
+
+    def test_headings_go_down_one_by_one(self):
+        self.write("o.off", OPEN)
+        self.report("load", "o.off", "!", "relax", "2", "!", "validate", "--closed", "!", "write", "x.ply", expect=1)
+        self.report("generate", "sphere", "!", "simplify", "30%", "!", "write", "s.glb", name="s.html")
+        self.mill("diff", "o.off", "s.glb", "--html", "d.html", expect=1)
+        for name in ("r.html", "s.html", "d.html"):
+            levels = [int(n) for n in re.findall(r"<h([1-6])[ >]", (self.dir / name).read_text())]
+            self.assertEqual(levels[0], 1, name)
+            self.assertTrue(all(b <= a + 1 for a, b in zip(levels, levels[1:])), f"{name}: {levels}")
+
     def test_times_are_told_where_they_are_asked_for(self):
         self.write("o.off", CLOSED)
         line = ("load", "o.off", "!", "split", "!", "write", "o.ply")
@@ -139,6 +180,12 @@ class Pages(Case):
         beside, _ = self.report(*line, before=("--timings", "t.html"))
         self.assertEqual(first, beside)
         timed = (self.dir / "t.html").read_text()
+        # The same page otherwise, with the 3D view and the properties at the end, with a report or without.
+        self.mill("pipe", "--timings", "alone.html", *line)
+        for page in (timed, (self.dir / "alone.html").read_text()):
+            titles = re.findall(r"<h2>(.*?)</h2>", page)
+            self.assertEqual([t for t in titles if t != "Time and memory"], re.findall(r"<h2>(.*?)</h2>", first))
+            self.assertIn("3D view", titles)
         section = timed[timed.index("<h2>Time and memory"):]
         for name in ("load", "split", "write"):
             self.assertIn(f"<td>{name}</td>", section)
