@@ -86,7 +86,7 @@ polygon::Place Footprint::locate(const Vec2& p) const {
     using polygon::Place;
     bool inside = false;
     Place on = Place::outside;
-    tree_.query({-HUGE_VAL, p.y, p.x, p.y}, [&](Index i) {
+    const bool odd = tree_.odd_on_left(p, [&](Index i) {
         const auto& e = tree_.edges()[i];
         if (e.a == p) {
             on = Place::on_vertex;
@@ -102,7 +102,7 @@ polygon::Place Footprint::locate(const Vec2& p) const {
         if ((side > 0) != a_below) inside = !inside;
         return true;
     });
-    return on != Place::outside ? on : inside ? Place::inside : Place::outside;
+    return on != Place::outside ? on : inside != odd ? Place::inside : Place::outside;
 }
 
 double Footprint::area() const {

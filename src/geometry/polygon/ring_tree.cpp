@@ -1,5 +1,7 @@
 #include "geometry/polygon/ring_tree.hpp"
 
+#include <utility>
+
 namespace facetmill::polygon {
 
 std::vector<RingEdge> ring_edges(Rings rings) {
@@ -19,6 +21,9 @@ std::vector<RingEdge> ring_edges(Rings rings) {
 }
 
 RingTree::RingTree(Rings rings) : edges_(ring_edges(rings)) {
+    Index begin = 0;
+    for (const Ring ring : rings)
+        ring_begins_.push_back(std::exchange(begin, begin + static_cast<Index>(ring.size())));
     while (leaves_ * leaf_size < edges_.size()) leaves_ *= 2;
     nodes_.resize(2 * leaves_);
     for (std::size_t e = 0; e < edges_.size(); ++e) nodes_[leaves_ + e / leaf_size].add(bounds(edges_[e]));

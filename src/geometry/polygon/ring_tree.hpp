@@ -55,6 +55,16 @@ class RingTree {
     void query(const Bounds& box, Visit&& visit) const {
         if (!edges_.empty()) query(1, 0, leaves_, box, visit);
     }
+    /// Of the edges whose boxes meet the ray from a point to the left, calls visit(edge number) for those
+    /// that reach above or below the point and some others, ascending, until it returns false. Returns
+    /// whether an odd number of the edges that it was not called for, all on the left, pass the point's
+    /// height; on it counts as below it. In logarithmic time, but for what is visited.
+    template <class Visit>
+    bool odd_on_left(const Vec2& p, Visit&& visit) const {
+        bool odd = false;
+        if (!edges_.empty()) odd_on_left(1, 0, leaves_, p, visit, odd);
+        return odd;
+    }
 
   private:
     template <class Visit>
@@ -70,10 +80,41 @@ class RingTree {
         return true;
     }
 
+    template <class Visit>
+    bool odd_on_left(std::size_t node, std::size_t first, std::size_t width, const Vec2& p, Visit& visit,
+                     bool& odd) const {
+        const Bounds& box = nodes_[node];
+        if (!(box.x0 <= p.x && box.y0 <= p.y && p.y <= box.y1)) return true;
+        if (box.x1 < p.x) {
+            odd ^= odd_pass(first, width, p.y);
+            return true;
+        }
+        if (width > 1)
+            return odd_on_left(2 * node, first, width / 2, p, visit, odd) &&
+                   odd_on_left(2 * node + 1, first + width / 2, width / 2, p, visit, odd);
+        const std::size_t end = std::min(edges_.size(), (first + 1) * leaf_size);
+        for (std::size_t e = first * leaf_size; e < end; ++e)
+            if (bounds(edges_[e]).meets({-HUGE_VAL, p.y, p.x, p.y}) && !visit(static_cast<Index>(e)))
+                return false;
+        return true;
+    }
+    /// Whether an odd number of the edges below a node pass a height: along a ring all that matters is where
+    /// they begin and end.
+    bool odd_pass(std::size_t first, std::size_t width, double height) const {
+        const auto is_below = [&](const Vec2& p) { return p.y <= height; };
+        const Edge &begin = edges_[first * leaf_size],
+                   &last = edges_[std::min(edges_.size(), (first + width) * leaf_size) - 1];
+        const bool odd = is_below(begin.a) != is_below(last.b);
+        if (begin.ring == last.ring) return odd;
+        return odd !=
+               (is_below(edges_[ring_begins_[begin.ring]].a) != is_below(edges_[ring_begins_[last.ring]].a));
+    }
+
     static constexpr std::size_t leaf_size = 4;
     std::vector<Edge> edges_;
-    std::vector<Bounds> nodes_; ///< a heap: the children of i are 2i and 2i + 1
-    std::size_t leaves_ = 1;    ///< a power of two
+    std::vector<Index> ring_begins_; ///< [rings] into edges_
+    std::vector<Bounds> nodes_;      ///< a heap: the children of i are 2i and 2i + 1
+    std::size_t leaves_ = 1;         ///< a power of two
 };
 
 } // namespace facetmill::polygon
