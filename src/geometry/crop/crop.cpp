@@ -63,26 +63,50 @@ class Cropper {
                 return;
             }
         const double rounding = std::ldexp(view_.snap, -27); // 4 units of the last place
-        std::map<Index, std::vector<Vec3>> found;            // by segment
-        for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-            if (!is_float32(mesh_.positions[v])) continue;
+        struct Found {
+            std::size_t off = 0;
+            std::vector<std::pair<Index, Vec3>> points; ///< and the segments that they are on
+        };
+        const auto look_at = [&](std::size_t v, Found& some) {
+            if (!is_float32(mesh_.positions[v])) return;
             const Vec2 p = view_.seen(mesh_.positions[v]);
             bool off = false;
             footprint_.near(p, view_.snap, [&](Index segment) {
                 const auto& e = footprint_.tree().edges()[segment];
                 off |= std::fabs(cross(e.b - e.a, p - e.a)) > rounding * length(e.b - e.a);
-                found[segment].push_back(mesh_.positions[v]);
+                some.points.emplace_back(segment, mesh_.positions[v]);
                 if (places_[v] <= Place::inside) places_[v] = Place::on_edge;
                 return true;
             });
-            result_.snapped += off;
-        }
-        for (auto& [segment, points] : found) remember(segment, std::move(points));
+            some.off += off;
+        };
+        const Found found = parallel_reduce(
+            mesh_.vertex_count(), Found{},
+            [&](std::size_t begin, std::size_t end) {
+                Found some;
+                for (std::size_t v = begin; v < end; ++v) look_at(v, some);
+                return some;
+            },
+            [](Found a, const Found& b) {
+                a.off += b.off;
+                a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+                return a;
+            },
+            1024);
+        result_.snapped += found.off;
+        remember(found.points);
     }
-    void remember(Index segment, std::vector<Vec3> points) {
-        const auto& e = footprint_.tree().edges()[segment];
-        result_.memory.add(pulled_back(upright_plane(settings_.axis, e.a, e.b), settings_.to_world),
-                           std::move(points));
+    /// Points, each with the segment whose plane it is on.
+    void remember(const std::vector<std::pair<Index, Vec3>>& points) {
+        std::map<Index, std::vector<Vec3>> of_segment;
+        for (const auto& [segment, point] : points) of_segment[segment].push_back(point);
+        std::vector<CutMemory::Entry> entries;
+        for (auto& [segment, some] : of_segment) {
+            const auto& e = footprint_.tree().edges()[segment];
+            entries.push_back({pulled_back(upright_plane(settings_.axis, e.a, e.b), settings_.to_world), 0,
+                               std::move(some)});
+        }
+        result_.memory.add_all(std::move(entries));
     }
     OutlineMeeting meeting_of(Index f, std::vector<Vec2>& face) const {
         view_.gather(mesh_, f, face);
@@ -199,9 +223,7 @@ class Cropper {
         result_.cap_faces = closed.wall_faces;
         result_.open = std::move(closed.open);
         merge_changes(result_.changes, closed.changes);
-        std::map<Index, std::vector<Vec3>> made; // by segment
-        for (const auto& [wall, point] : closed.made) made[wall].push_back(point);
-        for (auto& [wall, points] : made) remember(wall, std::move(points));
+        remember(closed.made);
     }
 
     const Mesh& mesh_;

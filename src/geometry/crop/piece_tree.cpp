@@ -1,5 +1,6 @@
 #include "geometry/crop/piece_tree.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -16,16 +17,17 @@ Index PieceTree::new_node() {
     return node;
 }
 
-Index PieceTree::new_leaf(Index face, std::vector<Index> wedges, const Bounds& box) {
+Index PieceTree::new_leaf(Index piece, const Bounds& box) {
     const Index node = new_node();
     nodes_[node].box = box;
-    nodes_[node].piece = static_cast<Index>(pieces_.size());
-    pieces_.push_back({face, std::move(wedges), node});
+    nodes_[node].piece = piece;
+    pieces_[piece].node = node;
     return node;
 }
 
 void PieceTree::add_face(std::vector<Index> wedges, const Bounds& box) {
-    roots_.push_back(new_leaf(static_cast<Index>(roots_.size()), std::move(wedges), box));
+    pieces_.push_back({static_cast<Index>(roots_.size()), std::move(wedges), none});
+    roots_.push_back(new_leaf(numbers() - 1, box));
 }
 
 /// Makes a node the root of a balanced tree over these leaves; of one leaf it takes the place.
@@ -88,16 +90,21 @@ Index PieceTree::unbalanced_above(Index leaf) const {
     return root;
 }
 
-void PieceTree::replace(Index piece, std::vector<std::vector<Index>> parts, std::span<const Bounds> boxes) {
+void PieceTree::replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes) {
     const Index node = std::exchange(pieces_[piece].node, none), face = pieces_[piece].face;
     pieces_[piece].wedges = {};
-    std::vector<Index> leaves;
+    const auto most = std::max_element(parts.begin(), parts.end(),
+                                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    leaves_.clear();
     Bounds box;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        leaves.push_back(new_leaf(face, std::move(parts[i]), boxes[i]));
+        const bool keeps_number = parts.begin() + static_cast<std::ptrdiff_t>(i) == most;
+        if (!keeps_number) pieces_.push_back({face, std::move(parts[i]), none});
+        leaves_.push_back(new_leaf(keeps_number ? piece : numbers() - 1, boxes[i]));
         box.add(boxes[i]);
     }
-    build(node, leaves);
+    if (!parts.empty()) pieces_[piece].wedges = std::move(*most);
+    build(node, leaves_);
     for (Index n = nodes_[node].parent; n != none; n = nodes_[n].parent)
         nodes_[n].leaves += static_cast<Index>(parts.size()) - 1;
     if (parts.empty()) return;

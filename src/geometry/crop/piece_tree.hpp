@@ -19,12 +19,15 @@ class PieceTree {
 
     /// Adds a face in one piece; faces are numbered in the order in which they come.
     void add_face(std::vector<Index> wedges, const Bounds& box);
-    /// Puts pieces in the place of one.
-    void replace(Index piece, std::vector<std::vector<Index>> parts, std::span<const Bounds> boxes);
+    /// Puts pieces, which are moved from, in the place of one. The first of those with most wedges takes its
+    /// number, the others get the next ones.
+    void replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes);
     /// Gives a piece other wedges, for points on its edges.
     void reshape(Index piece, std::vector<Index> wedges, const Bounds& box);
 
     std::size_t face_count() const { return roots_.size(); }
+    /// Pieces have lower numbers than this.
+    Index numbers() const { return static_cast<Index>(pieces_.size()); }
     const Piece& operator[](Index piece) const { return pieces_[piece]; }
     /// Calls visit(piece) for the pieces of a face whose boxes meet the box, in order.
     template <class Visit>
@@ -61,7 +64,7 @@ class PieceTree {
         }
     }
     Index new_node();
-    Index new_leaf(Index face, std::vector<Index> wedges, const Bounds& box);
+    Index new_leaf(Index piece, const Bounds& box);
     void build(Index node, std::span<const Index> leaves);
     void rebuild(Index node);
     void widen(Index node, const Bounds& box);
@@ -69,8 +72,9 @@ class PieceTree {
 
     std::vector<Piece> pieces_;
     std::vector<Node> nodes_;
-    std::vector<Index> roots_; ///< [faces]
-    std::vector<Index> free_;  ///< nodes
+    std::vector<Index> roots_;  ///< [faces]
+    std::vector<Index> free_;   ///< nodes
+    std::vector<Index> leaves_; ///< of the piece that is replaced
     mutable std::vector<Index> open_;
 };
 

@@ -135,8 +135,7 @@ std::vector<Crossing> find_crossings(PlaneCut& cut) {
 double parameter_at(const PlaneCut& cut, Index low, Index high) {
     const double a = side(cut.plane, cut.mesh->positions[low]),
                  b = side(cut.plane, cut.mesh->positions[high]);
-    const double t = a / (a - b);      // the signs differ and neither is 0
-    return t >= 0 && t <= 1 ? t : 0.5; // overflow only
+    return CrossingPoints::parameter(a, b);
 }
 
 std::uint64_t edge_key(Index low, Index high) { return std::uint64_t{low} << 32 | high; }
@@ -213,27 +212,34 @@ void make_vertices(PlaneCut& cut) {
     }
 }
 
-/// mix, but a coordinate that both ends have stays what it is: planes along axes are not left by rounding.
-Vec3 between(const Vec3& a, const Vec3& b, double t) {
-    Vec3 p = mix(a, b, t);
-    for (std::size_t i = 0; i < 3; ++i)
-        if (a[i] == b[i]) p[i] = a[i];
-    return p;
-}
-
 void place_vertices(PlaneCut& cut) {
-    const int axis = axis_of(cut.plane);
-    const auto i = static_cast<std::size_t>(std::max(axis, 0));
-    const double level = cut.plane.through[i] - (axis >= 0 ? cut.plane.offset / cut.plane.normal[i] : 0);
+    const CrossingPoints point(cut.plane);
     cut.points.resize(cut.vertices.size());
     parallel_for(cut.points.size(), [&](std::size_t v) {
         const auto& e = cut.vertices[v];
-        cut.points[v] = between(cut.mesh->positions[e.a], cut.mesh->positions[e.b], e.t);
-        if (axis >= 0) cut.points[v][i] = level;
+        cut.points[v] = point(cut.mesh->positions[e.a], cut.mesh->positions[e.b], e.t);
     });
 }
 
 } // namespace
+
+CrossingPoints::CrossingPoints(const Plane& plane) : axis_(axis_of(plane)) {
+    const auto i = static_cast<std::size_t>(std::max(axis_, 0));
+    level_ = plane.through[i] - (axis_ >= 0 ? plane.offset / plane.normal[i] : 0);
+}
+
+double CrossingPoints::parameter(double side_of_a, double side_of_b) {
+    const double t = side_of_a / (side_of_a - side_of_b); // the signs differ and neither is 0
+    return t >= 0 && t <= 1 ? t : 0.5;                    // overflow only
+}
+
+Vec3 CrossingPoints::operator()(const Vec3& a, const Vec3& b, double t) const {
+    Vec3 p = mix(a, b, t);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (a[i] == b[i]) p[i] = a[i];
+    if (axis_ >= 0) p[static_cast<std::size_t>(axis_)] = level_;
+    return p;
+}
 
 bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
 

@@ -77,6 +77,20 @@ bool is_float32(const Vec3& p);
 /// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box.
 double float32_ulp(const Box& bounds);
 
+/// Makes points where a plane crosses edges.
+class CrossingPoints {
+  public:
+    explicit CrossingPoints(const Plane& plane);
+    /// How far along an edge whose ends have these sides, of different signs; 0 at a.
+    static double parameter(double side_of_a, double side_of_b);
+    /// A coordinate that both ends have stays what it is, so that planes along axes are not left by rounding.
+    Vec3 operator()(const Vec3& a, const Vec3& b, double t) const;
+
+  private:
+    int axis_;
+    double level_; ///< of a plane across that axis
+};
+
 /// Classifies everything and makes the points of the cut. Flat faces get no side yet. faces: 1 for those that
 /// may be cut; empty: all.
 PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},

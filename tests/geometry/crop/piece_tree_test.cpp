@@ -29,7 +29,9 @@ TEST_CASE("pieces stay in order, and are found, however one-sided the cuts are",
         while (right - left > 1) { // a strip at one end comes off
             const Index middle = from_left ? left + 1 : right - 1;
             const std::vector<Bounds> boxes{strip(left, middle), strip(middle, right)};
-            tree.replace(rest, {{left, middle}, {middle, right}}, boxes);
+            std::vector<std::vector<Index>> parts{{left, middle}, {middle, right}};
+            tree.replace(rest, parts, boxes);
+            CHECK(tree[rest].wedges == std::vector<Index>{left, middle}); // the first has its number
             (from_left ? left : right) = middle;
             const auto pieces = pieces_in_order(tree, 1);
             rest = from_left ? pieces.back() : pieces.front();
@@ -50,14 +52,22 @@ TEST_CASE("a piece that is nothing any more is gone, one that reaches farther is
     PieceTree tree;
     tree.add_face({0, 4}, strip(0, 4));
     const std::vector<Bounds> boxes{strip(0, 2), strip(2, 4)};
-    tree.replace(0, {{0, 2}, {2, 4}}, boxes);
-    CHECK(tree[0].node == none);
-    tree.reshape(2, {2, 4, 9}, strip(2, 9));
+    std::vector<std::vector<Index>> parts{{0, 2}, {2, 4}};
+    tree.replace(0, parts, boxes);
+    CHECK(pieces_in_order(tree, 0) == std::vector<Index>{0, 1});
+    CHECK(tree.numbers() == 2);
+    tree.reshape(1, {2, 4, 9}, strip(2, 9));
     std::vector<Index> found;
     tree.query(0, strip(8, 9), [&](Index p) { found.push_back(p); });
-    CHECK(found == std::vector<Index>{2});
-    tree.replace(1, {}, {});
-    CHECK(pieces_in_order(tree, 0) == std::vector<Index>{2});
+    CHECK(found == std::vector<Index>{1});
+    std::vector<std::vector<Index>> larger{{2, 3}, {3, 4, 9}};
+    const std::vector<Bounds> their_boxes{strip(2, 3), strip(3, 9)};
+    tree.replace(1, larger, their_boxes);
+    CHECK(pieces_in_order(tree, 0) == std::vector<Index>{0, 2, 1}); // the larger has the number
     tree.replace(2, {}, {});
+    tree.replace(0, {}, {});
+    CHECK(tree[0].node == none);
+    CHECK(pieces_in_order(tree, 0) == std::vector<Index>{1});
+    tree.replace(1, {}, {});
     CHECK(pieces_in_order(tree, 0).empty());
 }

@@ -1,0 +1,486 @@
+#include "geometry/crop/segment_cutter.hpp"
+
+#include "geometry/crop/piece_tree.hpp"
+#include "geometry/crop/pieces_at_edges.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+
+namespace facetmill {
+
+namespace {
+
+/// 16 units in the last place of the largest of these.
+double rounding_of(std::initializer_list<double> sizes) {
+    return 16 * 2.220446049250313e-16 * std::max(sizes);
+}
+
+/// Whether the line along an edge of a piece parts it from a segment, but for the rounding of points: as it
+/// does from the next segment behind the last cut, which by its rounded corners may seem to enter. Not said
+/// of pieces that are all on that line, such as faces seen edge-on. way: 1 for an anticlockwise piece, else
+/// -1.
+bool parts(const std::vector<Vec2>& piece, std::size_t edge, double way, double rounding,
+           const polygon::RingTree::Edge& e) {
+    const Vec2 &p = piece[edge], along = (piece[edge + 1 == piece.size() ? 0 : edge + 1] - p) * way;
+    const double most = rounding * length(along);
+    if (std::max(cross(along, e.a - p), cross(along, e.b - p)) > most) return false;
+    double low = 0, high = 0;
+    for (const Vec2& q : piece) {
+        const double off = cross(along, q - p);
+        low = std::min(low, off);
+        high = std::max(high, off);
+    }
+    return low >= -most && high > most;
+}
+
+/// Cuts segment by segment, in their order. A cut touches the pieces that its segment enters and those that
+/// share a cut edge with them, and looks at no others.
+class SegmentCutter {
+  public:
+    SegmentCutter(const Mesh& mesh, const CropView& view, const SegmentPlanes& segments, OnPlanes on)
+        : mesh_(mesh), view_(view), segments_(segments), on_(std::move(on)), edges_(build_edges(mesh)),
+          corner_face_(corner_faces(mesh)), points_(mesh.positions), wedge_vertex_(mesh.wedge_vertex) {
+        see_new_points();
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            const auto wedges = mesh.face_wedges(f);
+            pieces_.add_face({wedges.begin(), wedges.end()}, bounds(wedges));
+        }
+        was_cut_.resize(mesh.face_count());
+    }
+
+    CutFaces run(const EnteredFaces& entered) {
+        remember_shared(entered);
+        for (std::size_t i = 0; i < entered.segments.size(); ++i)
+            cut_along(entered.segments[i], entered.of(i));
+        return finished();
+    }
+
+  private:
+    using Bounds = PieceTree::Bounds;
+
+    Index vertex_of(Index wedge) const { return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge]; }
+    Bounds bounds(std::span<const Index> wedges) const {
+        Bounds box;
+        for (const Index w : wedges) box.add(seen_[vertex_of(w)]);
+        return box;
+    }
+    const polygon::RingTree::Edge& segment(Index s) const { return view_.footprint().tree().edges()[s]; }
+    void see_new_points() {
+        for (std::size_t v = seen_.size(); v < points_.size(); ++v) seen_.push_back(view_.seen(points_[v]));
+        on_.grow(points_.size());
+        local_.resize(std::max(points_.size(), wedge_vertex_.size()));
+        signs_.resize(points_.size());
+        sides_.resize(points_.size());
+        signed_for_.resize(points_.size(), none);
+    }
+
+    /// Where several cuts are along one plane, points that an earlier one or another makes between vertices
+    /// on that plane are to count as on it, too.
+    void remember_shared(const EnteredFaces& entered) {
+        for (std::size_t i = 0; i < entered.segments.size(); ++i) {
+            const Index s = entered.segments[i];
+            if (segments_.sharing[segments_.numbers[s]] < 2) continue;
+            for (const Index f : entered.of(i))
+                for (const Index w : mesh_.face_wedges(f))
+                    if (side(segments_.planes[s], points_[vertex_of(w)]) == 0)
+                        on_.add(vertex_of(w), segments_.numbers[s]);
+        }
+    }
+
+    std::int8_t sign_at(Index s, Index vertex) {
+        if (signed_for_[vertex] == s) return signs_[vertex];
+        signed_for_[vertex] = s;
+        const double at = side(segments_.planes[s], points_[vertex]);
+        const bool on = at == 0 || on_.has(vertex, segments_.numbers[s]);
+        if (on) on_.add(vertex, segments_.numbers[s]);
+        sides_[vertex] = at;
+        return signs_[vertex] = static_cast<std::int8_t>(on ? 0 : at > 0 ? 1 : -1);
+    }
+
+    /// Cuts the pieces of these faces that the segment still enters.
+    void cut_along(Index s, std::span<const Index> faces) {
+        find_entered(s, faces);
+        if (touched_.empty()) return;
+        made_.met.push_back(segments_.numbers[s]);
+        std::erase_if(touched_, [&](Index piece) {
+            bool above = false, below = false;
+            for (const Index w : pieces_[piece].wedges) {
+                const std::int8_t sign = sign_at(s, vertex_of(w));
+                above |= sign > 0;
+                below |= sign < 0;
+            }
+            return !(above && below);
+        });
+        if (touched_.empty()) return;
+        const std::size_t to_cut = touched_.size();
+        for (std::size_t i = 0; i < to_cut; ++i) find_neighbours(s, touched_[i]);
+        if (is_plain(s, to_cut))
+            cut_plain(s, to_cut);
+        else
+            cut(s, to_cut);
+    }
+    void find_entered(Index s, std::span<const Index> faces) {
+        touched_.clear();
+        const auto& e = segment(s);
+        for (const Index f : faces)
+            pieces_.query(f, polygon::RingTree::bounds(e), [&](Index piece) {
+                face_.clear();
+                for (const Index w : pieces_[piece].wedges) face_.push_back(seen_[vertex_of(w)]);
+                if (is_parted(piece, e) || meeting(face_, e.a, e.b) != OutlineMeeting::crossing) return;
+                was_cut_[f] = 1;
+                touched_.push_back(piece);
+            });
+    }
+
+    /// Whether an edge parts the piece, seen as face_, from the segment: most often the one that parted it
+    /// from the last.
+    bool is_parted(Index piece, const polygon::RingTree::Edge& e) {
+        double square = std::max(dot(e.a, e.a), dot(e.b, e.b));
+        for (const Vec2& p : face_) square = std::max(square, dot(p, p));
+        const double rounding = rounding_of({std::sqrt(square)}),
+                     way = polygon::signed_area(face_) > 0 ? 1 : -1;
+        parting_.resize(std::max<std::size_t>(parting_.size(), piece + 1), 0);
+        const std::size_t n = face_.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t edge = (parting_[piece] + i) % n;
+            if (!parts(face_, edge, way, rounding, e)) continue;
+            parting_[piece] = static_cast<Index>(edge);
+            return true;
+        }
+        return false;
+    }
+
+    /// Adds to what is touched the pieces that share an edge with this one at which that is cut: faces around
+    /// that are whole still, and what has been cut before.
+    void find_neighbours(Index s, Index piece) {
+        const Index face = pieces_[piece].face;
+        around_.assign(1, face);
+        for (Index c = mesh_.face_begin(face); c < mesh_.face_end(face); ++c)
+            if (edges_.corner_edge[c] != none)
+                for (const Index other : edges_.corners_of(edges_.corner_edge[c]))
+                    around_.push_back(corner_face_[other]);
+        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
+            const Index u = vertex_of(a), v = vertex_of(b);
+            if (sign_at(s, u) * sign_at(s, v) >= 0) return;
+            for (const Index f : around_) touch(f, u, v); // a whole face is the piece of its number
+            at_edges_.visit(u, v, [&](Index other) {
+                if (std::find(around_.begin(), around_.end(), pieces_[other].face) != around_.end())
+                    touch(other, u, v);
+            });
+        });
+    }
+    /// Of a piece; with first_new only those with an end from that vertex on.
+    void note_edges(Index piece, Index first_new = 0) {
+        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
+            const Index u = vertex_of(a), v = vertex_of(b);
+            if (std::max(u, v) >= first_new) at_edges_.add(u, v, piece);
+        });
+    }
+    void touch(Index piece, Index u, Index v) {
+        bool shares = false;
+        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
+            const Index from = vertex_of(a), to = vertex_of(b);
+            shares |= (from == u && to == v) || (from == v && to == u);
+        });
+        if (shares && std::find(touched_.begin(), touched_.end(), piece) == touched_.end())
+            touched_.push_back(piece);
+    }
+
+    // --- a cut of which each piece falls in two, between vertices: nearly all are such
+
+    /// An edge that is cut: its vertices, or its wedges, that at the lower vertex first.
+    struct Ends {
+        Index low, high;
+        auto operator<=>(const Ends&) const = default;
+    };
+    Ends ends_of(Index a, Index b) const { return vertex_of(a) < vertex_of(b) ? Ends{a, b} : Ends{b, a}; }
+    Ends vertices_of(const Ends& wedges) const { return {vertex_of(wedges.low), vertex_of(wedges.high)}; }
+    static Index number_of(const std::vector<Ends>& all, const Ends& ends) {
+        return static_cast<Index>(std::lower_bound(all.begin(), all.end(), ends) - all.begin());
+    }
+    static bool has(const std::vector<Ends>& all, const Ends& ends) {
+        return std::binary_search(all.begin(), all.end(), ends);
+    }
+    static void sort_once(std::vector<Ends>& all) {
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+    }
+    /// visit(wedge, next wedge) for the edges of a piece with ends on both sides.
+    template <class Visit>
+    void for_crossed(Index s, Index piece, Visit&& visit) {
+        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
+            if (sign_at(s, vertex_of(a)) * sign_at(s, vertex_of(b)) < 0) visit(a, b);
+        });
+    }
+
+    bool is_plain(Index s, std::size_t to_cut) {
+        return std::all_of(
+            touched_.begin(), touched_.begin() + static_cast<std::ptrdiff_t>(to_cut), [&](Index piece) {
+                std::size_t crossed = 0;
+                for_crossed(s, piece, [&](Index, Index) { ++crossed; });
+                const auto& wedges = pieces_[piece].wedges;
+                return crossed == 2 && std::none_of(wedges.begin(), wedges.end(),
+                                                    [&](Index w) { return sign_at(s, vertex_of(w)) == 0; });
+            });
+    }
+    /// As cut.
+    void cut_plain(Index s, std::size_t to_cut) {
+        const auto first_vertex = static_cast<Index>(points_.size()),
+                   first_made = static_cast<Index>(wedge_count());
+        find_cut_edges(s, to_cut);
+        make_points(s);
+        for (std::size_t i = 0; i < to_cut; ++i) {
+            halve(s, touched_[i], first_made);
+            note_edges(touched_[i], first_vertex); // the larger part, which has its number
+        }
+        for (std::size_t i = to_cut; i < touched_.size(); ++i)
+            reshape(touched_[i], with_points(s, touched_[i], first_made), first_vertex);
+        remember_corners(s, first_vertex);
+    }
+    void find_cut_edges(Index s, std::size_t to_cut) {
+        cut_edges_.clear();
+        cut_wedges_.clear();
+        for (std::size_t i = 0; i < to_cut; ++i)
+            for_crossed(s, touched_[i], [&](Index a, Index b) {
+                cut_edges_.push_back(vertices_of(ends_of(a, b)));
+                if (!wedge_vertex_.empty()) cut_wedges_.push_back(ends_of(a, b));
+            });
+        sort_once(cut_edges_);
+        for (std::size_t i = to_cut; i < touched_.size() && !wedge_vertex_.empty(); ++i)
+            for_crossed(s, touched_[i], [&](Index a, Index b) {
+                if (has(cut_edges_, vertices_of(ends_of(a, b)))) cut_wedges_.push_back(ends_of(a, b));
+            });
+        sort_once(cut_wedges_);
+    }
+    void make_points(Index s) {
+        const CrossingPoints point(segments_.planes[s]);
+        const auto first = static_cast<Index>(points_.size());
+        const auto parameter = [&](const Ends& vertices) {
+            return CrossingPoints::parameter(sides_[vertices.low], sides_[vertices.high]);
+        };
+        for (const Ends& e : cut_edges_) {
+            const double t = parameter(e);
+            points_.push_back(point(points_[e.low], points_[e.high], t));
+            made_.vertices.push_back({e.low, e.high, t});
+        }
+        for (const Ends& e : cut_wedges_) {
+            made_.wedges.push_back({e.low, e.high, parameter(vertices_of(e))});
+            wedge_vertex_.push_back(first + number_of(cut_edges_, vertices_of(e)));
+        }
+        made_.vertex_segments.resize(made_.vertices.size(), s);
+        made_.wedge_segments.resize(made_.wedges.size(), s);
+        see_new_points();
+        for (Index i = 0; i < cut_edges_.size(); ++i)
+            put_on_planes(s, first + i, cut_edges_[i].low, cut_edges_[i].high);
+    }
+    Index wedge_on(Index a, Index b, Index first_made) const {
+        return first_made + (wedge_vertex_.empty() ? number_of(cut_edges_, ends_of(a, b))
+                                                   : number_of(cut_wedges_, ends_of(a, b)));
+    }
+    /// Each part begins and ends with a point of the cut.
+    void halve(Index s, Index piece, Index first_made) {
+        const auto& wedges = pieces_[piece].wedges;
+        const std::size_t n = wedges.size();
+        const auto sign = [&](std::size_t i) { return sign_at(s, vertex_of(wedges[i % n])); };
+        std::size_t begin = 0; // the first in front
+        while (!(sign(begin) > 0 && sign(begin + n - 1) < 0)) ++begin;
+        std::array<std::vector<Index>, 2> parts; // in front and behind
+        std::array<Bounds, 2> boxes;
+        std::size_t i = begin;
+        for (std::size_t part = 0; part < 2; ++part) {
+            auto& some = parts[part];
+            const int side = sign(i);
+            some.push_back(wedge_on(wedges[(i + n - 1) % n], wedges[i % n], first_made));
+            for (; i < begin + n && sign(i) == side; ++i) some.push_back(wedges[i % n]);
+            some.push_back(wedge_on(wedges[(i + n - 1) % n], wedges[i % n], first_made));
+            boxes[part] = bounds(some);
+        }
+        replace(piece, parts, boxes);
+    }
+    /// Notes the edges of the parts that have new numbers.
+    void replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes) {
+        const Index first = pieces_.numbers();
+        pieces_.replace(piece, parts, boxes);
+        for (Index part = first; part < pieces_.numbers(); ++part) note_edges(part);
+    }
+    std::vector<Index> with_points(Index s, Index piece, Index first_made) {
+        std::vector<Index> wedges;
+        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
+            wedges.push_back(a);
+            if (sign_at(s, vertex_of(a)) * sign_at(s, vertex_of(b)) < 0 &&
+                has(cut_edges_, vertices_of(ends_of(a, b))))
+                wedges.push_back(wedge_on(a, b, first_made));
+        });
+        return wedges;
+    }
+    void reshape(Index piece, std::vector<Index> wedges, Index first_new) {
+        const Bounds box = bounds(wedges);
+        pieces_.reshape(piece, std::move(wedges), box);
+        note_edges(piece, first_new);
+    }
+
+    // --- any cut
+
+    /// Cuts the first of what is touched; the others get the points on their edges.
+    void cut(Index s, std::size_t to_cut) {
+        make_local();
+        std::vector<std::int8_t> signs;
+        for (const Index v : vertices_) signs.push_back(sign_at(s, v));
+        std::vector<std::uint8_t> wanted(touched_.size());
+        std::fill_n(wanted.begin(), to_cut, 1);
+        const PlaneCut cut = cut_by_signs(part_, segments_.planes[s], std::move(signs), wanted);
+        const auto first_vertex = static_cast<Index>(points_.size()),
+                   first_wedge = static_cast<Index>(wedge_count());
+        add_points(s, cut);
+        const auto global = [&](std::span<const Index> wedges) {
+            std::vector<Index> out;
+            const auto old = static_cast<Index>(part_.wedge_count());
+            for (const Index w : wedges)
+                out.push_back(w >= old          ? first_wedge + (w - old)
+                              : wedges_.empty() ? vertices_[w]
+                                                : wedges_[w]);
+            return out;
+        };
+        const Pieces front = pieces_on_side(cut, 1), back = pieces_on_side(cut, -1);
+        std::size_t next_front = 0, next_back = 0;
+        for (const Index f : cut.cut_faces) {
+            std::vector<std::vector<Index>> parts;
+            for (; next_front < front.size() && front.source[next_front] == f; ++next_front)
+                parts.push_back(global(front.of(next_front)));
+            for (; next_back < back.size() && back.source[next_back] == f; ++next_back)
+                parts.push_back(global(back.of(next_back)));
+            std::vector<Bounds> boxes;
+            boxes.reserve(parts.size());
+            for (const auto& wedges : parts) boxes.push_back(bounds(wedges));
+            replace(touched_[f], parts, boxes);
+            note_edges(touched_[f]);
+        }
+        std::vector<Index> polygon;
+        for (std::size_t i = 0; i < cut.passing.size(); ++i) {
+            passing_with_points(cut, i, polygon);
+            reshape(touched_[cut.passing[i]], global(polygon), first_vertex);
+        }
+        remember_corners(s, first_vertex);
+    }
+    /// What is touched as a mesh of its own, vertices and wedges in their order.
+    void make_local() {
+        const auto numbered = [&](std::vector<Index>& all) {
+            std::sort(all.begin(), all.end());
+            all.erase(std::unique(all.begin(), all.end()), all.end());
+        };
+        vertices_.clear();
+        wedges_.clear();
+        for (const Index piece : touched_)
+            for (const Index w : pieces_[piece].wedges) {
+                vertices_.push_back(vertex_of(w));
+                if (!wedge_vertex_.empty()) wedges_.push_back(w);
+            }
+        numbered(vertices_);
+        numbered(wedges_);
+        part_.positions.clear();
+        part_.wedge_vertex.clear();
+        part_.corners.clear();
+        part_.face_offsets.assign(1, 0);
+        for (Index i = 0; i < vertices_.size(); ++i) {
+            part_.positions.push_back(points_[vertices_[i]]);
+            local_[vertices_[i]] = i;
+        }
+        for (const Index w : wedges_) part_.wedge_vertex.push_back(local_[vertex_of(w)]);
+        for (Index i = 0; i < wedges_.size(); ++i) local_[wedges_[i]] = i;
+        for (const Index piece : touched_) {
+            for (const Index w : pieces_[piece].wedges) part_.corners.push_back(local_[w]);
+            part_.face_offsets.push_back(static_cast<Index>(part_.corners.size()));
+        }
+    }
+    std::size_t wedge_count() const { return wedge_vertex_.empty() ? points_.size() : wedge_vertex_.size(); }
+    void add_points(Index s, const PlaneCut& cut) {
+        const auto first = static_cast<Index>(points_.size());
+        points_.insert(points_.end(), cut.points.begin(), cut.points.end());
+        for (const auto& e : cut.vertices) made_.vertices.push_back({vertices_[e.a], vertices_[e.b], e.t});
+        made_.vertex_segments.resize(made_.vertices.size(), s);
+        if (!wedge_vertex_.empty()) {
+            for (const auto& e : cut.wedges) made_.wedges.push_back({wedges_[e.a], wedges_[e.b], e.t});
+            made_.wedge_segments.resize(made_.wedges.size(), s);
+            for (const Index v : cut.wedge_vertex)
+                wedge_vertex_.push_back(first + (v - static_cast<Index>(part_.vertex_count())));
+        }
+        see_new_points();
+        for (std::size_t i = 0; i < cut.vertices.size(); ++i)
+            put_on_planes(s, static_cast<Index>(first + i), vertices_[cut.vertices[i].a],
+                          vertices_[cut.vertices[i].b]);
+    }
+    /// A point made on an edge from a to b is on the segment's plane and on all that both ends are on.
+    void put_on_planes(Index s, Index v, Index a, Index b) {
+        on_.add(v, segments_.numbers[s]);
+        on_.for_planes(a, [&](Index plane) {
+            if (on_.has(b, plane)) shared_.push_back(plane);
+        });
+        for (const Index plane : shared_) on_.add(v, plane);
+        shared_.clear();
+    }
+    /// New points at a corner of the outline, but for rounding, are on the next segment's plane, too: else an
+    /// edge that passes the corner would be cut twice there.
+    void remember_corners(Index s, Index first_vertex) {
+        const auto& e = segment(s);
+        for (Index v = first_vertex; v < points_.size(); ++v) {
+            const double rounding =
+                rounding_of({length(points_[v]), length(seen_[v]), length(e.a), length(e.b)});
+            if (length(seen_[v] - e.a) <= rounding) on_.add(v, segments_.numbers[e.previous]);
+            if (length(seen_[v] - e.b) <= rounding) on_.add(v, segments_.numbers[e.next]);
+        }
+    }
+
+    /// What has been made of all faces.
+    CutFaces finished() {
+        const auto old_vertices = static_cast<Index>(mesh_.vertex_count());
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            pieces_.for_pieces(f, [&](Index piece) { made_.pieces.add(f, pieces_[piece].wedges); });
+        for (Index v = old_vertices; v < points_.size(); ++v)
+            on_.for_planes(v, [&](Index plane) { made_.on.emplace_back(v, plane); });
+        made_.points.assign(points_.begin() + old_vertices, points_.end());
+        if (!wedge_vertex_.empty())
+            made_.wedge_vertex.assign(wedge_vertex_.begin() +
+                                          static_cast<std::ptrdiff_t>(mesh_.wedge_count()),
+                                      wedge_vertex_.end());
+        made_.cut_faces = static_cast<std::size_t>(std::count(was_cut_.begin(), was_cut_.end(), 1));
+        return std::move(made_);
+    }
+
+    const Mesh& mesh_;
+    const CropView& view_;
+    const SegmentPlanes& segments_;
+    OnPlanes on_;
+    EdgeTable edges_;
+    std::vector<Index> corner_face_;
+    PieceTree pieces_;
+    PiecesAtEdges at_edges_;            ///< without faces that nothing has happened to
+    std::vector<Vec3> points_;          ///< [vertices] those of the mesh, and new ones
+    std::vector<Index> wedge_vertex_;   ///< [wedges] empty without seams
+    std::vector<Vec2> seen_;            ///< [vertices]
+    std::vector<std::int8_t> signs_;    ///< [vertices] by the segment that
+    std::vector<double> sides_;         ///< [vertices] likewise, as side() has it
+    std::vector<Index> signed_for_;     ///< [vertices] this says
+    std::vector<std::uint8_t> was_cut_; ///< [faces]
+    std::vector<Index> parting_; ///< [pieces, as far as asked for] an edge that parted it from a segment
+    CutFaces made_;
+    // Of the cut that is being made:
+    std::vector<Index> touched_; ///< pieces: those to be cut, then those that share a cut edge
+    Mesh part_;
+    std::vector<Index> vertices_, wedges_; ///< [vertices and wedges of part_] wedges: empty without seams
+    std::vector<Index> local_;             ///< back from these
+    std::vector<Ends> cut_edges_,
+        cut_wedges_; ///< ascending; edges: their vertices; wedges: empty without seams
+    std::vector<Index> around_, shared_;
+    std::vector<Vec2> face_;
+};
+
+} // namespace
+
+CutFaces cut_along_segments(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
+                            const SegmentPlanes& segments, OnPlanes on) {
+    return SegmentCutter(mesh, view, segments, std::move(on)).run(entered);
+}
+
+} // namespace facetmill
