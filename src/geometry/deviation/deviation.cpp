@@ -494,6 +494,13 @@ DirectedDeviation deviation_between(const Surface& from, std::span<const Index> 
     return deviation_to(from, order, tree, settings);
 }
 
+/// Of a tree that is to be asked for points of another surface: where they are fewer than its triangles, it
+/// is not worth sorting as well as it can be. A bound asks for more.
+FaceTree::Use use_of_tree(const Surface& surface, const Surface& other, const DeviationSettings& settings) {
+    const std::size_t points = settings.samples + other.positions.size();
+    return !settings.certify && points < surface.size() ? FaceTree::Use::few : FaceTree::Use::near;
+}
+
 Surface scaled(Surface surface, const PowerScale& scale) {
     surface.positions = scale(surface.positions);
     return surface;
@@ -524,7 +531,8 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     result.seed = settings.seed;
     result.diagonal = diagonal(of_first);
     ShareOfSteps steps({1, 4, 4});
-    FaceTree first_tree(first, FaceTree::Use::near), second_tree(second, FaceTree::Use::near);
+    FaceTree first_tree(first, use_of_tree(first, second, settings)),
+        second_tree(second, use_of_tree(second, first, settings));
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
     steps.next();
     result.forward = deviation_between(first, first_order, second, second_tree, settings);
