@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "cells/numbering.hpp"
+#include "cells/pieces.hpp"
 #include "geometry/split/split.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ class CrumpleSource final : public FaceSource {
     CrumpleSource(std::shared_ptr<FaceSource> still, const CrumpleSettings& settings)
         : FaceSource(still->contents()), still_(std::move(still)), settings_(settings) {
         Box bounds;
-        each_batch(0, [&](io::Span, const Mesh& mesh) { bounds.add(mesh.bounds()); });
+        each_batch(*still_, 0, [&](io::Span records) { bounds.add(piece(records).mesh.bounds()); });
         own_contents().bounds = bounds;
         own_contents().vertices = 0; // each is used
     }
@@ -26,13 +27,10 @@ class CrumpleSource final : public FaceSource {
     std::size_t record_size() const override { return still_->record_size(); }
 
     void each(const Take& take, std::size_t memory) override {
-        each_batch(memory, [&](io::Span records, const Mesh& mesh) {
-            for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-                Vec3 centre;
-                for (std::size_t c = 3 * f; c < 3 * f + 3; ++c)
-                    centre = centre + mesh.point(static_cast<Index>(c)) / 3;
-                take(centre, records.subspan(f * record_size(), record_size()));
-            }
+        each_batch(*still_, memory, [&](io::Span records) {
+            const Mesh mesh = piece(records).mesh;
+            for (std::size_t f = 0; f < mesh.face_count(); ++f)
+                take(centre_of(mesh, f), records.subspan(f * record_size(), record_size()));
         });
     }
 
@@ -47,24 +45,6 @@ class CrumpleSource final : public FaceSource {
     std::vector<std::uint64_t> names(io::Span records) const override { return still_->names(records); }
 
   private:
-    /// Calls use(records, mesh) for some faces at a time.
-    template <class Use>
-    void each_batch(std::size_t memory, Use&& use) {
-        constexpr std::size_t at_once = 1 << 15; // faces
-        io::Bytes waiting;
-        const auto give = [&] {
-            if (!waiting.empty()) use(io::Span(waiting), piece(waiting).mesh);
-            waiting.clear();
-        };
-        still_->each(
-            [&](const Vec3&, io::Span record) {
-                waiting.insert(waiting.end(), record.begin(), record.end());
-                if (waiting.size() >= at_once * record_size()) give();
-            },
-            memory);
-        give();
-    }
-
     std::shared_ptr<FaceSource> still_;
     CrumpleSettings settings_;
 };

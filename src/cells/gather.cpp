@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "base/readable_numbers.hpp"
 #include "cells/hierarchy.hpp"
+#include "cells/pieces.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -29,6 +30,15 @@ void sort_vertices(Cell& cell) {
     for (Index& corner : cell.mesh.corners) corner = number[corner];
     for (Attribute& a : cell.mesh.attributes)
         if (a.domain != Domain::face) a.select(order);
+}
+
+/// Throws limit (E-MEMORY).
+void require_memory_for(std::uint64_t faces, const Means& means) {
+    if (memory_in_core(faces) > means.memory)
+        throw out_of_memory(fmt::format("what is kept has more than {} triangles, which need {}; --memory "
+                                        "gives {}",
+                                        grouped(faces), sized(memory_in_core(faces)), sized(means.memory)),
+                            "keep less, or give more memory");
 }
 
 } // namespace
@@ -71,18 +81,36 @@ Mesh gathered(const Partition& partition,
             if (keep(cell.mesh.point(3 * f), cell.mesh.point(3 * f + 1), cell.mesh.point(3 * f + 2)))
                 faces.push_back(f);
         count += faces.size();
-        if (memory_in_core(count) > means.memory)
-            throw out_of_memory(fmt::format("what is kept has more than {} triangles, which need {}; "
-                                            "--memory gives {}",
-                                            grouped(count), sized(memory_in_core(count)),
-                                            sized(means.memory)),
-                                "keep less, or give more memory");
+        require_memory_for(count, means);
         if (!faces.empty()) cells.push_back(with_faces(std::move(cell), faces));
     }
     if (cells.empty()) return {};
     Cell all = joined(std::move(cells), 0);
     sort_vertices(all);
     return std::move(all.mesh);
+}
+
+Mesh gathered(FaceSource& source,
+              const std::function<std::size_t(const Vec3&, const Vec3&, const Vec3&)>& weight,
+              const Means& means) {
+    io::Bytes kept;
+    std::uint64_t count = 0;
+    const std::size_t size = source.record_size();
+    each_batch(source, static_cast<std::size_t>(means.memory / 8), [&](io::Span records) {
+        const Mesh mesh = source.piece(records).mesh;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            const std::size_t its = weight(mesh.point(3 * f), mesh.point(3 * f + 1), mesh.point(3 * f + 2));
+            if (its == 0) continue;
+            count += its;
+            const auto record = records.subspan(f * size, size);
+            kept.insert(kept.end(), record.begin(), record.end());
+        }
+        require_memory_for(count, means);
+    });
+    if (kept.empty()) return {};
+    Mesh mesh = source.piece(kept).mesh;
+    mesh.attributes.clear();
+    return mesh;
 }
 
 } // namespace facetmill::cells

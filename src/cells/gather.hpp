@@ -16,4 +16,10 @@ Cell with_faces(Cell cell, const std::vector<Index>& faces);
 Mesh gathered(const Partition& partition,
               const std::function<bool(const Vec3&, const Vec3&, const Vec3&)>& keep, const Means& means);
 
+/// The faces of the source for which weight is not 0, in its order, without attributes. Throws limit
+/// (E-MEMORY) when the weights together are more faces than memory takes.
+Mesh gathered(FaceSource& source,
+              const std::function<std::size_t(const Vec3&, const Vec3&, const Vec3&)>& weight,
+              const Means& means);
+
 } // namespace facetmill::cells

@@ -1,6 +1,7 @@
 #include "cells/partition.hpp"
 
 #include "base/progress.hpp"
+#include "cells/pieces.hpp"
 #include "cells/unite.hpp"
 
 #include <algorithm>
@@ -85,8 +86,7 @@ void Partition::divide(std::uint32_t node, io::Bytes records, std::uint64_t most
     Box box;
     std::vector<Vec3> centres(n);
     for (std::size_t f = 0; f < n; ++f) {
-        for (Index c = static_cast<Index>(3 * f); c < 3 * f + 3; ++c)
-            centres[f] = centres[f] + mesh.point(c) / 3;
+        centres[f] = centre_of(mesh, f);
         box.add(centres[f]);
     }
     const Vec3 extent = box.extent();

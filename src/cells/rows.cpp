@@ -1,6 +1,6 @@
 #include "cells/rows.hpp"
 
-#include "base/random.hpp"
+#include "cells/pieces.hpp"
 #include "cells/unite.hpp"
 #include "io/text.hpp"
 
@@ -237,10 +237,7 @@ class RowSource final : public FaceSource {
                              [](std::uint64_t n, const Rows::Group& g) { return n < g.first; });
         const Rows::Group group = after == rows_.groups.begin() ? Rows::Group{} : *std::prev(after);
         if (group.identity == Identity::number) return number;
-        std::uint64_t name = group.identity == Identity::place ? 0 : group.first;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            name = hashed(name, std::bit_cast<std::uint64_t>(p[axis] + 0.0)); // -0 is 0
-        return name;
+        return name_of_place(p, group.identity == Identity::place ? 0 : group.first);
     }
 
     void give(const Corners& corners, RecordCache& vertices, const Take& take) const {

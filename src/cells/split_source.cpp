@@ -3,6 +3,7 @@
 #include "base/portable_math.hpp"
 #include "base/progress.hpp"
 #include "base/random.hpp"
+#include "cells/pieces.hpp"
 #include "cells/rims.hpp"
 #include "mesh/topology.hpp"
 
@@ -39,29 +40,6 @@ void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<
     for (const std::uint32_t number : numbers)
         for (std::size_t i = 0; i < inner_points(how); ++i)
             names.push_back(hashed(hashed(hashed(how.pieces(), UINT64_MAX), number), i));
-}
-
-/// These faces, with the vertices that they use, which keep their order.
-Piece only(const Piece& all, const std::vector<Index>& faces) {
-    std::vector<Index> number(all.mesh.vertex_count(), none), kept;
-    for (const Index f : faces)
-        for (const Index v : all.mesh.face_wedges(f)) number[v] = 0;
-    Piece some;
-    for (Index v = 0; v < number.size(); ++v) {
-        if (number[v] == none) continue;
-        number[v] = static_cast<Index>(kept.size());
-        kept.push_back(v);
-        some.mesh.positions.push_back(all.mesh.positions[v]);
-        some.names.push_back(all.names[v]);
-    }
-    some.mesh.corners.reserve(3 * faces.size());
-    for (const Index f : faces)
-        for (const Index v : all.mesh.face_wedges(f)) some.mesh.corners.push_back(number[v]);
-    for (Attribute a : all.mesh.attributes) {
-        a.select(a.domain == Domain::face ? faces : kept);
-        some.mesh.attributes.push_back(std::move(a));
-    }
-    return some;
 }
 
 /// A record is that of the face that is cut, its number where it has points of its own, and which of its
@@ -112,7 +90,7 @@ class SplitSource final : public FaceSource {
         Piece whole = whole_->piece(parents);
         name_new_vertices(whole.mesh, how_, numbers, whole.names);
         whole.mesh = cut(whole.mesh, how_);
-        return only(whole, faces);
+        return some_faces(whole, faces);
     }
 
     std::vector<std::uint64_t> names(io::Span records) const override {
@@ -133,10 +111,7 @@ class SplitSource final : public FaceSource {
             const std::uint32_t its = number + static_cast<std::uint32_t>(parent);
             std::memcpy(record.data() + size_, &its, head_ - size_);
             record[head_] = static_cast<std::byte>(f % how_.pieces());
-            Vec3 centre;
-            for (std::size_t c = 3 * f; c < 3 * f + 3; ++c)
-                centre = centre + mesh.point(static_cast<Index>(c)) / 3;
-            take(centre, record);
+            take(centre_of(mesh, f), record);
         }
     }
 

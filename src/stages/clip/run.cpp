@@ -6,6 +6,7 @@
 #include "stage/options/plane.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
+#include "stage/world_outline.hpp"
 #include "stages/clip/help.hpp"
 
 #include <algorithm>
@@ -271,7 +272,8 @@ void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
 void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
     const PartsToClip how = parts_to_clip(o);
     Scene outline = flow.outline();
-    const Cutter cutter(o, outline, context);
+    const Scene world = world_outline(flow);
+    const Cutter cutter(o, world, context);
     const Box box = outline.parts.front().mesh.bounds();
     Reached reached(cutter.planes_for(outline.parts.front()), how, box);
     Mesh some = cells::gathered(*flow.partition, std::ref(reached), flow.means);

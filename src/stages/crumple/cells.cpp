@@ -3,6 +3,7 @@
 #include "cells/crumple_source.hpp"
 #include "cells/inspect_cells.hpp"
 #include "cells/split_source.hpp"
+#include "stage/world_outline.hpp"
 #include "stages/crumple/report.hpp"
 
 #include <algorithm>
@@ -11,16 +12,6 @@
 namespace facetmill::crumple_stage {
 
 namespace {
-
-/// A scene of a part that is where the cells are, in the world: lengths are resolved there.
-Scene world_outline(const CellFlow& flow) {
-    Scene outline = flow.outline();
-    Part& part = outline.parts.front();
-    part.transform = {};
-    part.mesh.positions.clear();
-    if (!flow.box.empty()) part.mesh.positions = {flow.box.min, flow.box.max};
-    return outline;
-}
 
 void warn_of_dropped(const AttributeChanges& changes, const std::string& part, Context& context) {
     for (const AttributeChange& change : changes)

@@ -2,10 +2,8 @@
 
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
-#include "geometry/inspect/inspect.hpp"
 #include "io/drawing/drawing_fields.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::section_stage {
@@ -43,15 +41,7 @@ ReportedSection reported(const io::Sheet& sheet, std::size_t& listed) {
     return section;
 }
 
-void add_volume(SectionReport& report, const Scene& scene, double spacing, const Context& context) {
-    if (!(spacing > 0)) return;
-    std::optional<double> volume = 0.0;
-    for (const Part& part : scene.parts) {
-        if (!context.selects(part, scene)) continue;
-        const auto own = inspect(part.mesh).volume;
-        volume = volume && own ? std::optional(*volume + *own * std::abs(part.transform.determinant()))
-                               : std::nullopt;
-    }
+void add_volume(SectionReport& report, double spacing, std::optional<double> volume) {
     report.spacing = spacing;
     report.area_times_spacing = report.area * spacing;
     report.volume = volume;
@@ -181,8 +171,8 @@ void declare_section_report(DeclareFields<SectionReport>& d) {
     d.tell(lines_of);
 }
 
-SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene& scene, double spacing,
-                        Context& context) {
+SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
+                        std::optional<double> volume, Context& context) {
     SectionReport report;
     std::size_t listed = 0;
     for (const auto& sheet : drawing->sheets) {
@@ -192,7 +182,7 @@ SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene&
         report.sections.push_back(reported(sheet, listed));
     }
     report.drawing = std::move(drawing);
-    add_volume(report, scene, spacing, context);
+    if (spacing > 0) add_volume(report, spacing, volume);
     warn(report, context);
     return report;
 }

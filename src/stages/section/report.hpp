@@ -35,9 +35,10 @@ struct SectionReport {
 void declare_section_report(DeclareFields<SectionReport>& d);
 
 /// The sums over the drawing and, for a stack (spacing above 0, world units), the areas times spacing beside
-/// the volume of the parts selected. Warns of contours that are open (W-OPEN-SECTION), turned by nesting
-/// (W-UNORIENTED), clockwise (W-INSIDE-OUT) or crossing themselves (W-SECTION-CROSSES).
-SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene& scene, double spacing,
-                        Context& context);
+/// the volume of the parts selected (none: a part is not closed). Warns of contours that are open
+/// (W-OPEN-SECTION), turned by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or crossing themselves
+/// (W-SECTION-CROSSES).
+SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
+                        std::optional<double> volume, Context& context);
 
 } // namespace facetmill::section_stage

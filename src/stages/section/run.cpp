@@ -1,8 +1,13 @@
 #include "base/progress.hpp"
+#include "cells/inspect_cells.hpp"
+#include "cells/section_cells.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "stage/world_outline.hpp"
 #include "stages/section/help.hpp"
 #include "stages/section/options.hpp"
 #include "stages/section/report.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::section_stage {
@@ -27,20 +32,49 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
                     "choose a larger spacing, or fewer planes");
 }
 
-/// The planes: one alone without spacing and count, else as geometry/section_stack says over the extent of
-/// the parts selected. Throws stage (E-SECTION) for a spacing that comes to 0, and what stack_of throws.
-Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Length>& given,
-                const std::optional<std::int64_t>& count, Context& context) {
-    if (!given && !count) return {};
-    std::optional<double> spacing;
-    if (given) spacing = context.resolve(*given, scene, "spacing");
-    if (spacing && !(*spacing > 0))
-        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' must be above zero, and it is 0 in this scene",
-                    "give a length in scene units, or count");
+/// The extent of the parts selected along the normal.
+Extent extent_of(const Scene& scene, const Plane& plane, const Context& context) {
     Extent extent;
     for (const Part& part : scene.parts)
         if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, part.transform));
-    return stack_of(extent, spacing, count);
+    return extent;
+}
+
+/// The planes: one alone without spacing and count, else as geometry/section_stack says over the extent.
+/// Throws stage (E-SECTION) for a spacing that comes to 0, and what stack_of throws.
+template <class ExtentOf>
+Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, Context& context) {
+    if (!o.spacing && !o.count) return {};
+    std::optional<double> spacing;
+    if (o.spacing) spacing = context.resolve(*o.spacing, scene, "spacing");
+    if (spacing && !(*spacing > 0))
+        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' must be above zero, and it is 0 in this scene",
+                    "give a length in scene units, or count");
+    return stack_of(extent(), spacing, o.count);
+}
+
+Plane plane_for(const SectionOptions& o, const Scene& scene, Context& context) {
+    PlaneOption middle;
+    middle.normal = Vec3{0, 0, 1};
+    middle.through.kind = PlanePlace::Kind::centre;
+    return resolve_plane(o.plane.value_or(middle), scene, context, "plane");
+}
+
+std::optional<polygon::HatchSettings> hatching_for(const SectionOptions& o, const Scene& scene,
+                                                   Context& context) {
+    return o.hatch ? std::optional(resolve_hatch(*o.hatch, scene, context)) : std::nullopt;
+}
+
+/// The volume of the parts selected, in the world; none when one is not closed.
+std::optional<double> volume_of(const Scene& scene, const Context& context) {
+    double volume = 0;
+    for (const Part& part : scene.parts) {
+        if (!context.selects(part, scene)) continue;
+        const auto own = inspect(part.mesh).volume;
+        if (!own) return {};
+        volume += *own * std::abs(part.transform.determinant());
+    }
+    return volume;
 }
 
 /// A sheet for each plane, with the sections of the parts selected and their hatching. Throws what section
@@ -67,23 +101,45 @@ io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& s
     return drawing;
 }
 
-Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport& report) {
-    PlaneOption middle;
-    middle.normal = Vec3{0, 0, 1};
-    middle.through.kind = PlanePlace::Kind::centre;
-    const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
-    const Stack stack = stack_for(scene, plane, o.spacing, o.count, context);
-    std::optional<polygon::HatchSettings> hatching;
-    if (o.hatch) hatching = resolve_hatch(*o.hatch, scene, context);
-    const auto drawing =
-        std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
-    report = report_of(drawing, scene, stack.spacing, context);
+void write_drawings(const SectionOptions& o, const io::Drawing& drawing, Context& context) {
     for (const auto& path : o.path) {
-        const std::string text = io::drawing_for(path.text, *drawing);
+        const std::string text = io::drawing_for(path.text, drawing);
         const Share silent(nullptr);
         context.output(path.text, std::as_bytes(std::span(text)));
     }
+}
+
+Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport& report) {
+    const Plane plane = plane_for(o, scene, context);
+    const auto extent = [&] { return extent_of(scene, plane, context); };
+    const Stack stack = stack_for(o, scene, extent, context);
+    const auto hatching = hatching_for(o, scene, context);
+    const auto drawing =
+        std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
+    std::optional<double> volume;
+    if (stack.spacing > 0) volume = volume_of(scene, context);
+    report = report_of(drawing, stack.spacing, volume, context);
+    write_drawings(o, *drawing, context);
     return scene;
+}
+
+/// Brings the faces that the planes cut into memory, and cuts those: a section needs no others.
+void run_on_cells(const SectionOptions& o, CellFlow& flow, Context& context) {
+    const Scene world = world_outline(flow);
+    const Plane plane = plane_for(o, world, context);
+    const auto extent = [&] { return cells::extent_of_cells(*flow.partition, plane, flow.transform); };
+    const Stack stack = stack_for(o, world, extent, context);
+    const auto hatching = hatching_for(o, world, context);
+    Scene scene = flow.outline();
+    Part& part = scene.parts.front();
+    part.mesh = cells::faces_at_planes(*flow.partition, {plane, stack.heights, flow.transform}, flow.means);
+    const auto drawing =
+        std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
+    std::optional<double> volume;
+    if (stack.spacing > 0) volume = cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
+    const SectionReport report = report_of(drawing, stack.spacing, volume, context);
+    context.report(fields_of<SectionReport>(declare_section_report), &report);
+    write_drawings(o, *drawing, context);
 }
 
 const RegisterStage registered{make_stage<SectionOptions>(
@@ -100,7 +156,8 @@ const RegisterStage registered{make_stage<SectionOptions>(
                                    [](const SectionOptions& o) {
                                        return StageFiles{{}, o.path};
                                    },
-                               .verify = verify_section})};
+                               .verify = verify_section,
+                               .on_cells = run_on_cells})};
 
 } // namespace
 
