@@ -74,6 +74,41 @@ def rows(path):
     return sorted(body[size * v:size * (v + 1)] for v in range(vertices)), len(data)
 
 
+def scarred(path, scarred_path):
+    """A binary PLY with some faces left out, some twice, some with vertices of their own."""
+    head, body = path.read_bytes().split(b"end_header\n", 1)
+    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
+    size = vertex_size(head)
+    points = [body[size * v:size * (v + 1)] for v in range(vertices)]
+    faces = []
+    for number, (_, *face) in enumerate(struct.iter_unpack("<B3i", body[size * vertices:])):
+        if number % 5000 == 17:
+            continue
+        faces.append(face)
+        if number % 7001 == 99:
+            faces.append(face[1:] + face[:1])
+        if number % 4001 == 55:
+            points += [points[v] for v in face]
+            faces[-1] = [len(points) - 3, len(points) - 2, len(points) - 1]
+    lines = [b"element %s %d" % (line.split()[1], len(points if b"vertex" in line else faces))
+             if line.startswith(b"element") else line for line in head.splitlines()]
+    scarred_path.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(points)
+                             + b"".join(struct.pack("<B3i", 3, *face) for face in faces))
+
+
+def soup(path):
+    """An STL-like PLY beside a binary PLY: each face with vertices of its own."""
+    head, body = path.read_bytes().split(b"end_header\n", 1)
+    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
+    size = vertex_size(head)
+    corners = [v for _, *face in struct.iter_unpack("<B3i", body[size * vertices:]) for v in face]
+    lines = [b"element vertex %d" % len(corners) if line.startswith(b"element vertex") else line for line in head.splitlines()]
+    apart = path.with_name("soup.ply")
+    apart.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(body[size * v:size * v + size] for v in corners)
+                      + b"".join(struct.pack("<B3i", 3, v, v + 1, v + 2) for v in range(0, len(corners), 3)))
+    return apart
+
+
 class Cells(LargeCase):
     def test_closed_stays_closed_and_the_bytes_are_the_same(self):
         scan = self.large()
@@ -114,7 +149,14 @@ class Cells(LargeCase):
                  ("crumple --boundary fixed", "crumple: boundary: fixed needs all faces", "leave that option out"),
                  ("crumple --self_intersections avoid", "crumple: self_intersections are between faces anywhere", "allow does"),
                  ("crumple --mask.material x", "crumple: mask: cells do not carry", "leave that option out"),
-                 ("orient", "'orient' cannot work", "(clip, crumple, load, measure, simplify, split, transform, validate, write can)"))
+                 ("clean --weld near --tolerance 1%", "clean: weld: near moves vertices", "exact does not"),
+                 ("clean --t_junctions near --tolerance 1%", "clean: t_junctions: near moves vertices", "leave that option out"),
+                 ("clean --holes minimal", "clean: holes: whether a patch meets other faces", "leave that option out"),
+                 ("clean --self_intersections union", "clean: self_intersections are between faces anywhere", "leave that option"),
+                 ("clean --components.keep 1", "clean: components: what hangs together", "leave that option out"),
+                 ("clean --inner_components", "clean: inner_components: what hangs together", "leave that option out"),
+                 ("clean --precision single", "clean: precision: single moves vertices", "leave that option out"),
+                 ("orient", "'orient' cannot work", "(clean, clip, crumple, load, measure, section, simplify, split, transform, validate, write can)"))
         for stages, message, way_out in cases:
             run = self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", *stages.split(), "!", "write", "o.ply",
                             expect=2)
@@ -244,6 +286,62 @@ class Cells(LargeCase):
             self.assertEqual(found, whole)
             self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
             self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
+
+    def test_a_large_mesh_is_cleaned_in_cells(self):
+        scarred(self.large(), self.dir / "scarred.ply")
+        for options in variants(("--t_junctions", "off"), ()):
+            results = set()
+            for threads, memory in variants((1, "48M"), (2, "64M"), (5, "1G")):
+                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
+                          "scarred.ply", "!", "clean", *options, "!", "write", "o.ply")
+                results.add((self.dir / "o.ply").read_bytes())
+            self.assertEqual(len(results), 1)
+            self.mill("pipe", "--report", "whole.json", "load", "scarred.ply", "!", "clean", *options, "!", "write", "whole.ply")
+            found, whole = (json.loads((self.dir / name).read_text())["stages"][1] for name in ("o.json", "whole.json"))
+            self.assertEqual(found["result"], whole["result"])
+            self.assertGreater(found["result"]["parts"][0]["welded_vertices"], 100)
+            self.assertEqual(found["after"]["bounds"], whole["after"]["bounds"])
+            self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
+            self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
+        self.mill("pipe", "load", "large.ply", "!", "measure", "--curvature", "!", "write", "attributes.ply")
+        scarred(self.dir / "attributes.ply", self.dir / "scarred.ply")
+        run = self.mill("pipe", "--partition", "always", "load", "scarred.ply", "!", "clean", "!", "write", "o.ply", expect=2)
+        self.assertIn("vertices at one place have attributes of their own", run.stderr)
+        self.mill("pipe", "--partition", "always", "load", "scarred.ply", "!", "clean", "--weld", "off",
+                  "--non_manifold=false", "!", "write", "o.ply")
+        self.mill("pipe", "load", "scarred.ply", "!", "clean", "--weld", "off", "--non_manifold=false", "!", "write",
+                  "whole.ply")
+        self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
+        self.assertIn("places are not sound", self.mill(
+            "pipe", "--memory", "32M", "--partition", "always", "load", soup(self.dir / "large.ply"), "!", "clean", "--weld",
+            "off", "!", "write", "o.ply", expect=7).stderr)
+
+    def test_a_large_mesh_is_cut_by_planes_in_cells(self):
+        self.large()
+        turn = ("transform", "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "!")
+        for chain in variants(("section", "z=50%", "--hatch", "2%"), (*turn, "section", "--count", 5), (*turn, "section", "x=40%")):
+            results = set()
+            for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
+                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
+                          "large.ply", "!", *chain, "--path", "o.cut.json", "--path", "o.svg", "!", "validate", "--closed")
+                results.add((self.dir / "o.svg").read_bytes())
+            self.assertEqual(len(results), 1)
+            self.mill("pipe", "--report", "whole.json", "load", "large.ply", "!", *chain, "--path", "whole.cut.json", "--path",
+                      "whole.svg")
+            for suffix in (".cut.json", ".svg"):
+                self.assertEqual(*((self.dir / (n + suffix)).read_bytes() for n in ("o", "whole")))
+            found, whole = (next(stage["result"] for stage in json.loads((self.dir / name).read_text())["stages"]
+                                 if stage["stage"] == "section") for name in ("o.json", "whole.json"))
+            if "volume" in whole:  # a sum in another order
+                self.assertAlmostEqual(found.pop("volume") / whole.pop("volume"), 1, 12)
+                self.assertAlmostEqual(found.pop("ratio") / whole.pop("ratio"), 1, 12)
+            self.assertEqual(found, whole)
+        for how, out in (("always", "o.ply"), ("never", "whole.ply")):  # the box is that of what was turned
+            self.mill("pipe", "--partition", how, "load", "large.ply", "!", *turn, "clip", "z=60%", "--triangulate", "!",
+                      "write", out)
+        self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
+        self.assertIn("E-MEMORY", self.mill("pipe", "--memory", "32M", "--partition", "always", "load", "large.ply", "!",
+                                            "section", "--count", 500, expect=7).stderr)
 
     def test_crumple_in_cells_leaves_normals_out_and_says_so(self):
         self.mill("pipe", "load", SCAN, "!", "write", "normals.ply", "--normals", "smooth")

@@ -113,11 +113,7 @@ void declare_clean(Declare<CleanOptions>& d) {
         "The coordinates that vertices may have in their part.");
 }
 
-CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context) {
-    const double stretch = mean_stretch(part.transform);
-    const auto local = [&](const std::optional<Length>& l, const char* option) {
-        return l ? context.resolve(*l, scene, option, &part) / stretch : 0;
-    };
+CleanSettings clean_steps_of(const CleanOptions& o) {
     CleanSettings s;
     s.weld = o.weld;
     s.stitch = o.stitch;
@@ -130,15 +126,24 @@ CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Pa
     s.inner_components = o.inner_components;
     s.self_intersections = o.self_intersections;
     s.single = o.single;
-    s.tolerance = local(o.tolerance, "tolerance");
-    if (o.holes)
-        s.holes = HoleSettings{o.holes->method, static_cast<std::size_t>(o.holes->max_edges),
-                               local(o.holes->max_length, "holes.max_length")};
+    if (o.holes) s.holes = HoleSettings{o.holes->method, static_cast<std::size_t>(o.holes->max_edges)};
     if (o.components)
-        s.components = ComponentSettings{static_cast<std::size_t>(o.components->min_faces),
-                                         local(o.components->min_size, "components.min_size"),
-                                         o.components->min_area ? o.components->min_area->value : 0,
-                                         static_cast<std::size_t>(o.components->keep)};
+        s.components =
+            ComponentSettings{.min_faces = static_cast<std::size_t>(o.components->min_faces),
+                              .min_area = o.components->min_area ? o.components->min_area->value : 0,
+                              .keep = static_cast<std::size_t>(o.components->keep)};
+    return s;
+}
+
+CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context) {
+    const double stretch = mean_stretch(part.transform);
+    const auto local = [&](const std::optional<Length>& l, const char* option) {
+        return l ? context.resolve(*l, scene, option, &part) / stretch : 0;
+    };
+    CleanSettings s = clean_steps_of(o);
+    s.tolerance = local(o.tolerance, "tolerance");
+    if (o.holes) s.holes->max_length = local(o.holes->max_length, "holes.max_length");
+    if (o.components) s.components->min_size = local(o.components->min_size, "components.min_size");
     return s;
 }
 

@@ -34,6 +34,8 @@ void declare_clean(Declare<CleanOptions>& d);
 /// What the declaration cannot say: options that do not go together.
 void verify_clean(const CleanOptions& o, const Value& given, Problems& problems);
 
+/// The steps, without their lengths.
+CleanSettings clean_steps_of(const CleanOptions& o);
 /// Lengths are in the world, meshes in their own space: a transform that stretches does so by its mean.
 CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context);
 

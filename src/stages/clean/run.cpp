@@ -1,4 +1,6 @@
 #include "base/words.hpp"
+#include "cells/clean_cells.hpp"
+#include "cells/inspect_cells.hpp"
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
@@ -33,6 +35,22 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
     return scene;
 }
 
+std::optional<std::string> why_not_on_cells(const CleanOptions& o) {
+    return cells::why_not_in_cells(clean_steps_of(o));
+}
+
+void run_on_cells(const CleanOptions& o, CellFlow& flow, Context& context) {
+    const Scene outline = flow.outline();
+    const Part& part = outline.parts.front();
+    const CleanResult r =
+        cells::clean_cells(flow.partition, clean_settings(o, outline, part, context), flow.means);
+    flow.box = cells::box_of_cells(*flow.partition, flow.transform);
+    context.attribute_changes(part, r.changes);
+    warn(part, r.not_done, context);
+    const CleanReport report{{{part.name, r.counts, first_not_done(r.not_done, part.transform)}}};
+    context.report(fields_of<CleanReport>(declare_clean_report), &report);
+}
+
 /// Components and what lies inside others go as asked; a union takes what solids have in common.
 MayLose may_lose(const CleanOptions& o) {
     if (o.components || o.inner_components || o.open_components) return MayLose::area;
@@ -54,7 +72,11 @@ const RegisterStage registered = make_stage<CleanOptions>(
                   "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"},
      .crossing_faces = CrossingFacePolicy::fill},
     declare_clean, declare_clean_report, run,
-    StageHooks<CleanOptions>{.verify = verify_clean, .may_lose = may_lose, .crossing_faces = crossing_faces});
+    StageHooks<CleanOptions>{.verify = verify_clean,
+                             .may_lose = may_lose,
+                             .crossing_faces = crossing_faces,
+                             .on_cells = run_on_cells,
+                             .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 
