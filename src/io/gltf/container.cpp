@@ -24,9 +24,7 @@ namespace {
 constexpr std::uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 std::uint32_t word(Span bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
-    return value;
+    return static_cast<std::uint32_t>(little_endian(bytes, at, 4));
 }
 
 void put_word(Bytes& out, std::uint64_t value) {

@@ -75,8 +75,7 @@ Bytes MaterialMaker::made(const char* how, const Map* first, const Map* second, 
     std::string text = how;
     for (const Map* map : {first, second})
         text += map ? " " + sha256(images_.at(map->relative)->bytes) : " none";
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
+    return bytes_of_text(text);
 }
 
 void MaterialMaker::warn(const std::string& material, std::string message) {

@@ -49,11 +49,6 @@ void pad(Bytes& out, std::byte with) {
     while (out.size() % 8 != 0) out.push_back(with);
 }
 
-Bytes bytes_of(std::string_view text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
 /// What a subtree file holds beside its JSON: columns that begin at multiples of 8 bytes.
 class Columns {
   public:
@@ -74,9 +69,9 @@ class Columns {
     Bytes file(Json json) const {
         json["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
         json["bufferViews"] = views_;
-        Bytes text = bytes_of(json.dump());
+        Bytes text = bytes_of_text(json.dump());
         pad(text, std::byte{' '});
-        Bytes out = bytes_of(subtree_magic);
+        Bytes out = bytes_of_text(subtree_magic);
         for (const int byte : {1, 0, 0, 0}) out.push_back(static_cast<std::byte>(byte)); // version
         put_number(out, std::uint64_t{text.size()});
         put_number(out, std::uint64_t{bytes_.size()});

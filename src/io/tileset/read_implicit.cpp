@@ -109,12 +109,6 @@ class Availability {
     Span bits_;
 };
 
-std::uint64_t number_at(Span bytes, std::size_t at, std::size_t size) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) value |= std::to_integer<std::uint64_t>(bytes[at + i]) << (8 * i);
-    return value;
-}
-
 /// A subtree file, in its binary form or as JSON.
 struct Subtree {
     Json json;
@@ -130,9 +124,9 @@ struct Subtree {
             throw Error(ErrorKind::malformed, "E-TILESET", std::move(message));
         };
         if (bytes.size() < header) wrong("the header of a subtree has 24 bytes");
-        if (const auto version = number_at(bytes, 4, 4); version != 1)
+        if (const auto version = little_endian(bytes, 4, 4); version != 1)
             wrong(fmt::format("expected version 1 of subtrees, found {}", version));
-        const std::uint64_t text = number_at(bytes, 8, 8), rest = number_at(bytes, 16, 8);
+        const std::uint64_t text = little_endian(bytes, 8, 8), rest = little_endian(bytes, 16, 8);
         const std::uint64_t there = bytes.size() - header;
         if (text > there || rest > there - text)
             wrong(fmt::format("says that {} and {} bytes follow its header, {} do", text, rest, there));

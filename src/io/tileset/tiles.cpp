@@ -13,11 +13,6 @@ namespace facetmill::io::tileset {
 
 namespace {
 
-Bytes bytes_of(const std::string& text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
 Json box_json(const Box& box) { return {{"box", numbers_of_box(box)}}; }
 
 Json tile_json(const std::vector<TreeTile>& tiles, std::size_t t, const TilesetFrame& frame,
@@ -113,7 +108,8 @@ TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& fram
         add_implicit_tiling(json, tiles, settings.title);
         summary.files = subtree_files(tiles, settings.title);
     }
-    summary.files.insert(summary.files.begin(), {settings.title + ".json", bytes_of(json.dump(1) + "\n")});
+    summary.files.insert(summary.files.begin(),
+                         {settings.title + ".json", bytes_of_text(json.dump(1) + "\n")});
     return summary;
 }
 
