@@ -32,6 +32,9 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
     CHECK(test::area(run.scene) == Approx(3));
     CHECK(run.state->record.inputs.size() == 1);
     CHECK(run.record.result["footprint_area"] == 3);
+    const io::Bytes other(1);
+    CHECK(test::failure([&] { run.state->outputs.add(file, other); }).find("would overwrite an input") !=
+          std::string::npos);
 }
 
 TEST_CASE("crop stands walls on the outline on request", "[stages]") {

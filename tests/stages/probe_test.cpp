@@ -150,6 +150,9 @@ TEST_CASE("probes are read from a table and answers written as one", "[stages]")
     run.state->outputs.commit();
     CHECK(run.record.result["answers"].size() == 1);
     CHECK(run.state->record.inputs.at(0).path == in);
+    const io::Bytes other(1);
+    CHECK(test::failure([&] { run.state->outputs.add(in, other); }).find("would overwrite an input") !=
+          std::string::npos);
     const std::string table = test::get(out);
     CHECK(table.starts_with(
         "x,y,z,side,winding,distance,closest_x,closest_y,closest_z,part,face\n0.5,0.5,0.5,inside,1,0.5,"));

@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "options/lists.hpp"
+#include "stage/read_recorded.hpp"
 
 #include <fmt/format.h>
 
@@ -84,7 +85,7 @@ void verify_footprint(const FootprintOption& option, const Value& value, std::st
 Footprint resolve_footprint(const FootprintOption& option, Context& context) {
     if (option.path.empty()) return Footprint(option.rings);
     const io::Input input = io::Input::open(context.places().input(option.path));
-    context.run().record.inputs.push_back({input.name(), input.stored().size(), sha256(input.stored()), {}});
+    record_input(context, input.name(), input.stored().size(), sha256(input.stored()));
     return Footprint(io::read_footprint(input));
 }
 

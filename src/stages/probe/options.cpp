@@ -4,6 +4,7 @@
 #include "io/csv.hpp"
 #include "options/lists.hpp"
 #include "options/mark_at.hpp"
+#include "stage/read_recorded.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -70,8 +71,7 @@ Json schema(std::size_t columns) {
 
 std::vector<double> read(const std::string& file, std::size_t columns, Context& context) {
     const io::Input input = io::Input::open(context.places().input(file));
-    auto& inputs = context.run().record.inputs;
-    inputs.push_back({file, input.stored().size(), sha256(input.stored()), {}});
+    record_input(context, input.name(), input.stored().size(), sha256(input.stored()));
     constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
     return io::read_table(input, columns,
                           columns == 3 ? std::span<const std::string_view>(names)
