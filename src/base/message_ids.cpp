@@ -583,8 +583,12 @@ std::span<const MessageId> message_ids() {
          "of each, and `optimize: {instance: true}` makes instances of parts again."},
         {"W-LINES",
          {},
-         "A file has no lines from which to make tubes, or the tubes intersect themselves at sharp corners.",
-         "Give a smaller thickness, or `clean: {self_intersections: union}`."},
+         "A file has no lines from which to make tubes, the tubes intersect themselves at sharp corners, a "
+         "stage "
+         "that works on faces leaves parts of lines as they are, or a format cannot hold lines.",
+         "For tubes, give a smaller thickness, or `clean: {self_intersections: union}`. Write lines as PLY, "
+         "OBJ or "
+         "glTF; `load: {lines: 1%}` makes tubes of them, which are faces."},
         {"W-LODS",
          {},
          "write was asked to link levels of detail, but the scene has none.",
@@ -594,6 +598,10 @@ std::span<const MessageId> message_ids() {
          "EXT_mesh_manifold cannot be read or written for a part.",
          "The message says why; `clean` makes a mesh manifold."},
         {"W-MASK", {}, "A mask selects no vertex, so nothing moves.", "Check the attribute and its range."},
+        {"W-MATERIAL",
+         {},
+         "Points or lines have a material that the format cannot give them.",
+         "Write glTF to keep it; OBJ keeps that of lines."},
         {"W-MERGED",
          {},
          "When several glTF documents are written to one file, only their meshes and materials are kept.",

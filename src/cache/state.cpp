@@ -39,7 +39,8 @@ std::optional<T> read_from(io::Span bytes) {
 
 std::size_t size_of(const Mesh& mesh) {
     std::size_t bytes = mesh.positions.size() * sizeof(Vec3);
-    for (const auto* indices : {&mesh.wedge_vertex, &mesh.corners, &mesh.face_offsets})
+    for (const auto* indices :
+         {&mesh.wedge_vertex, &mesh.corners, &mesh.face_offsets, &mesh.lines, &mesh.line_primitive})
         bytes += indices->size() * sizeof(Index);
     for (const auto& attribute : mesh.attributes)
         std::visit([&](const auto& all) { bytes += all.size() * sizeof(all[0]); }, attribute.data);

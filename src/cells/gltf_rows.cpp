@@ -69,6 +69,16 @@ void each_primitive(const Json& json, Take&& take) {
     }
 }
 
+bool any_lines(const Json& json) {
+    for (const gltf::Placement& placement : gltf::placements(json, gltf::node_frames(json))) {
+        const gltf::Place primitives =
+            gltf::item(json, "meshes", static_cast<std::size_t>(placement.mesh)).at("primitives");
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            if (gltf::makes_lines(primitives.at(i))) return true;
+    }
+    return false;
+}
+
 class GltfReader final : public RowReader {
   public:
     GltfReader(const io::Input& input, const io::ReadSettings& settings)
@@ -91,6 +101,7 @@ class GltfReader final : public RowReader {
                 if (primitive.find("material")) attributes.insert("materials");
             });
             dropped.assign(attributes.begin(), attributes.end());
+            if (any_lines(json_)) dropped.emplace_back("lines");
             for (const auto& path : buffers_) {
                 const io::Input buffer = io::Input::open(path, 1 << 16); // mapped
                 neighbours.push_back({buffer, digest_of(buffer)});

@@ -137,6 +137,7 @@ bool inspects(const Property& property) {
                                                  "edges",
                                                  "faces",
                                                  "triangles",
+                                                 "lines",
                                                  "components",
                                                  "euler",
                                                  "genus",

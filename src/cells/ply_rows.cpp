@@ -54,9 +54,12 @@ Rows rows_of(const io::Input& input, const ply::Header& header) {
 }
 
 void name_dropped(const ply::Header& header, std::vector<std::string>& dropped) {
-    for (const auto& e : header.elements)
+    for (const auto& e : header.elements) {
+        if (e.name != "vertex" && e.name != "face" && e.count > 0)
+            dropped.push_back(fmt::format("element '{}' ({})", e.name, e.count));
         for (const auto& p : e.properties)
             if (e.name == "face" && !p.list) dropped.push_back(fmt::format("'{}' of faces", p.name));
+    }
 }
 
 /// Calls take(position, row) for each vertex; sum gets the file up to them.

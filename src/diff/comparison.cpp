@@ -21,6 +21,7 @@ void compare_properties(const Comparing& with) {
     for (const auto& p : property_table()) {
         const bool counted = p.kind == PropertyKind::count || p.truth();
         if (!counted || p.costly || p.of_scene() || p.on_request()) continue;
+        if (p.where_any && p.get(a) == 0 && p.get(b) == 0) continue;
         with.add(p.is_size ? "counts" : "topology", std::string(p.name), property_json(p, a),
                  property_json(p, b));
     }

@@ -2,6 +2,7 @@
 
 #include "diff/sides.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/lines.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -84,6 +85,39 @@ void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, con
     distances.line("isolated vertices maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
 }
 
+/// The lines of a scene: as triangles without area, and their ends and middles.
+struct LineShape {
+    Surface lines, points;
+    explicit LineShape(const Scene& scene) {
+        for (const Part& part : scene.parts) {
+            const Lines own = lines_of(part);
+            for (const auto& segment : own.segments) {
+                const Vec3 &a = own.points[segment.from], &b = own.points[segment.to];
+                add(lines, a, b);
+                for (const Vec3& p : {a, (a + b) * 0.5, b}) add(points, p, p);
+            }
+        }
+    }
+
+  private:
+    static void add(Surface& to, const Vec3& a, const Vec3& b) {
+        const auto first = static_cast<Index>(to.positions.size());
+        to.positions.insert(to.positions.end(), {a, b});
+        to.corners.insert(to.corners.end(), {first, first + 1, first + 1});
+    }
+};
+
+/// From the ends and the middle of each line to the nearest line of the other scene.
+void compare_lines(const Comparing& with, const Distances& distances) {
+    const LineShape a(with.a), b(with.b);
+    if (a.lines.size() + b.lines.size() == 0) return;
+    const auto farthest = [](const LineShape& from, const LineShape& to) {
+        return from.lines.size() == 0 ? DirectedDeviation{} : deviation_to(from.points, FaceTree(to.lines));
+    };
+    const DirectedDeviation f = farthest(a, b), g = farthest(b, a);
+    distances.line("lines maximum", f.maximum, g.maximum, maximum_of(with.settings));
+}
+
 } // namespace
 
 std::optional<Limit> maximum_of(const ComparisonSettings& s) {
@@ -107,6 +141,7 @@ void compare_geometry(const Comparing& with) {
     distances.line("deviation mean", f.mean, g.mean, settings.mean);
     if (f.bound && g.bound) distances.line("deviation bound", *f.bound, *g.bound, settings.maximum);
     compare_isolated(with, a, b, distances);
+    compare_lines(with, distances);
 }
 
 } // namespace facetmill::report

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::io {
 
@@ -104,6 +105,15 @@ std::string stem_of(const Input& input) {
     return without_packing(std::filesystem::path(input.name()).filename()).stem().string();
 }
 
+/// Lines under the name of a part with faces get one of their own.
+void name_lines(Scene& scene) {
+    std::set<std::string> names;
+    for (const Part& part : scene.parts)
+        if (part.mesh.line_count() == 0) names.insert(part.name);
+    for (Part& part : scene.parts)
+        if (part.mesh.line_count() > 0 && names.contains(part.name)) part.name += "_lines";
+}
+
 } // namespace
 
 void VertexCacheUse::add(const VertexCacheUse& other) {
@@ -165,6 +175,7 @@ const std::vector<Capability>& capabilities() {
         {"transforms", &Capabilities::transforms},
         {"skins", &Capabilities::skins},
         {"points", &Capabilities::points},
+        {"lines", &Capabilities::lines},
         {"text", &Capabilities::text},
         {"big_endian", &Capabilities::big_endian},
         {"full_precision", &Capabilities::full_precision},
@@ -210,6 +221,12 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
         if (settings.weld == Weld::exact) weld_exact(part.mesh);
         fix_attributes(part, input.name(), log);
         any |= part.mesh.vertex_count() > 0;
+    }
+    if (!settings.lines) name_lines(scene);
+    if (settings.lines) {
+        for (const Part& part : scene.parts)
+            if (part.mesh.line_count() > 0) log.lines.push_back(lines_of(part));
+        std::erase_if(scene.parts, [](const Part& part) { return part.mesh.line_count() > 0; });
     }
     for (Lines& lines : log.lines) {
         if (lines.name.empty()) lines.name = stem_of(input);

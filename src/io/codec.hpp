@@ -28,13 +28,13 @@ struct ReadLog {
     std::vector<ReadWarning> warnings;
     std::vector<ReadFile> files;               ///< neighbours that were read (buffers, images, .mtl)
     std::vector<std::filesystem::path> absent; ///< neighbours that the file names and that are not there
-    std::vector<Lines> lines;                  ///< of the file, when ReadSettings::lines asks for them
+    std::vector<Lines> lines; ///< of the file, when ReadSettings::lines asks for them; they are no parts then
     /// A neighbour was refused, or changed while it was read: reading again may give another scene although
     /// all of `files` are the same and those of `absent` still missing.
     bool unrepeatable = false;
 };
 
-/// What a reader says to whoever might want the lines that it skipped.
+/// What a reader says to whoever might want the lines that it left in the document.
 inline constexpr const char* hint_for_lines = "load: {path: ..., lines: 1%} makes tubes of the lines";
 
 /// Whether vertices at exactly the same place become one: as the format needs it (STL and glTF do), never, or
@@ -46,7 +46,7 @@ struct ReadSettings {
     std::optional<Unit> unit; ///< overrides what the format says
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
-    bool lines = false;            ///< read lines, too, where the format has them
+    bool lines = false;            ///< lines go to the log instead of being parts
     bool expand_instances = false; ///< glTF: each instance of EXT_mesh_gpu_instancing is a part
     /// Folders below which the neighbours of a file may lie, besides its own.
     std::vector<std::filesystem::path> asset_roots{};
@@ -182,6 +182,7 @@ struct Capabilities {
     bool transforms = false; ///< parts keep their transforms and names; else all are in world space
     bool skins = false;
     bool points = false;         ///< scenes without faces: point clouds
+    bool lines = false;          ///< parts of lines
     bool text = false;           ///< WriteSettings::ascii
     bool big_endian = false;     ///< WriteSettings::big_endian
     bool full_precision = false; ///< WriteSettings::double_positions

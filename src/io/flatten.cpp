@@ -104,6 +104,22 @@ void warn_of_textures(Written& written, const Scene& scene, const char* format) 
              "glTF keeps them: write .glb"});
 }
 
+void warn_of_point_materials(Written& written, const Scene& scene, const char* format, bool lines) {
+    std::vector<std::string> names;
+    for (const auto& part : scene.parts)
+        if (part.mesh.face_count() == 0 && (lines || part.mesh.lines.empty()) &&
+            std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(),
+                        [&](const Primitive& p) { return p.material < scene.materials.size(); }))
+            names.push_back(part.name);
+    if (!names.empty())
+        written.warnings.push_back({Severity::warning,
+                                    "W-MATERIAL",
+                                    fmt::format("points {}have no material in {}: {}",
+                                                lines ? "and lines " : "", format, fmt::join(names, ", ")),
+                                    {},
+                                    "glTF keeps it: write .glb"});
+}
+
 void dropped(Written& written, const Attribute& attribute, std::string why) {
     written.changes.push_back(
         {attribute.name, attribute.domain, AttributeChange::Kind::dropped, std::move(why)});

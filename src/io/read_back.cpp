@@ -75,9 +75,13 @@ namespace {
 struct Flat {
     std::vector<Vec3> points;
     std::vector<Index> corners;
+    std::vector<Vec3> ends; ///< of lines, in order
 
     /// degenerate: with the faces of fewer than three different vertices.
     explicit Flat(const Scene& scene, bool degenerate = true) {
+        for (const auto& part : scene.parts)
+            for (const Index w : part.mesh.lines)
+                ends.push_back(in_world(part, part.mesh.positions[part.mesh.vertex_of_wedge(w)]));
         if (!degenerate) {
             add_sound_faces(scene);
             return;
@@ -112,9 +116,9 @@ struct Flat {
         }
     }
 
-    /// The points that faces use; all points when there are no faces.
+    /// The points that faces use; all points when there are neither faces nor lines.
     std::vector<Vec3> used() const {
-        if (corners.empty()) return points;
+        if (corners.empty()) return ends.empty() ? points : std::vector<Vec3>{};
         std::vector<std::uint8_t> is_used(points.size());
         for (const Index p : corners) is_used[p] = 1;
         std::vector<Vec3> found;
@@ -248,9 +252,19 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to, doub
     }
 }
 
+/// The same for the ends of lines.
+double error_of_lines(const Flat& wanted, const Flat& found, double tolerance) {
+    if (wanted.ends.size() == found.ends.size()) {
+        const double in_order = largest(
+            wanted.ends.size(), [&](std::size_t i) { return length(wanted.ends[i] - found.ends[i]); });
+        if (in_order <= tolerance) return in_order;
+    }
+    return std::max(farthest(wanted.ends, found.ends, tolerance),
+                    farthest(found.ends, wanted.ends, tolerance));
+}
+
 /// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
-double position_error(const Scene& before, const Scene& after, double tolerance, bool degenerate) {
-    const Flat wanted(before, degenerate), found(after);
+double position_error(const Flat& wanted, const Flat& found, double tolerance) {
     if (wanted.corners.size() == found.corners.size() && !wanted.corners.empty()) {
         const double in_order = largest(wanted.corners.size(), [&](std::size_t c) {
             return length(wanted.points[wanted.corners[c]] - found.points[found.corners[c]]);
@@ -356,6 +370,7 @@ bool ReadBack::too_far_for_floats() const {
 
 Json ReadBack::json() const {
     Json all = {{"vertices", vertices}, {"faces", faces}, {"position_error", position_error}};
+    if (lines > 0) all["lines"] = lines;
     for (const Property& p : property_table()) {
         if (!should_stay(p)) continue;
         const double value = p.get(soundness).value_or(0);
@@ -385,14 +400,19 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
     } catch (const Error& error) {
         refuse(error.diagnostics().front().message);
     }
-    std::size_t polygons = 0, triangles = 0;
+    std::size_t polygons = 0, triangles = 0, lines = 0;
     for (const auto& part : scene.parts) {
+        lines += part.mesh.line_count();
         polygons += part.mesh.face_count();
         triangles += part.mesh.corner_count() - 2 * part.mesh.face_count();
     }
     triangles -= dropped_faces;
     if (dropped_faces > 0) polygons = triangles;
-    for (const auto& part : back.scene.parts) back.vertices += part.mesh.vertex_count();
+    for (const auto& part : back.scene.parts) {
+        back.vertices += part.mesh.vertex_count();
+        back.lines += part.mesh.line_count();
+    }
+    if (back.lines != lines) refuse(fmt::format("{}, expected {}", counted(back.lines, "line"), lines));
     back.faces = back.scene.face_count();
     if (back.faces != polygons && back.faces != triangles)
         refuse(fmt::format("{}, expected {}", counted(back.faces, "face"),
@@ -400,7 +420,9 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
     steps.next();
     set_tolerance(back, scene, settings, codec.can.transforms);
-    back.position_error = position_error(scene, back.scene, back.tolerance, dropped_faces == 0);
+    const Flat wanted(scene, dropped_faces == 0), found(back.scene);
+    back.position_error = std::max(position_error(wanted, found, back.tolerance),
+                                   error_of_lines(wanted, found, back.tolerance));
     if (back.position_error > back.tolerance)
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));
     steps.next();

@@ -21,7 +21,7 @@ VertexChanges vertex_changes(const Scene& before, const Scene& after);
 
 struct ReadBack {
     Scene scene; ///< the file as decoded
-    std::size_t vertices = 0, faces = 0;
+    std::size_t vertices = 0, faces = 0, lines = 0;
     double position_error = 0;       ///< how far a vertex that faces use moved at most, in the file's units
     double tolerance = 0;            ///< how far the format and its settings may move one
     double diagonal = 0;             ///< of the scene
@@ -33,15 +33,16 @@ struct ReadBack {
     /// Whether coordinates are so far from the origin that float32 moved points by more than a millionth of
     /// the diagonal, and not the grid.
     bool too_far_for_floats() const;
-    Json json() const; ///< vertices, faces, position_error, closed, edge_manifold, vertex_manifold, ...
+    Json json() const; ///< vertices, faces, lines where there are some, position_error, closed,
+                       ///< edge_manifold, vertex_manifold, ...
 };
 
 /// Decodes the file and compares it with the scene (in the file's convention): the number of faces (polygons,
-/// or the triangles that they are cut into), and the distance from every vertex that faces use to the nearest
-/// one of the other side, within what float32 or the grid's bits allow. Throws output (E-READBACK) when it
-/// does not hold what was written. What such rounding, or what the format cannot hold, did to closedness,
-/// manifoldness, orientation and degenerate or duplicate faces is told, not judged. dropped_faces: degenerate
-/// triangles that the codec said it left out.
+/// or the triangles that they are cut into) and of lines, and the distance from every vertex that faces use
+/// to the nearest one of the other side, and so of the ends of lines, within what float32 or the grid's bits
+/// allow. Throws output (E-READBACK) when it does not hold what was written. What such rounding, or what the
+/// format cannot hold, did to closedness, manifoldness, orientation and degenerate or duplicate faces is
+/// told, not judged. dropped_faces: degenerate triangles that the codec said it left out.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
                    std::size_t dropped_faces = 0);
 

@@ -151,7 +151,24 @@ void append_arrays(Mesh& a, const Mesh& b) {
         append_shifted(a.face_offsets, explicit_offsets(b), corners);
     }
     append_shifted(a.corners, b.corners, wedges);
+    append_shifted(a.lines, b.lines, wedges);
     a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+}
+
+} // namespace
+
+namespace {
+
+/// The primitive of each line, of both; empty where all are of the first.
+std::vector<Index> joined_line_primitives(const Mesh& a, const Mesh& b, const std::vector<Index>& of_b) {
+    std::vector<Index> all;
+    for (std::size_t l = 0; l < a.line_count(); ++l) all.push_back(a.primitive_of_line(l));
+    for (std::size_t l = 0; l < b.line_count(); ++l) {
+        const Index p = b.primitive_of_line(l);
+        all.push_back(p < of_b.size() ? of_b[p] : 0);
+    }
+    if (std::all_of(all.begin(), all.end(), [](Index p) { return p == 0; })) all.clear();
+    return all;
 }
 
 } // namespace
@@ -164,6 +181,7 @@ void append(Mesh& a, const Mesh& b) {
     }
     auto joined = join_primitives(a, b);
     const bool one_plain = joined.table.size() == 1 && joined.table[0] == Primitive{};
+    a.line_primitive = joined_line_primitives(a, b, joined.of_b);
     if (!one_plain) {
         auto indices = primitive_indices(a);
         for (const auto p : primitive_indices(b))

@@ -31,7 +31,8 @@ bool are_equal(const Mesh& a, const Mesh& b) {
     return bytes_in(a.positions) == bytes_in(b.positions) &&
            bytes_in(a.wedge_vertex) == bytes_in(b.wedge_vertex) &&
            bytes_in(a.corners) == bytes_in(b.corners) &&
-           bytes_in(a.face_offsets) == bytes_in(b.face_offsets) && a.primitives == b.primitives &&
+           bytes_in(a.face_offsets) == bytes_in(b.face_offsets) && bytes_in(a.lines) == bytes_in(b.lines) &&
+           bytes_in(a.line_primitive) == bytes_in(b.line_primitive) && a.primitives == b.primitives &&
            std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
                       [](const Attribute& x, const Attribute& y) { return are_equal(x, y); });
 }
@@ -44,6 +45,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
     add(bytes_in(mesh.wedge_vertex));
     add(bytes_in(mesh.corners));
     add(bytes_in(mesh.face_offsets));
+    add(bytes_in(mesh.lines));
     for (const Attribute& a : mesh.attributes) add(bytes_in(a.data));
     return h;
 }

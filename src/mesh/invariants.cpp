@@ -78,6 +78,18 @@ void check_primitives(const Mesh& mesh, std::vector<std::string>& out) {
                     out);
 }
 
+void check_lines(const Mesh& mesh, std::vector<std::string>& out) {
+    if (mesh.lines.size() % 2 != 0)
+        out.push_back(fmt::format("{} ends of lines are not a multiple of two", mesh.lines.size()));
+    if (!mesh.lines.empty() && !mesh.corners.empty()) out.emplace_back("faces and lines in one mesh");
+    check_range("lines that name no wedge", mesh.lines, mesh.wedge_count(), out);
+    if (!mesh.line_primitive.empty() && mesh.line_primitive.size() != mesh.line_count())
+        out.push_back(
+            fmt::format("{} primitives of lines, not {}", mesh.line_primitive.size(), mesh.line_count()));
+    check_range("primitives of lines out of range", mesh.line_primitive,
+                std::max<std::size_t>(1, mesh.primitives.size()), out);
+}
+
 } // namespace
 
 std::vector<std::string> broken_invariants(const Mesh& mesh) {
@@ -91,6 +103,7 @@ std::vector<std::string> broken_invariants(const Mesh& mesh) {
     infinite.tell(out);
     for (const auto& a : mesh.attributes) check_attribute(mesh, a, out);
     check_primitives(mesh, out);
+    check_lines(mesh, out);
     return out;
 }
 

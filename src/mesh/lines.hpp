@@ -1,7 +1,7 @@
 #pragma once
-// Lines of a file, which are no surface until they get a thickness.
+// Lines, which are no surface until they get a thickness: a part has faces, or lines, or neither.
 
-#include "mesh/mesh.hpp"
+#include "mesh/scene.hpp"
 
 #include <string>
 #include <vector>
@@ -20,5 +20,12 @@ struct Lines {
     std::vector<Vec3> points; ///< in world space
     std::vector<Segment> segments;
 };
+
+/// The lines of the part as it stands in the world, under its name. O(n).
+Lines lines_of(const Part& part);
+
+/// Parts a mesh that has both faces and lines: returns the lines, with the vertices that they use and what
+/// these have of attributes, without primitives. Vertices that only lines use go from the mesh. O(n).
+Mesh split_lines(Mesh& mesh);
 
 } // namespace facetmill

@@ -3,6 +3,8 @@
 //
 //   corner --corners[c]--> wedge --wedge_vertex[w]--> vertex --positions[v]--> point
 //   face f --face_offsets[f] .. face_offsets[f+1]--> its corners, in order
+//   line l --lines[2 l], lines[2 l + 1]--> its two ends, which are wedges; a mesh has faces, or lines, or
+//   neither
 //
 // Topology lives on vertices: two faces are neighbours when they share two vertices, whatever their wedges.
 // A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with two
@@ -51,6 +53,8 @@ struct Mesh {
     std::vector<Attribute> attributes;
     std::vector<Primitive> primitives; ///< empty: one, with no material. Else face attribute "primitive"
                                        ///< indexes it (absent: all faces are of primitive 0)
+    std::vector<Index> lines;          ///< [2 * lines] -> wedge: straight lines, of a mesh without faces
+    std::vector<Index> line_primitive; ///< [lines] -> primitive; empty: all lines are of primitive 0
 
     std::size_t vertex_count() const { return positions.size(); }
     std::size_t wedge_count() const { return wedge_vertex.empty() ? positions.size() : wedge_vertex.size(); }
@@ -58,6 +62,7 @@ struct Mesh {
     std::size_t face_count() const {
         return face_offsets.empty() ? corners.size() / 3 : face_offsets.size() - 1;
     }
+    std::size_t line_count() const { return lines.size() / 2; }
     std::size_t count(Domain domain) const;
 
     bool all_triangles() const { return face_offsets.empty(); }
@@ -80,6 +85,8 @@ struct Mesh {
     bool drop(std::string_view name, Domain domain);
     /// Index of the primitive of face f.
     Index primitive_of(Index f) const;
+    /// Index of the primitive of line l.
+    Index primitive_of_line(std::size_t l) const { return line_primitive.empty() ? 0 : line_primitive[l]; }
 
     Box bounds() const; ///< of the positions that finite faces and isolated vertices use: all of them
 };
@@ -99,8 +106,10 @@ void normalise_offsets(Mesh& mesh);
 /// Removes wedge_vertex when every wedge is its vertex (the canonical form of a mesh without seams).
 void normalise_wedges(Mesh& mesh);
 
-/// Drops vertices and wedges that no face uses. Attributes follow.
+/// Drops vertices and wedges that no face and no line uses. Attributes follow.
 void drop_unused(Mesh& mesh);
+/// Of the vertices that are marked, one flag for each.
+void drop_unused(Mesh& mesh, std::span<const std::uint8_t> marked);
 
 /// Merges vertices at exactly the same position (-0 is 0); wedges stay apart, so attributes survive. Vertices
 /// keep the order of their first occurrence. Faces are kept, degenerate ones too. Returns how many vertices
@@ -113,7 +122,8 @@ std::size_t weld_exact(Mesh& mesh);
 /// than three corners are dropped. The triangulate stage offers more.
 Mesh triangulated(const Mesh& mesh);
 
-/// Appends b to a: vertices, wedges, faces, primitives. Attributes that one has none of: see append.cpp.
+/// Appends b to a: vertices, wedges, faces, lines, primitives. Attributes that one has none of: see
+/// append.cpp.
 void append(Mesh& a, const Mesh& b);
 
 /// Sets wedge attribute NORMAL, if there is one, to the area-weighted normal over the faces that meet at the

@@ -58,10 +58,14 @@ std::vector<Index> used(std::size_t n, const std::vector<Index>& indices) {
 
 } // namespace
 
-void drop_unused(Mesh& mesh) {
-    const Survivors wedges = survivors(used(mesh.wedge_count(), mesh.corners));
+namespace {
+
+/// flags: 1 for the wedges that stay, those of all faces and lines among them.
+void keep_wedges(Mesh& mesh, std::vector<Index> flags) {
+    const Survivors wedges = survivors(std::move(flags));
     if (wedges.old.size() != mesh.wedge_count()) {
         renumber(mesh.corners, wedges.renumbered);
+        renumber(mesh.lines, wedges.renumbered);
         select_attributes(mesh, Domain::wedge, wedges.old);
         if (mesh.has_seams()) mesh.wedge_vertex = selected(mesh.wedge_vertex, wedges.old);
     }
@@ -78,6 +82,23 @@ void drop_unused(Mesh& mesh) {
         select_attributes(mesh, Domain::vertex, vertices.old);
     }
     normalise_wedges(mesh);
+}
+
+std::vector<Index> used_wedges(const Mesh& mesh) {
+    std::vector<Index> flags = used(mesh.wedge_count(), mesh.corners);
+    for (const Index w : mesh.lines) flags[w] = 1;
+    return flags;
+}
+
+} // namespace
+
+void drop_unused(Mesh& mesh) { keep_wedges(mesh, used_wedges(mesh)); }
+
+void drop_unused(Mesh& mesh, std::span<const std::uint8_t> marked) {
+    std::vector<Index> flags = used_wedges(mesh);
+    for (Index w = 0; w < flags.size(); ++w)
+        if (!marked[mesh.vertex_of_wedge(w)]) flags[w] = 1;
+    keep_wedges(mesh, std::move(flags));
 }
 
 namespace {
@@ -220,9 +241,11 @@ std::size_t weld_exact(Mesh& mesh) {
     parallel_for(
         n, [&](std::size_t v) { first[v] = vertices.renumbered[first[v]]; }); // now: the new vertex of each
     if (!has_attributes(mesh, Domain::wedge)) {                               // nothing to keep apart
-        if (mesh.has_seams()) renumber(mesh.corners, mesh.wedge_vertex);
+        for (auto* indices : {&mesh.corners, &mesh.lines}) {
+            if (mesh.has_seams()) renumber(*indices, mesh.wedge_vertex);
+            renumber(*indices, first);
+        }
         mesh.wedge_vertex = {};
-        renumber(mesh.corners, first);
     } else if (mesh.has_seams()) {
         renumber(mesh.wedge_vertex, first);
     } else {

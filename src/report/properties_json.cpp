@@ -25,6 +25,7 @@ std::vector<const Property*> told_properties(const Properties& properties) {
     for (const auto& p : property_table()) {
         if (p.kind == PropertyKind::box || p.of_scene()) continue; // told apart
         if (p.on_request() && !p.get(properties)) continue;        // not asked for, or it does not apply
+        if (p.where_any && p.get(properties) == 0) continue;
         told.push_back(&p);
     }
     return told;

@@ -29,7 +29,7 @@ Json words_schema(const Property& p) {
 Json scene_schema() {
     Json properties = Json::object();
     for (const auto& p : property_table()) {
-        if (p.on_request() || p.of_scene() || p.kind == PropertyKind::box) continue;
+        if (p.on_request() || p.of_scene() || p.where_any || p.kind == PropertyKind::box) continue;
         properties[std::string(p.name)] = value_schema(p);
     }
     properties["bounds"] = box_schema();
@@ -39,8 +39,8 @@ Json scene_schema() {
     properties["materials"] = list_of(typed("string"), "Names of the materials");
     properties["parts"] = list_of(part_fields().schema(), "The parts, in order");
     Json scene = closed_object(std::move(properties));
-    for (const auto& p : property_table()) // there when they were asked for
-        if (p.on_request()) scene["properties"][std::string(p.name)] = value_schema(p);
+    for (const auto& p : property_table()) // there when they were asked for, or where there are any
+        if (p.on_request() || p.where_any) scene["properties"][std::string(p.name)] = value_schema(p);
     return scene;
 }
 

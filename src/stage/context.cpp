@@ -73,15 +73,23 @@ Context::Context(RunState& run, report::StageRecord& record, const PartFilter& o
 void Context::for_each_part(Scene& scene, const std::function<void(Part&)>& body) {
     double all = 0, done = 0; // in faces
     for (const auto& part : scene.parts)
-        if (only_.selects(part, scene)) all += static_cast<double>(1 + part.mesh.face_count());
+        if (selects(part, scene)) all += static_cast<double>(1 + part.mesh.face_count());
     for (auto& part : scene.parts) {
-        if (!only_.selects(part, scene)) continue;
+        if (!selects(part, scene)) continue;
         const double faces = static_cast<double>(1 + part.mesh.face_count());
         const Share share(done / all, (done + faces) / all);
         body(part);
         done += faces;
         part.changed = true;
     }
+}
+
+std::size_t Context::leave_lines(const Scene& scene) {
+    const auto count = std::count_if(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+        return part.mesh.line_count() > 0 && selects(part, scene);
+    });
+    leaves_lines_ = true;
+    return static_cast<std::size_t>(count);
 }
 
 double Context::resolve(const Length& length, const Scene& scene, std::string_view option, const Part* part) {

@@ -53,7 +53,11 @@ class Context {
 
     /// The parts to work on, selected by `only`, in order. Marks them changed, unless reading.
     void for_each_part(Scene& scene, const std::function<void(Part&)>& body);
-    bool selects(const Part& part, const Scene& scene) const { return only_.selects(part, scene); }
+    bool selects(const Part& part, const Scene& scene) const {
+        return !(leaves_lines_ && part.mesh.line_count() > 0) && only_.selects(part, scene);
+    }
+    /// Parts of lines are selected no longer. Returns how many would have been.
+    std::size_t leave_lines(const Scene& scene);
 
     /// The length in world scene units. Records what it was resolved to under the option's name. Throws usage
     /// (E-UNIT) for a physical unit when the scene has none.
@@ -91,6 +95,7 @@ class Context {
     const PartFilter& only_;
     Box entering_;
     Mark where_;
+    bool leaves_lines_ = false;
 };
 
 } // namespace facetmill

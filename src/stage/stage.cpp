@@ -1,6 +1,9 @@
 #include "stage/stage.hpp"
 
+#include "base/words.hpp"
+
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill {
 
@@ -27,10 +30,28 @@ const StageInfo* stage_named(std::string_view name) {
     return nullptr;
 }
 
+namespace {
+
+void leave_lines(const StageInfo& stage, const Scene& scene, Context& context) {
+    if (stage.lines == LinesPolicy::work || stage.loads) return;
+    const std::size_t left = context.leave_lines(scene);
+    if (left == 0) return;
+    if (stage.lines == LinesPolicy::pass || stage.checks || stage.tells)
+        context.say(counted(left, "part") + " of lines left out");
+    else
+        context.warn("W-LINES",
+                     fmt::format("{} works on faces and leaves {} of lines as {}", stage.name,
+                                 counted(left, "part"), left == 1 ? "it is" : "they are"),
+                     "load: {lines: 1%} makes tubes of lines");
+}
+
+} // namespace
+
 Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
     prepare_crossing_faces(stage.crossing_faces_with ? stage.crossing_faces_with(options)
                                                      : stage.crossing_faces,
                            scene, context);
+    leave_lines(stage, scene, context);
     const MayLose may_lose = stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose;
     if (stage.checks || stage.loads || may_lose == MayLose::all)
         return stage.run(std::move(scene), options, context);

@@ -43,6 +43,13 @@ struct OptionRoles {
     std::string updates_baseline = {};   ///< writes that file anew: --update-baseline gives it
 };
 
+/// What a stage does with parts of lines.
+enum class LinesPolicy {
+    leave, ///< it works on faces and leaves them as they are, with a warning (W-LINES)
+    pass,  ///< they have nothing that it works on: they are left without a warning
+    work   ///< it works on them
+};
+
 struct StageInfo {
     std::string name;  ///< the verb users write
     std::string about; ///< one line
@@ -52,7 +59,8 @@ struct StageInfo {
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
     bool tells = false;  ///< something is left of it beside the scene: a file, or lines on the terminal
     bool moves = false;  ///< it may move the scene as a whole: distances from before it tell nothing
-    bool measures_deviation = false;   ///< it tells how far it moved the surface
+    bool measures_deviation = false; ///< it tells how far it moved the surface
+    LinesPolicy lines = LinesPolicy::leave;
     bool loads = false;                ///< it adds to the scene rather than working on it (may come first)
     MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
     /// What is done about faces that cross themselves before it runs, unless its options say otherwise: the

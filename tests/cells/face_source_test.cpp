@@ -202,3 +202,24 @@ TEST_CASE("what is not read in pieces is refused by name", "[cells]") {
     }
     CHECK(why_not_streamed("-"));
 }
+
+TEST_CASE("what cells do not carry of lines is named", "[cells]") {
+    test::TemporaryDirectory folder;
+    Scene scene;
+    scene.unit = Unit::m;
+    scene.up = UpAxis::y;
+    scene.parts.resize(2);
+    scene.parts[0].mesh = shapes::cube();
+    scene.parts[1].name = "wires";
+    scene.parts[1].mesh.positions = {{0, 0, 0}, {5, 5, 5}};
+    scene.parts[1].mesh.lines = {0, 1};
+    for (const auto& [name, wanted] :
+         {std::pair{"ply", "element 'edge' (1)"}, {"glb", "lines"}, {"obj", "lines and points"}}) {
+        INFO(name);
+        const io::Written written = io::codec_named(name)->write(scene, {});
+        const auto path = folder.path() / fmt::format("a.{}", name);
+        io::write_now(path, written.files[0].bytes);
+        const auto source = open_faces({path}, {}, folder.path());
+        CHECK(source->contents().dropped == std::vector<std::string>{wanted});
+    }
+}

@@ -337,8 +337,8 @@ class Process(Case):
 
     def test_diff_does_not_take_for_the_same_what_was_not_read(self):
         points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
-        self.write("lines.obj", points + "l 1 2 3\n")
-        self.write("others.obj", points + "l 1 3\n")
+        self.write("lines.obj", points + "curv2 1 2 3\n")
+        self.write("others.obj", points + "curv2 1 3\n")
         done = self.mill("diff", "lines.obj", "others.obj")
         self.assertTrue(done.stdout.startswith("lines.obj and others.obj agree in everything that was compared\n"
                                                "  not compared: lines.obj: "), done.stdout)
@@ -347,6 +347,17 @@ class Process(Case):
         self.assertEqual([left["file"] for left in found["left_out"]], ["a", "b"])
         self.write("moved.obj", points.replace("0 1 0", "0 9 0"))
         self.mill("diff", "lines.obj", "moved.obj", expect=1)
+
+    def test_diff_compares_lines(self):
+        points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+        self.write("lines.obj", points + "l 1 2 3\n")
+        self.write("same.obj", "v 0 1 0\nv 1 0 0\nv 0 0 0\nl 1 2\nl 3 2\n")
+        self.write("others.obj", points + "l 2 1 3\n")
+        self.mill("diff", "lines.obj", "same.obj")
+        done = self.mill("diff", "lines.obj", "others.obj", expect=1)
+        self.assertIn("lines maximum", done.stdout)
+        self.write("more.obj", points + "l 1 2 3 1\n")
+        self.mill("diff", "lines.obj", "more.obj", expect=1)
 
     def test_a_contract_on_the_deviation_holds_points_too(self):
         self.write("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"

@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 
 #include "io/codec.hpp"
+#include "mesh/invariants.hpp"
 #include "support/failure.hpp"
 #include "support/gltf.hpp"
 #include "support/temporary.hpp"
@@ -56,26 +57,77 @@ TEST_CASE("lines of an OBJ come by object, with their points and materials", "[i
     CHECK(loaded.scene.materials.at(b.segments[0].material).name == "blue");
     CHECK(loaded.scene.materials.at(a.segments[0].material).name == "red");
     REQUIRE(loaded.scene.parts.size() == 1); // points of lines only are no vertices
-    CHECK(loaded.scene.parts[0].mesh.vertex_count() == 3);
+    CHECK(loaded.scene.parts[0].mesh.vertex_count() == 4); // with the first, which nothing uses
     CHECK(loaded.log.warnings.empty());
 }
 
-TEST_CASE("lines are skipped with a word when nobody asks for them", "[io]") {
-    const Loaded loaded = load("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", false);
+TEST_CASE("lines of an OBJ are parts, by object, with the colours of their vertices and their materials",
+          "[io]") {
+    const Loaded loaded =
+        load("a.obj",
+             "v 9 9 9\no a\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nusemtl red\nl 2 3/1 -1\n"
+             "usemtl blue\nl 3 2\no b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nl -3 -2\nf 5 6 7\nusemtl\nl 5 7\n",
+             false);
     CHECK(loaded.log.lines.empty());
-    CHECK(loaded.scene.parts.at(0).mesh.vertex_count() == 2);
-    REQUIRE(loaded.log.warnings.size() == 1);
-    CHECK(loaded.log.warnings[0].id == "W-SKIPPED");
-    CHECK(loaded.log.warnings[0].hint == "load: {path: ..., lines: 1%} makes tubes of the lines");
+    CHECK(loaded.log.warnings.empty());
+    REQUIRE(loaded.scene.parts.size() == 3);
+    CHECK(broken_invariants(loaded.scene).empty());
+    CHECK(loaded.scene.parts[0].name == "b");
+    CHECK(loaded.scene.parts[0].mesh.vertex_count() ==
+          4); // with the one that nothing uses, without ends of lines
+    const Part &a = loaded.scene.parts[1], &b = loaded.scene.parts[2];
+    CHECK(a.name == "a");
+    CHECK(a.mesh.positions == std::vector<Vec3>{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}});
+    CHECK(a.mesh.lines == std::vector<Index>{0, 1, 1, 2, 1, 0});
+    CHECK(a.mesh.line_primitive == std::vector<Index>{0, 0, 1});
+    CHECK(loaded.scene.materials.at(a.mesh.primitives.at(1).material).name == "blue");
+    const Attribute* colours = a.mesh.find("COLOR_0", Domain::wedge);
+    REQUIRE(colours);
+    CHECK(colours->value(1, 1) == 1);
+    CHECK(b.name == "b_lines");
+    CHECK(b.mesh.lines == std::vector<Index>{0, 1, 0, 2});
+    REQUIRE(b.mesh.primitives.size() == 2);
+    CHECK(b.mesh.primitives[1].material == none);
 }
 
-TEST_CASE("points of an OBJ are skipped beside faces only: the vertices of a cloud are all kept", "[io]") {
-    const Loaded cloud = load("a.obj", "v 0 0 0\nv 1 0 0\np 1 2\n", false);
-    CHECK(cloud.scene.parts.at(0).mesh.vertex_count() == 2);
-    CHECK(cloud.log.warnings.empty());
-    const Loaded mixed = load("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\np 1\n", false);
-    REQUIRE(mixed.log.warnings.size() == 1);
-    CHECK(mixed.log.warnings[0].message.find("'p' (1)") != std::string::npos);
+TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
+    const std::string
+        head = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float "
+               "z\nproperty float heat\n",
+        rows = "0 0 0 1\n1 0 0 2\n0 1 0 3\n5 5 5 4\n6 6 6 5\n",
+        edges = "element edge 2\nproperty int vertex1\nproperty int vertex2\n",
+        faces = "element face 1\nproperty list uchar int vertex_indices\n";
+    const Loaded alone = load("a.ply", head + edges + "end_header\n" + rows + "3 1\n1 0\n", false);
+    REQUIRE(alone.scene.parts.size() == 1);
+    CHECK(alone.scene.parts[0].mesh.vertex_count() == 5);
+    CHECK(alone.scene.parts[0].mesh.lines == std::vector<Index>{3, 1, 1, 0});
+    const Loaded both =
+        load("a.ply", head + faces + edges + "end_header\n" + rows + "3 0 1 2\n3 1\n1 0\n", false);
+    CHECK(both.log.warnings.empty());
+    REQUIRE(both.scene.parts.size() == 2);
+    CHECK(broken_invariants(both.scene).empty());
+    CHECK(both.scene.parts[0].mesh.vertex_count() == 4); // with the one that nothing uses
+    CHECK(both.scene.parts[1].name == "lines");
+    const Mesh& lines = both.scene.parts[1].mesh;
+    CHECK(lines.positions == std::vector<Vec3>{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{5, 5, 5}});
+    CHECK(lines.lines == std::vector<Index>{2, 1, 1, 0});
+    CHECK(lines.find("heat", Domain::wedge)->value(2, 0) == 4);
+    CHECK(load("a.ply", head + faces + edges + "end_header\n" + rows + "3 0 1 2\n3 1\n1 0\n")
+              .log.lines.at(0)
+              .segments.size() == 2);
+
+    const auto refused = [&](const std::string& more) {
+        return failure([&] { load("a.ply", head + edges + "end_header\n" + rows + more, false); });
+    };
+    CHECK(refused("3 1\n1 5\n") == "malformed [E-PLY] a.ply:8: edge 1 of 2 names vertex 5, there are 5");
+    CHECK(refused("-1 1\n1 0\n") == "malformed [E-PLY] a.ply:8: edge 0 of 2 names vertex -1, there are 5");
+    CHECK(failure([&] {
+              load("a.ply",
+                   head +
+                       "element edge 4000000000\nproperty int vertex1\nproperty int vertex2\nend_header\n" +
+                       rows,
+                   false);
+          }).find("element 'edge' is to have 4000000000 items") != std::string::npos);
 }
 
 TEST_CASE("a line of an OBJ that names no vertex is refused with its place", "[io]") {
@@ -116,7 +168,35 @@ TEST_CASE("line primitives of a glTF come where their node stands", "[io]") {
     const Lines indexed = load("a.gltf", gltf_lines(1, ", \"indices\": 1")).log.lines.at(0);
     REQUIRE(indexed.segments.size() == 1);
     CHECK((indexed.segments[0].from == 0 && indexed.segments[0].to == 2));
-    CHECK(failure([] { load("a.gltf", gltf_lines(1), false); }) ==
-          "malformed [E-EMPTY] a.gltf: 'a.gltf' has no faces: its 1 primitive are placed nowhere or hold "
-          "lines only | load: {path: ..., lines: 1%} makes tubes of the lines");
+}
+
+TEST_CASE("a glTF mesh of lines is a part of its document", "[io]") {
+    for (const auto& [mode, ends] : {std::pair{1, std::vector<Index>{0, 1, 2, 3}},
+                                     {2, {0, 1, 1, 2, 2, 3, 3, 0}},
+                                     {3, {0, 1, 1, 2, 2, 3}}}) {
+        const Loaded loaded = load("a.gltf", gltf_lines(mode), false);
+        REQUIRE(loaded.scene.parts.size() == 1);
+        CHECK(broken_invariants(loaded.scene).empty());
+        const Part& part = loaded.scene.parts[0];
+        CHECK(part.name == "wire");
+        CHECK((part.document == 0 && part.node == 0 && part.source_mesh == 0));
+        CHECK(part.mesh.lines == ends);
+        CHECK(part.transform.point(part.mesh.positions.at(1)) == Vec3{11, 0, 0});
+        CHECK(part.mesh.primitives.at(0).material == 0);
+        CHECK(loaded.log.warnings.empty());
+    }
+    CHECK(load("a.gltf", gltf_lines(1, ", \"indices\": 1"), false).scene.parts.at(0).mesh.lines ==
+          std::vector<Index>{0, 2});
+    std::string odd = gltf_lines(1);
+    odd.replace(odd.find("\"count\": 4"), 10, "\"count\": 3");
+    const Loaded left = load("a.gltf", odd, false);
+    CHECK(left.scene.parts.at(0).mesh.line_count() == 1);
+    REQUIRE(left.log.warnings.size() == 1);
+    CHECK(left.log.warnings[0].id == "W-INCOMPLETE");
+    std::string beyond = gltf_lines(1, ", \"indices\": 1");
+    beyond.replace(beyond.find("AAAAAI="), 7, "AAAAAk=");
+    CHECK(failure([&] { load("a.gltf", beyond, false); }).find("E-INDEX") != std::string::npos);
+    std::string huge = gltf_lines(1);
+    huge.replace(huge.find("\"count\": 4"), 10, "\"count\": 4000000000");
+    CHECK(failure([&] { load("a.gltf", huge, false); }).starts_with("limit [E-LIMIT]"));
 }

@@ -125,6 +125,17 @@ Scene with_parts(std::size_t count) {
     return scene;
 }
 
+/// So many lines, one after the other.
+Mesh path(Index lines) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}};
+    for (Index i = 0; i < lines; ++i) {
+        mesh.positions.push_back({1.0 + i, 0, 0});
+        mesh.lines.insert(mesh.lines.end(), {i, i + 1});
+    }
+    return mesh;
+}
+
 std::vector<Row> counts() {
     using namespace shapes;
     const Mesh small = scaled(cube(), 0.25);
@@ -182,6 +193,7 @@ std::vector<Row> shapes_and_attributes() {
             {"finite_attributes: true", scene_of(with_value("NORMAL", 7, 1, NAN)), scene_of(uv_cube())},
             {"unit_normals: true", scene_of(with_value("NORMAL", 7, 1, 5)), scene_of(uv_cube())},
             {"weights_normalized: true", scene_of(with_weights(0.5)), scene_of(with_weights(0.25))},
+            {"lines: {max: 2}", scene_of(path(3)), scene_of(path(2)), false},
             {"joint_count: {max: 64}", scene_of(with_joints(70)), scene_of(with_joints(63))}};
 }
 

@@ -65,8 +65,9 @@ void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) 
             kept.push_back(w);
         }
     if (kept.size() == representative.size()) return;
-    parallel_for(mesh.corners.size(),
-                 [&](std::size_t c) { mesh.corners[c] = number[representative[mesh.corners[c]]]; });
+    for (auto* indices : {&mesh.corners, &mesh.lines})
+        parallel_for(indices->size(),
+                     [&](std::size_t i) { (*indices)[i] = number[representative[(*indices)[i]]]; });
     for (auto& a : mesh.attributes)
         if (a.domain == Domain::wedge) a.select(kept);
     std::vector<Index> vertices(kept.size());

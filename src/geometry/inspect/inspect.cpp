@@ -17,6 +17,7 @@
 namespace facetmill {
 
 using inspect_room::value_of;
+using inspect_room::vertices_without_lines;
 
 namespace {
 
@@ -116,14 +117,16 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.area = sums.area;
     set_connectivity(p, connectivity);
     p.boundary_loops = connectivity.boundary_loops;
-    p.isolated_vertices = connectivity.isolated_vertices;
+    p.lines = static_cast<std::int64_t>(mesh.line_count());
+    p.isolated_vertices = mesh.lines.empty() ? connectivity.isolated_vertices
+                                             : static_cast<std::int64_t>(vertices_without_lines(mesh).size());
     // Triangles of three different vertices are compared where they meet; all else by the hash of its
     // vertices.
     p.duplicate_faces = mesh.all_triangles() && sums.repeating == 0
                             ? connectivity.duplicate_triangles
                             : static_cast<std::int64_t>(duplicate_faces(mesh).size());
     p.components = static_cast<std::int64_t>(component_count(mesh));
-    p.euler = p.vertices - p.isolated_vertices - p.edges + p.faces;
+    p.euler = p.vertices - connectivity.isolated_vertices - p.edges + p.faces;
     if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
     if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
     steps.next();

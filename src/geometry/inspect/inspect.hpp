@@ -26,6 +26,7 @@ struct EvidenceQuery;
 /// area and volume in world space.
 struct Properties {
     std::int64_t vertices = 0, wedges = 0, edges = 0, faces = 0, triangles = 0;
+    std::int64_t lines = 0;      ///< of parts without faces
     std::int64_t components = 0; ///< connected through vertices; isolated vertices are not counted
     std::int64_t euler = 0;      ///< V - E + F, V without isolated vertices
     std::optional<std::int64_t>
@@ -132,8 +133,9 @@ struct Property {
     std::string_view mend =
         {}; ///< stages as `facetmill pipe` takes them that do so; empty: none does for sure
     Member member = {};
-    bool costly = false;  ///< a member that needs InspectSettings::self_intersections
-    bool is_size = false; ///< how much there is, rather than how it hangs together
+    bool costly = false;    ///< a member that needs InspectSettings::self_intersections
+    bool is_size = false;   ///< how much there is, rather than how it hangs together
+    bool where_any = false; ///< a count that is told where it is not 0
     Soundness soundness = Soundness::none;
     /// On request: the value; none when it does not apply (no faces, no such attribute). Truths as 0 and 1.
     std::optional<double> (*measure)(const Measured& mesh) = nullptr;

@@ -265,8 +265,23 @@ std::vector<Location> vertices_of_several_fans(const Mesh& mesh, const LocationQ
     return locations_of_vertices(mesh, query.limit, [](Index fans) { return fans > 1; });
 }
 
+std::vector<Index> vertices_without_lines(const Mesh& mesh) {
+    std::vector<std::uint8_t> used(mesh.vertex_count());
+    for (const Index w : mesh.lines) used[mesh.vertex_of_wedge(w)] = 1;
+    std::vector<Index> others;
+    for (Index v = 0; v < used.size(); ++v)
+        if (!used[v]) others.push_back(v);
+    return others;
+}
+
 std::vector<Location> isolated_vertices(const Mesh& mesh, const LocationQuery& query) {
-    return locations_of_vertices(mesh, query.limit, [](Index fans) { return fans == 0; });
+    if (mesh.lines.empty())
+        return locations_of_vertices(mesh, query.limit, [](Index fans) { return fans == 0; });
+    const auto faces = inspect_room::faces_at_vertices(mesh);
+    std::vector<Location> found;
+    for (const Index v : vertices_without_lines(mesh))
+        if (found.size() < query.limit) found.push_back(inspect_room::location_of_vertex(mesh, v, faces));
+    return found;
 }
 
 std::vector<Location> non_manifold_locations(const Mesh& mesh, const LocationQuery& query) {

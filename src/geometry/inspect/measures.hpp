@@ -43,6 +43,8 @@ std::vector<Location> vertices_of_several_fans(const Mesh& mesh, const LocationQ
 /// Edges of more than two faces, then vertices of several fans.
 std::vector<Location> non_manifold_locations(const Mesh& mesh, const LocationQuery& query);
 std::vector<Location> isolated_vertices(const Mesh& mesh, const LocationQuery& query);
+/// Of a mesh with lines: those that none of them uses, ascending.
+std::vector<Index> vertices_without_lines(const Mesh& mesh);
 std::vector<Location> faces_without_area(const Mesh& mesh, const LocationQuery& query);
 std::vector<Location> repeated_faces(const Mesh& mesh, const LocationQuery& query);
 /// The first face of each component.

@@ -174,10 +174,51 @@ class PictureDrawing {
     }
 
     void draw_points() {
-        for (const PartDrawing& part : drawing_.parts())
+        for (const PartDrawing& part : drawing_.parts()) {
+            draw_lines(part);
             for (Index v = 0; !part.has_faces() && v < part.count(); ++v)
                 if (is_finite(part.point(v)))
                     draw_dot(part.point(v), settings_.point, part.first() + v, canvas_);
+        }
+    }
+
+    /// As dots, a sample apart, each like the nearer end.
+    void draw_lines(const PartDrawing& part) {
+        const Mesh& mesh = part.mesh();
+        for (std::size_t l = 0; l < mesh.line_count(); ++l) {
+            const Index ends[] = {mesh.vertex_of_wedge(mesh.lines[2 * l]),
+                                  mesh.vertex_of_wedge(mesh.lines[2 * l + 1])};
+            const Vec3 &a = part.point(ends[0]), &b = part.point(ends[1]);
+            const auto seen = part_within(a, b);
+            if (!seen) continue;
+            const auto [from, to] = *seen;
+            const double samples = (to - from) * std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
+            const auto steps = static_cast<int>(std::ceil(samples)) + 1;
+            for (int i = 0; i <= steps; ++i) {
+                const double t = from + (to - from) * i / steps;
+                draw_dot(a + (b - a) * t, settings_.point, part.first() + ends[t > 0.5], canvas_);
+            }
+        }
+    }
+
+    /// Which part of the line from a to b is on the canvas, as shares of it (Liang, Barsky, "A new concept
+    /// and method for line clipping", 1984); none, or not finite: nothing.
+    std::optional<std::pair<double, double>> part_within(const Vec3& a, const Vec3& b) const {
+        if (!is_finite(a) || !is_finite(b)) return {};
+        double from = 0, to = 1;
+        const double sizes[] = {static_cast<double>(canvas_.width), static_cast<double>(canvas_.height)};
+        for (std::size_t c = 0; c < 2; ++c) {
+            const double along = b[c] - a[c];
+            if (along == 0) {
+                if (a[c] < 0 || a[c] > sizes[c]) return {};
+                continue;
+            }
+            const double low = -a[c] / along, high = (sizes[c] - a[c]) / along;
+            from = std::max(from, std::min(low, high));
+            to = std::min(to, std::max(low, high));
+        }
+        if (!(from <= to)) return {};
+        return std::pair(from, to);
     }
 
     std::vector<float> occluded() const {

@@ -79,7 +79,7 @@ struct PictureSettings {
     std::string unit{};    ///< after the name of the attribute in the legend
     EdgeLines edges = EdgeLines::few;
     std::size_t few = 6000;
-    double point = 1;                             ///< pixels, a side of the square of a vertex without faces
+    double point = 1; ///< pixels, a side of the square of a vertex without faces, the width of lines
     std::optional<std::array<float, 3>> ground{}; ///< linear background; none: transparent
     std::function<bool(const Part&)> shows{};     ///< which parts; empty: all
     std::vector<Vec3> marks{}; ///< places in world space with rings around them, over all else
@@ -97,13 +97,13 @@ struct Picture {
 };
 
 /// The scene in world space, as large as fits into 92 % of the picture. Parts without faces show their
-/// vertices. Points that are not finite are left out, and an empty scene gives an empty picture. Polygons are
-/// drawn as triangulated() cuts them, their own edges only. Each pixel has four samples of what is seen, and
-/// one shade for each face among them. Materials that blend lie over each other by depth, the sixteen
-/// nearest at each sample. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D. Luebke,
-/// "Scalable Ambient Obscurance", 2012). The same bytes for any number of threads and any processor. Memory:
-/// 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle
-/// which blends touches, and its layers (Layers). Throws limit (E-MEMORY) when it is not there.
+/// vertices and lines. Points that are not finite are left out, and an empty scene gives an empty picture.
+/// Polygons are drawn as triangulated() cuts them, their own edges only. Each pixel has four samples of what
+/// is seen, and one shade for each face among them. Materials that blend lie over each other by depth, the
+/// sixteen nearest at each sample. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D.
+/// Luebke, "Scalable Ambient Obscurance", 2012). The same bytes for any number of threads and any processor.
+/// Memory: 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle which blends
+/// touches, and its layers (Layers). Throws limit (E-MEMORY) when it is not there.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// The camera of picture_of, which sees all of the scene; empty where the scene is. With settings.camera: in

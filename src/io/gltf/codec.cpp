@@ -89,7 +89,8 @@ void unmerge(Mesh& mesh) {
 
 double bytes_of(const Mesh& mesh) {
     double bytes = static_cast<double>(mesh.vertex_count() * sizeof(Vec3) +
-                                       (mesh.corner_count() + mesh.wedge_vertex.size()) * sizeof(Index));
+                                       (mesh.corner_count() + mesh.wedge_vertex.size() + mesh.lines.size()) *
+                                           sizeof(Index));
     for (const Attribute& a : mesh.attributes)
         std::visit([&](const auto& v) { bytes += static_cast<double>(v.size() * sizeof(v[0])); }, a.data);
     return bytes;
@@ -109,21 +110,13 @@ void warn_of_instancing(const Placement& placement, ReadLog& log) {
          false});
 }
 
-/// Says of nodes without triangles, beside parts, that they are no parts.
-void warn_of_nodes_without_faces(const Source& source, const std::vector<NodeFrame>& frames, bool lines_read,
-                                 ReadLog& log) {
+/// Says of nodes without triangles and lines, beside parts, that they are no parts.
+void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>& frames, ReadLog& log) {
     std::size_t count = 0, first = 0;
-    bool lines = false;
     for (std::size_t n = 0; n < frames.size(); ++n) {
         if (frames[n].mesh < 0) continue;
         const Place mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
-        if (has_triangles(mesh)) continue;
-        bool any = false, only = true;
-        const Place primitives = mesh.at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i)
-            (makes_lines(primitives.at(i)) ? any : only) = makes_lines(primitives.at(i));
-        if (lines_read && any && only) continue;
-        lines |= any;
+        if (has_triangles(mesh) || is_of_lines(mesh)) continue;
         if (count++ == 0) first = n;
     }
     if (count == 0) return;
@@ -132,15 +125,16 @@ void warn_of_nodes_without_faces(const Source& source, const std::vector<NodeFra
         {Severity::warning,
          "W-SKIPPED",
          fmt::format(
-             "nodes[{}]{} no triangles: kept in the document as written, which stages do not move and "
-             "other formats do not get",
+             "nodes[{}]{} no triangles and no lines: kept in the document as written, which stages do not "
+             "move and other formats do not get",
              first, more),
          {},
-         lines ? hint_for_lines : "",
+         "",
          false});
 }
 
-void read_parts(Scene& scene, Source& source, const ReadSettings& settings, ReadLog& log) {
+/// of_points: those are read apart.
+void read_parts(Scene& scene, Source& source, const ReadSettings& settings, bool of_points, ReadLog& log) {
     const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
@@ -158,8 +152,9 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
             require_memory(bytes, "copying the meshes of nodes", "use a machine with more memory");
             part.mesh = scene.parts[known->second].mesh;
         } else {
-            DecodedMesh decoded = decode_mesh(source, static_cast<std::size_t>(placement.mesh),
-                                              settings.max_vertices, settings.lines);
+            DecodedMesh decoded =
+                decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices,
+                            {.lines = settings.lines, .points = of_points});
             part.mesh = std::move(decoded.mesh);
             if (settings.weld == Weld::off) unmerge(part.mesh);
             log.warnings.insert(log.warnings.end(), decoded.warnings.begin(), decoded.warnings.end());
@@ -178,42 +173,82 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
         scene.parts.push_back(std::move(part));
         steps.next();
     }
-    if (!all.empty()) warn_of_nodes_without_faces(source, frames, settings.lines, log);
+    if (!all.empty() && !of_points) warn_of_nodes_of_points(source, frames, log);
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 
-/// Throws malformed (E-EMPTY) for a document of points and lines only.
-void refuse_without_faces(const Json& document, const std::string& name) {
-    std::size_t primitives = 0;
-    bool lines = false;
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
-        const Place all = item(document, "meshes", m).at("primitives");
-        primitives += all.size();
-        for (std::size_t i = 0; i < all.size(); ++i) lines |= makes_lines(all.at(i));
-    }
-    if (primitives > 0)
-        throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no faces: its {} primitive{} are placed nowhere or hold lines only",
-                                name, primitives, primitives == 1 ? "" : "s"),
-                    lines ? hint_for_lines : "");
-}
-
-/// Says of a document without triangles whose points are the scene that its lines are not in it.
-void warn_of_lines_beside_points(const Json& document, const std::vector<NodeFrame>& frames, ReadLog& log) {
-    std::size_t count = 0;
+/// Whether nodes have points, and none has triangles.
+bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
+    bool points = false;
     for (const NodeFrame& frame : frames) {
         if (frame.mesh < 0) continue;
-        const Place primitives =
-            item(document, "meshes", static_cast<std::size_t>(frame.mesh)).at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i) count += makes_lines(primitives.at(i));
+        const Place mesh = item(document, "meshes", static_cast<std::size_t>(frame.mesh));
+        if (has_triangles(mesh)) return false;
+        const Place primitives = mesh.at("primitives");
+        for (std::size_t i = 0; i < primitives.size(); ++i) points |= makes_points(primitives.at(i));
     }
-    if (count > 0)
+    return points;
+}
+
+/// Throws malformed (E-EMPTY) for a document with primitives of which none is read.
+void refuse_without_parts(const Json& document, const std::string& name) {
+    std::size_t primitives = 0;
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
+        primitives += item(document, "meshes", m).at("primitives").size();
+    if (primitives > 0)
+        throw Error(ErrorKind::malformed, "E-EMPTY",
+                    fmt::format("'{}' has no faces: its {} primitive{} placed nowhere or without positions",
+                                name, primitives, primitives == 1 ? " is" : "s are"));
+}
+
+bool has_embedded_images(const Json& document) {
+    for (std::size_t i = 0; i < count_of(document, "images"); ++i)
+        if (document["images"][i].contains("bufferView")) return true;
+    return false;
+}
+
+/// The document's materials with their textures, and nothing that stands somewhere. Warns of what moves or
+/// looks.
+std::shared_ptr<const Document> materials_of(Json json, const Document& document, ReadLog& log) {
+    const std::vector<std::string> lost = keep_materials_only(json);
+    if (!lost.empty())
         log.warnings.push_back(
             {Severity::warning,
              "W-SKIPPED",
-             counted(count, "primitive") + " of lines beside points cannot be kept: skipped",
+             fmt::format("{} of a document of points cannot be kept: skipped", fmt::join(lost, ", ")),
              {},
-             hint_for_lines});
+             ""});
+    auto out = std::make_shared<Document>();
+    out->name = document.name;
+    out->files = document.files;
+    if (has_embedded_images(json))
+        out->buffers = document.buffers;
+    else
+        for (const char* list : {"accessors", "bufferViews", "buffers"}) json.erase(list);
+    out->json = to_string(json);
+    return out;
+}
+
+bool has_material(const Part& part) {
+    return std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(),
+                       [](const Primitive& p) { return p.material != none; });
+}
+
+/// Of a document of points, and lines perhaps: its parts, which are of no document.
+void read_points(Scene& scene, Source& source, const std::vector<NodeFrame>& frames, const Document& document,
+                 std::size_t max_vertices, ReadLog& log) {
+    std::size_t left = max_vertices;
+    for (Part& part : scene.parts) {
+        part.document = part.node = part.source_mesh = -1;
+        part.skinned = false;
+        left -= std::min(left, part.mesh.vertex_count());
+    }
+    for (Part& part : decode_points(source, frames, left)) scene.parts.push_back(std::move(part));
+    auto materials = materials_of(source.json(), document, log);
+    if (std::any_of(scene.parts.begin(), scene.parts.end(), has_material))
+        scene.documents.push_back(std::move(materials));
+    else
+        scene.materials.clear();
 }
 
 Chunks chunks_of(const Input& input) {
@@ -243,15 +278,14 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     for (std::size_t i = 0; i < count_of(json, "materials"); ++i)
         scene.materials.push_back(read_material(item(json, "materials", i), i));
     Source source(json, document->buffers);
-    read_parts(scene, source, settings, log);
-    if (scene.parts.empty() && log.lines.empty()) {
-        const auto frames = node_frames(json);
-        scene.parts = decode_points(source, frames, settings.max_vertices);
-        if (scene.parts.empty()) refuse_without_faces(json, input.name());
-        warn_of_lines_beside_points(json, frames, log);
-        scene.materials.clear(); // of the document, which points do without
+    const auto frames = node_frames(json);
+    const bool of_points = is_of_points(json, frames);
+    read_parts(scene, source, settings, of_points, log);
+    if (of_points) {
+        read_points(scene, source, frames, *document, settings.max_vertices, log);
         return scene;
     }
+    if (scene.parts.empty()) refuse_without_parts(json, input.name());
     scene.documents.push_back(std::move(document));
     return scene;
 }
@@ -316,11 +350,6 @@ Json empty_document() {
             {"scenes", Json::array({Json::object()})}};
 }
 
-Bytes to_bytes(const std::string& text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
 /// Extensions of meshes and primitives that are written here no longer count as used where none has them.
 void drop_unused_extensions(Builder& builder) {
     bool draco = false, manifold = false;
@@ -350,7 +379,7 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
         json["buffers"][0] = std::move(first);
     }
     patch.written.files.push_back(
-        {stem + ".gltf", to_bytes(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")});
+        {stem + ".gltf", bytes_of_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")});
     if (!buffer.empty()) patch.written.files.push_back({name, std::move(buffer)});
 }
 
@@ -448,6 +477,7 @@ Capabilities abilities(std::string companion) {
     return {.transforms = true,
             .skins = true,
             .points = true,
+            .lines = true,
             .mesh_manifold = true,
             .lods = true,
             .textures = true,

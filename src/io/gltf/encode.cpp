@@ -15,6 +15,31 @@ namespace facetmill::io::gltf {
 
 namespace {
 
+/// The numbers of wedges in a table.
+class Numbering {
+  public:
+    explicit Numbering(std::size_t wedges) : number_(wedges, none) {}
+    /// Takes the wedges among the corners, which it has none of, ascending.
+    void collect(Table& table, const std::vector<Index>& corners) {
+        for (const Index w : corners)
+            if (number_[w] == none) {
+                number_[w] = 0;
+                table.wedges.push_back(w);
+            }
+        std::sort(table.wedges.begin(), table.wedges.end());
+        for (Index i = 0; i < table.wedges.size(); ++i) number_[table.wedges[i]] = i;
+    }
+    void renumber(Table& table) const {
+        for (Index& w : table.indices) w = number_[w];
+    }
+    void forget(const Table& table) {
+        for (const Index w : table.wedges) number_[w] = none;
+    }
+
+  private:
+    std::vector<Index> number_;
+};
+
 /// One table per primitive that has faces; with `shared`, all use the same wedges.
 std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
     const std::size_t primitives = std::max<std::size_t>(mesh.primitives.size(), 1);
@@ -25,29 +50,19 @@ std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
     auto next = first;
     for (Index f = 0; f < mesh.face_count(); ++f) faces[next[mesh.primitive_of(f)]++] = f;
 
-    std::vector<Index> number(mesh.wedge_count(), none);
+    Numbering numbers(mesh.wedge_count());
     std::vector<Table> tables;
-    const auto collect = [&](Table& table, const std::vector<Index>& corners) {
-        for (const Index w : corners)
-            if (number[w] == none) {
-                number[w] = 0;
-                table.wedges.push_back(w);
-            }
-        std::sort(table.wedges.begin(), table.wedges.end());
-        for (Index i = 0; i < table.wedges.size(); ++i) number[table.wedges[i]] = i;
-    };
     Table common;
-    if (shared) collect(common, mesh.corners);
+    if (shared) numbers.collect(common, mesh.corners);
     for (std::size_t p = 0; p < primitives; ++p) {
         if (first[p] == first[p + 1]) continue;
         Table table{static_cast<Index>(p), common.wedges, {}};
         table.indices.reserve(3 * (first[p + 1] - first[p]));
         for (std::size_t i = first[p]; i < first[p + 1]; ++i)
             for (const Index w : mesh.face_wedges(faces[i])) table.indices.push_back(w);
-        if (!shared) collect(table, table.indices);
-        for (Index& w : table.indices) w = number[w];
-        if (!shared)
-            for (const Index w : table.wedges) number[w] = none;
+        if (!shared) numbers.collect(table, table.indices);
+        numbers.renumber(table);
+        if (!shared) numbers.forget(table);
         tables.push_back(std::move(table));
     }
     return tables;
@@ -321,11 +336,39 @@ namespace {
 
 /// All wedges as points.
 Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
-                      const EncodeSettings& settings) {
+                      const EncodeSettings& settings, Written& written) {
     Table table;
     for (Index w = 0; w < mesh.wedge_count(); ++w) table.wedges.push_back(w);
+    Json primitive = primitive_frame(mesh, 0, settings, builder, written);
     constexpr int points = 0;
-    return {{"mode", points}, {"attributes", add_attributes(builder, mesh, table, columns, settings)}};
+    primitive["mode"] = points;
+    primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
+    return primitive;
+}
+
+/// The lines of each primitive that has some, as a list.
+void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
+               const EncodeSettings& settings, Written& written, EncodedMesh& out) {
+    std::vector<std::vector<Index>> ends(std::max<std::size_t>(mesh.primitives.size(), 1));
+    for (std::size_t l = 0; l < mesh.line_count(); ++l)
+        for (const std::size_t end : {2 * l, 2 * l + 1})
+            ends[mesh.primitive_of_line(l)].push_back(mesh.lines[end]);
+    Numbering numbers(mesh.wedge_count());
+    for (Index p = 0; p < ends.size(); ++p) {
+        if (ends[p].empty()) continue;
+        Table table{p, {}, std::move(ends[p])};
+        numbers.collect(table, table.indices);
+        numbers.renumber(table);
+        numbers.forget(table);
+        Json primitive = primitive_frame(mesh, p, settings, builder, written);
+        constexpr int list = 1;
+        primitive["mode"] = list;
+        primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
+        const Json targets = add_targets(builder, mesh, columns, table.wedges);
+        if (!targets.is_null()) primitive["targets"] = targets;
+        primitive["indices"] = add_indices(builder, table);
+        out.primitives.push_back(std::move(primitive));
+    }
 }
 
 } // namespace
@@ -336,13 +379,18 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     Mesh cut;
     if (!given.all_triangles()) cut = triangles_of(given);
     const Mesh& mesh = given.all_triangles() ? given : cut;
-    if (mesh.vertex_count() == 0 || (mesh.face_count() == 0 && !settings.points)) return out;
+    if (mesh.vertex_count() == 0 || (mesh.face_count() == 0 && mesh.lines.empty() && !settings.points))
+        return out;
     require_floats(mesh, fmt::format("part '{}'", settings.name));
     const auto columns = columns_of(mesh, settings.columns, written.changes);
     for (const auto& column : columns)
         out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));
+    if (!mesh.lines.empty()) {
+        add_lines(builder, mesh, columns, settings, written, out);
+        return out;
+    }
     if (mesh.face_count() == 0) {
-        out.primitives.push_back(points_primitive(builder, mesh, columns, settings));
+        out.primitives.push_back(points_primitive(builder, mesh, columns, settings, written));
         return out;
     }
     auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);

@@ -29,11 +29,12 @@ struct EncodeSettings {
 
 /// What goes into a mesh object; the accessors and views are in the builder already.
 struct EncodedMesh {
-    Json primitives = Json::array(); ///< empty when the mesh has no faces: then it cannot be a glTF mesh
-    Json extensions;                 ///< of the mesh, or null
-    std::size_t targets = 0;         ///< morph targets of each primitive
-    std::size_t dropped_faces = 0;   ///< degenerate ones, under Draco
-    VertexCacheUse cache;            ///< not under Draco
+    Json primitives =
+        Json::array();       ///< empty when nothing of the mesh is written: then it cannot be a glTF mesh
+    Json extensions;         ///< of the mesh, or null
+    std::size_t targets = 0; ///< morph targets of each primitive
+    std::size_t dropped_faces = 0; ///< degenerate ones, under Draco
+    VertexCacheUse cache;          ///< not under Draco
 };
 
 /// Polygons are triangulated. Positions become float32 with min and max, indices uint16 where they fit, else

@@ -184,6 +184,16 @@ void remove_name(Json& document, const char* list, const std::string& name) {
     *it = std::move(kept);
 }
 
+std::vector<std::string> keep_materials_only(Json& document) {
+    std::vector<std::string> lost;
+    for (const char* list : {"animations", "skins", "cameras"}) {
+        if (document.contains(list) && !document[list].empty()) lost.emplace_back(list);
+        document.erase(list);
+    }
+    for (const char* list : {"scenes", "scene", "nodes", "meshes"}) document.erase(list);
+    return lost;
+}
+
 void erase_empty(Json& document, const char* list) {
     const auto it = document.find(list);
     if (it != document.end() && it->empty()) document.erase(it);

@@ -67,6 +67,9 @@ bool uses_extension(const Json& document, std::string_view name);
 void add_name(Json& document, const char* list, const std::string& name);
 /// Takes a name out of such a list, which may then be empty.
 void remove_name(Json& document, const char* list, const std::string& name);
+/// Leaves what materials need: nothing stands or moves in the document any more. Returns which lists that say
+/// more than where meshes stand had entries.
+std::vector<std::string> keep_materials_only(Json& document);
 /// Erases a top-level array that is empty, as glTF allows none.
 void erase_empty(Json& document, const char* list);
 

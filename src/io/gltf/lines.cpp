@@ -6,8 +6,6 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-enum Mode : std::uint64_t { list_of_lines = 1, loop = 2, strip = 3 };
-
 /// Appends the lines of one primitive, in the space of the world.
 void add_lines(Source& source, const Place& primitive, const Transform& world, std::size_t max_vertices,
                Lines& lines) {
@@ -23,27 +21,30 @@ void add_lines(Source& source, const Place& primitive, const Transform& world, s
         order = decode_indices(source, *reference, positions.count);
     else
         for (Index i = 0; i < positions.count; ++i) order.push_back(i);
-    const auto mode = primitive.natural_or("mode", 4);
-    if (mode == loop && order.size() > 1) order.push_back(order.front());
     Index material = none;
     if (const auto place = primitive.find("material"))
         material = static_cast<Index>(place->index(count_of(source.json(), "materials"), "material"));
     source.need(static_cast<double>(sizeof(Vec3) * positions.count + sizeof(Lines::Segment) * order.size()));
+    const std::vector<Index> ends = ends_of_lines(order, primitive.natural_or("mode", 4));
     const auto base = static_cast<Index>(lines.points.size());
     for (std::size_t i = 0; i < positions.count; ++i) {
         const Vec3 p = world.point({values.value(i, 0), values.value(i, 1), values.value(i, 2)});
         if (!is_finite(p)) positions.place.fail(fmt::format("point {} of a line is not finite", i), "E-NAN");
         lines.points.push_back(p);
     }
-    for (std::size_t i = 0; i + 1 < order.size(); i += mode == list_of_lines ? 2 : 1)
-        lines.segments.push_back({base + order[i], base + order[i + 1], material});
+    for (std::size_t i = 0; i < ends.size(); i += 2)
+        lines.segments.push_back({base + ends[i], base + ends[i + 1], material});
 }
 
 } // namespace
 
-bool makes_lines(const Place& primitive) {
-    const auto mode = primitive.natural_or("mode", 4);
-    return mode >= list_of_lines && mode <= strip && primitive.at("attributes").find("POSITION");
+std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode) {
+    enum Mode : std::uint64_t { list = 1, loop = 2 };
+    std::vector<Index> ends;
+    for (std::size_t i = 0; i + 1 < indices.size(); i += mode == list ? 2 : 1)
+        ends.insert(ends.end(), {indices[i], indices[i + 1]});
+    if (mode == loop && indices.size() > 1) ends.insert(ends.end(), {indices.back(), indices.front()});
+    return ends;
 }
 
 std::vector<Lines> decode_lines(Source& source, const std::vector<NodeFrame>& frames,
@@ -53,6 +54,7 @@ std::vector<Lines> decode_lines(Source& source, const std::vector<NodeFrame>& fr
     for (std::size_t n = 0; n < frames.size(); ++n) {
         if (frames[n].mesh < 0) continue;
         const Place mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
+        if (!has_triangles(mesh)) continue;
         const Place primitives = mesh.at("primitives");
         Lines lines;
         for (std::size_t i = 0; i < primitives.size(); ++i)

@@ -7,12 +7,13 @@
 
 namespace facetmill::io::gltf {
 
-/// True for primitives that make lines (lists, loops and strips) of positions.
-bool makes_lines(const Place& primitive);
+/// The two ends of each line of a primitive of that mode; what is left over after the last pair of a list is
+/// left out.
+std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode);
 
-/// The lines of each node's mesh where they stand in the world, named after the node, or else the mesh.
-/// Materials are the document's. The document keeps them as they are. Throws malformed, and limit beyond
-/// max_vertices points.
+/// The lines beside triangles in each node's mesh where they stand in the world, named after the node, or
+/// else the mesh. Materials are the document's. The document keeps them as they are. Throws malformed, and
+/// limit beyond max_vertices points.
 std::vector<Lines> decode_lines(Source& source, const std::vector<NodeFrame>& frames,
                                 std::size_t max_vertices);
 

@@ -258,6 +258,26 @@ void add_primitive(Merge& merge, const Place& primitive) {
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }
 
+void add_line_primitive(Merge& merge, const Place& primitive) {
+    const std::size_t b = plain_block(merge, primitive);
+    const std::size_t count = merge.blocks[b].count;
+    const auto reference = primitive.find("indices");
+    std::vector<Index> indices;
+    if (reference)
+        indices = decode_indices(merge.source, *reference, count);
+    else
+        for (Index i = 0; i < count; ++i) indices.push_back(i);
+    merge.need(3.0 * sizeof(Index) * static_cast<double>(indices.size()));
+    const auto mode = primitive.natural_or("mode", 4);
+    if (mode == 1 && indices.size() % 2 != 0)
+        merge.warn("W-INCOMPLETE", primitive.path() + ": an index is left over after the last line");
+    Mesh& mesh = merge.out.mesh;
+    const auto first = static_cast<Index>(merge.blocks[b].first);
+    for (const Index end : ends_of_lines(indices, mode)) mesh.lines.push_back(first + end);
+    mesh.line_primitive.resize(mesh.line_count(), static_cast<Index>(mesh.primitives.size()));
+    mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
+}
+
 /// The attribute of that name for the whole mesh, in a form that holds what all blocks have.
 Attribute& common_attribute(Mesh& mesh, const Attribute& part) {
     if (Attribute* known = mesh.find(part.name, Domain::wedge)) {
@@ -325,7 +345,7 @@ void join_blocks(Merge& merge) {
     };
     if (std::all_of(mesh.primitives.begin(), mesh.primitives.end(), all_same))
         for (auto& p : mesh.primitives) p.attributes.clear();
-    if (mesh.primitives.size() > 1)
+    if (mesh.primitives.size() > 1 && mesh.lines.empty())
         mesh.attributes.push_back({std::string(primitive_attribute), Domain::face, Role::index, 1, false,
                                    std::move(merge.face_primitive)});
 }
@@ -344,7 +364,8 @@ Role role_of(std::string_view semantic) {
     return starts("WEIGHTS_") ? Role::weights : Role::generic;
 }
 
-DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices, bool with_lines) {
+DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices,
+                        const ReadElsewhere& elsewhere) {
     Merge merge{source,
                 item(source.json(), "meshes", index),
                 std::min<std::size_t>(max_vertices, none - 1),
@@ -357,10 +378,14 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
     const Place primitives = merge.mesh_place.at("primitives");
     std::size_t skipped = 0;
     bool lines = false;
+    const bool of_lines = is_of_lines(merge.mesh_place);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (makes_triangles(primitives.at(i))) {
             add_primitive(merge, primitives.at(i));
-        } else if (!with_lines || !makes_lines(primitives.at(i))) {
+        } else if (of_lines && makes_lines(primitives.at(i))) {
+            add_line_primitive(merge, primitives.at(i));
+        } else if (!(elsewhere.lines && makes_lines(primitives.at(i))) &&
+                   !(elsewhere.points && makes_points(primitives.at(i)))) {
             ++skipped;
             lines |= makes_lines(primitives.at(i));
         }
@@ -375,6 +400,8 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
             lines ? hint_for_lines : "");
     join_blocks(merge);
     Mesh& mesh = merge.out.mesh;
+    if (mesh.primitives.size() == 1) mesh.line_primitive.clear();
+    if (of_lines) return std::move(merge.out);
     if (!merge_as_told(source, merge.mesh_place, mesh, merge.out.warnings)) weld_exact(mesh);
     merge_equal_wedges(mesh);
     return std::move(merge.out);

@@ -7,18 +7,23 @@
 
 namespace facetmill::io::gltf {
 
+/// Primitives that others read, so that no warning is due.
+struct ReadElsewhere {
+    bool lines = false, points = false;
+};
+
 struct DecodedMesh {
     Mesh mesh;
     std::vector<ReadWarning> warnings;
 };
 
-/// Decodes the triangles of mesh `index`: welded by exact position into vertices, or as EXT_mesh_manifold
-/// says; glTF's vertices become wedges, equal ones at a vertex one wedge. Points and lines are left to the
-/// document, with a warning (W-SKIPPED). Primitive::material is the document's material index. The same bytes
-/// give the same Mesh, so the writer decodes again to see whether a part is untouched. with_lines: the lines
-/// are read by decode_lines, and no warning is due. Throws malformed and limit.
+/// Decodes the triangles of mesh `index`, or the lines of one that has no triangles: triangles are welded by
+/// exact position into vertices, or as EXT_mesh_manifold says; glTF's vertices become wedges, equal ones at a
+/// vertex one wedge. Points, and lines beside triangles, are left to the document, with a warning
+/// (W-SKIPPED). Primitive::material is the document's material index. The same bytes give the same Mesh, so
+/// the writer decodes again to see whether a part is untouched. Throws malformed and limit.
 DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
-                        bool with_lines = false);
+                        const ReadElsewhere& elsewhere = {});
 
 /// The role that a glTF attribute name has.
 Role role_of(std::string_view semantic);

@@ -164,14 +164,33 @@ bool has_triangles(const Place& mesh) {
     return false;
 }
 
+bool makes_lines(const Place& primitive) {
+    const auto mode = primitive.natural_or("mode", 4);
+    return mode >= 1 && mode <= 3 && primitive.at("attributes").find("POSITION");
+}
+
+bool makes_points(const Place& primitive) {
+    return primitive.natural_or("mode", 4) == 0 && primitive.at("attributes").find("POSITION");
+}
+
+bool is_of_lines(const Place& mesh) {
+    if (has_triangles(mesh)) return false;
+    const Place primitives = mesh.at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (makes_lines(primitives.at(i))) return true;
+    return false;
+}
+
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
     std::vector<Placement> all;
     UniqueNames names;
-    std::vector<char> triangles(count_of(document, "meshes"));
-    for (std::size_t m = 0; m < triangles.size(); ++m)
-        triangles[m] = has_triangles(item(document, "meshes", m));
+    std::vector<char> read(count_of(document, "meshes"));
+    for (std::size_t m = 0; m < read.size(); ++m) {
+        const Place mesh = item(document, "meshes", m);
+        read[m] = has_triangles(mesh) || is_of_lines(mesh);
+    }
     const auto place = [&](int node, int mesh, bool skinned, const Transform& world) {
-        if (!triangles[static_cast<std::size_t>(mesh)]) return;
+        if (!read[static_cast<std::size_t>(mesh)]) return;
         std::string name =
             node < 0 ? "" : item(document, "nodes", static_cast<std::size_t>(node)).text_or("name", "");
         if (name.empty()) name = item(document, "meshes", static_cast<std::size_t>(mesh)).text_or("name", "");
@@ -182,7 +201,7 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
         if (frames[i].mesh >= 0)
             place(static_cast<int>(i), frames[i].mesh, frames[i].skinned, frames[i].world);
     if (frames.empty())
-        for (std::size_t m = 0; m < triangles.size(); ++m) place(-1, static_cast<int>(m), false, {});
+        for (std::size_t m = 0; m < read.size(); ++m) place(-1, static_cast<int>(m), false, {});
     return all;
 }
 

@@ -34,8 +34,8 @@ std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
 /// The nodes whose translation, rotation or scale an animation drives.
 std::set<std::size_t> animated_nodes(const Json& document);
 
-/// A mesh that faces are read from, and where it stands: one part of the scene. The writer asks for the same
-/// list, to see what has changed since.
+/// A mesh that faces, or else lines, are read from, and where it stands: one part of the scene. The writer
+/// asks for the same list, to see what has changed since.
 struct Placement {
     std::string name; ///< the node's, else the mesh's, unique in the document
     int node = -1; ///< -1 when the document has no nodes at all: then each mesh is placed once, at the origin
@@ -46,12 +46,18 @@ struct Placement {
     std::size_t instances = 0;  ///< by EXT_mesh_gpu_instancing
     Transform largest_instance; ///< seen from the node
 };
-/// One per node with a mesh that has triangles, in node order.
+/// One per node with a mesh that has triangles or lines, in node order.
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
 
 /// True for primitives that make triangles (lists, strips and fans) of positions.
 bool makes_triangles(const Place& primitive);
 bool has_triangles(const Place& mesh);
+/// True for primitives that make lines (lists, loops and strips) of positions.
+bool makes_lines(const Place& primitive);
+/// True for primitives of points that have positions.
+bool makes_points(const Place& primitive);
+/// Whether a part is made of the mesh's lines: it has some, and no triangles.
+bool is_of_lines(const Place& mesh);
 
 /// The first document of the scene with nodes or meshes; those that only tell the materials of another format
 /// have none. -1 when there is none.

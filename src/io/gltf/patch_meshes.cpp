@@ -17,6 +17,12 @@ struct Variant {
     std::size_t dropped_faces = 0;
 };
 
+/// Whether the primitive is among those that the part of its mesh has.
+bool is_of_part(const Json& primitive, bool lines) {
+    const Place place(primitive, "");
+    return lines ? makes_lines(place) : makes_triangles(place);
+}
+
 bool same_attribute(const Attribute& a, const Attribute& b) {
     return a.name == b.name && a.domain == b.domain && a.role == b.role && a.components == b.components &&
            a.normalised == b.normalised && a.data == b.data;
@@ -127,10 +133,12 @@ Json encoded_object(Patch& patch, Json mesh, Variant& variant) {
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
     patch.written.cache.add(encoded.cache);
-    Json untouched = Json::array(); // points and lines
-    if (mesh.contains("primitives"))
+    Json untouched = Json::array(); // points, and lines beside triangles
+    if (mesh.contains("primitives")) {
+        const bool lines = is_of_lines(Place(mesh, ""));
         for (auto& primitive : mesh["primitives"])
-            if (!makes_triangles(Place(primitive, ""))) untouched.push_back(primitive);
+            if (!is_of_part(primitive, lines)) untouched.push_back(primitive);
+    }
     for (auto& primitive : untouched) encoded.primitives.push_back(std::move(primitive));
     if (encoded.primitives.empty()) return nullptr;
     mesh["primitives"] = std::move(encoded.primitives);
@@ -154,9 +162,10 @@ void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& varian
     const Json before = meshes[mesh];
     bool slot_free =
         std::none_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
+    const bool lines = is_of_lines(Place(before, ""));
     if (slot_free)
         for (const auto& primitive : before["primitives"])
-            if (makes_triangles(Place(primitive, ""))) patch.builder.release(primitive);
+            if (is_of_part(primitive, lines)) patch.builder.release(primitive);
     int copies = 0;
     for (auto& variant : variants) {
         if (variant.original) {
@@ -187,7 +196,7 @@ bool same_mesh(const Mesh& a, const Mesh& b, const std::function<bool(Index, Ind
         return p.attributes == q.attributes && p.json == q.json && same_material(p.material, q.material);
     };
     return a.positions == b.positions && a.wedge_vertex == b.wedge_vertex && a.corners == b.corners &&
-           a.face_offsets == b.face_offsets &&
+           a.face_offsets == b.face_offsets && a.lines == b.lines && a.line_primitive == b.line_primitive &&
            std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
                       same_attribute) &&
            std::equal(a.primitives.begin(), a.primitives.end(), b.primitives.begin(), b.primitives.end(),

@@ -9,8 +9,16 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-bool makes_points(const Place& primitive) {
-    return primitive.natural_or("mode", 4) == 0 && primitive.at("attributes").find("POSITION");
+/// Its material and extras; none when it has neither.
+std::vector<Primitive> primitive_of(const Source& source, const Place& place) {
+    Primitive primitive;
+    if (const auto material = place.find("material"))
+        primitive.material =
+            static_cast<Index>(material->index(count_of(source.json(), "materials"), "material"));
+    if (const auto extras = place.find("extras"))
+        primitive.json = to_string(Json{{"extras", extras->json()}});
+    if (primitive == Primitive{}) return {};
+    return {std::move(primitive)};
 }
 
 Mesh points_of(Source& source, const Place& primitive, std::size_t max_vertices) {
@@ -39,6 +47,7 @@ Mesh points_of(Source& source, const Place& primitive, std::size_t max_vertices)
         for (std::size_t i = 0; i < all.size(); ++i)
             mesh.positions.push_back({all.value(i, 0), all.value(i, 1), all.value(i, 2)});
     }
+    mesh.primitives = primitive_of(source, primitive);
     return mesh;
 }
 

@@ -24,7 +24,7 @@ struct Statements {
     std::vector<Index> corners;             ///< -> position
     std::vector<std::uint64_t> corner_keys; ///< uv << 32 | normal; empty when no corner has either
     std::vector<Index> face_offsets;
-    std::vector<Index> line_points;             ///< -> position; empty unless asked for
+    std::vector<Index> line_points;             ///< -> position
     std::vector<Index> line_offsets;            ///< [lines + 1] into line_points
     std::vector<Event> events;                  ///< in the order of the file
     std::map<std::string, std::size_t> skipped; ///< how often each statement that cannot be kept was met
@@ -41,7 +41,7 @@ Statements parse(const Input& input, const ReadSettings& settings);
 /// `o` makes parts, unless objects share vertices: then they stay one part, so that the surface stays whole,
 /// with the face attribute "object". Face attributes "group" and "smoothing_group" number the groups where
 /// there are several. `usemtl` makes materials and primitives. Texture points and normals make wedges. Lines
-/// (`l`), when asked for, go to the log by object; vertices that no face uses are then left out.
+/// (`l`) make parts of their own, one for each object, with the colours of their vertices.
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 Written write(const Scene& scene, const WriteSettings& settings);
 

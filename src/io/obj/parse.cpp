@@ -67,8 +67,8 @@ struct Chunk {
 
 class ChunkParser {
   public:
-    ChunkParser(std::string_view text, const std::string& name, bool lines, Chunk& chunk)
-        : text_(text, name, "E-OBJ", '#'), lines_(lines), chunk_(chunk), out_(chunk.own) {}
+    ChunkParser(std::string_view text, const std::string& name, Chunk& chunk)
+        : text_(text, name, "E-OBJ", '#'), chunk_(chunk), out_(chunk.own) {}
 
     void parse() {
         out_.face_offsets.assign(1, 0);
@@ -85,7 +85,7 @@ class ChunkParser {
         if (word.size() == 1 && word[0] == 'v') return vertex();
         if (word.size() == 1 && word[0] == 'f') return face();
         if (word == "fo") return face();
-        if (word == "l" && lines_) return line();
+        if (word == "l") return line();
         if (word == "vn") return numbers(out_.normals, 3, "normal");
         if (word == "vt") return texture_point();
         if (word == "usemtl") return event(Event::Kind::material);
@@ -187,7 +187,6 @@ class ChunkParser {
     }
 
     Text text_;
-    bool lines_; ///< are wanted
     Chunk& chunk_;
     Statements& out_;
 };
@@ -408,7 +407,7 @@ Statements parse(const Input& input, const ReadSettings& settings) {
         texts.size(),
         [&](std::size_t c) {
             try {
-                ChunkParser(texts[c], input.name(), settings.lines, chunks[c]).parse();
+                ChunkParser(texts[c], input.name(), chunks[c]).parse();
                 input.release(std::as_bytes(std::span(texts[c])));
             } catch (const Error& error) {
                 chunks[c].error = error;

@@ -311,8 +311,8 @@ void add_parts(Scene& scene, Mesh mesh, const Statements& s) {
 }
 
 void report_skipped(const Statements& s, const std::string& file, ReadLog& log) {
-    const auto warn = [&](const char* id, std::string message, std::string hint = {}) {
-        log.warnings.push_back({Severity::warning, id, std::move(message), file_mark(file), std::move(hint)});
+    const auto warn = [&](const char* id, std::string message) {
+        log.warnings.push_back({Severity::warning, id, std::move(message), file_mark(file), ""});
     };
     std::vector<std::string> words;
     for (const auto& [word, count] : s.skipped) {
@@ -321,8 +321,7 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
     }
     if (!words.empty())
         warn("W-SKIPPED",
-             fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")),
-             s.skipped.contains("l") ? hint_for_lines : "");
+             fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")));
     if (s.dangling > 0)
         warn("W-INDEX", fmt::format("{} corners name a texture point or normal that the file does not have",
                                     s.dangling));
@@ -330,40 +329,96 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
         warn("W-FACES", counted(s.short_faces, "face") + " of fewer than three corners skipped");
 }
 
-/// The lines of each object, with what they have of the file's points.
-void add_lines(Scene& scene, const Statements& s, const std::vector<Vec3>& positions, MaterialMaker& maker,
-               ReadLog& log) {
+/// One line after the other of an object, with the vertices that they use.
+class LinesOfObject {
+  public:
+    /// place: by vertex, none; left as it was.
+    LinesOfObject(const Mesh& all, std::vector<Index>& place) : all_(all), place_(place) {}
+
+    void add(std::span<const Index> points, Index material) {
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            mesh_.lines.push_back(end(points[i]));
+            mesh_.lines.push_back(end(points[i + 1]));
+            mesh_.line_primitive.push_back(primitive(material));
+        }
+    }
+
+    Mesh finish() {
+        if (const Attribute* colours =
+                all_.find("COLOR_0", Domain::wedge)) // that of a vertex is its first wedge's
+            mesh_.attributes.push_back(selected(*colours, taken_));
+        for (const Index v : taken_) place_[v] = none;
+        if (mesh_.primitives.size() == 1) mesh_.line_primitive.clear();
+        if (mesh_.primitives.size() == 1 && mesh_.primitives[0].material == none) mesh_.primitives.clear();
+        return std::move(mesh_);
+    }
+
+  private:
+    Index end(Index vertex) {
+        if (place_[vertex] == none) {
+            place_[vertex] = static_cast<Index>(taken_.size());
+            taken_.push_back(vertex);
+            mesh_.positions.push_back(all_.positions[vertex]);
+        }
+        return place_[vertex];
+    }
+    Index primitive(Index material) {
+        const auto [at, fresh] =
+            primitives_.try_emplace(material, static_cast<Index>(mesh_.primitives.size()));
+        if (fresh) mesh_.primitives.push_back({material, {}, {}});
+        return at->second;
+    }
+
+    const Mesh& all_;
+    std::vector<Index>& place_;
+    std::vector<Index> taken_;
+    std::map<Index, Index> primitives_; ///< by material
+    Mesh mesh_;
+};
+
+/// A part for the lines of each object.
+std::vector<Part> parts_of_lines(Scene& scene, const Statements& s, const Mesh& mesh, MaterialMaker& maker) {
     const Naming objects = naming(s, Event::Kind::object, "", s.lines(), &Event::line),
                  used = naming(s, Event::Kind::material, no_material, s.lines(), &Event::line);
     std::vector<Index> material;
     for (const auto& name : used.names)
         material.push_back(name.empty() ? none : maker.index_of(name, false, scene.materials));
     const Shares by_object(objects.of_face, objects.names.size());
-    std::vector<Index> place(positions.size(), none); // among the points of the object
+    std::vector<Index> place(mesh.vertex_count(), none);
+    std::vector<Part> parts;
     for (Index object = 0; object < objects.names.size(); ++object) {
-        Lines lines;
-        lines.name = objects.names[object];
-        std::vector<Index> taken;
-        const auto point = [&](Index v) {
-            if (place[v] == none) {
-                place[v] = static_cast<Index>(taken.size());
-                taken.push_back(v);
-                lines.points.push_back(positions[v]);
-            }
-            return place[v];
-        };
+        LinesOfObject lines(mesh, place);
         for (const Index l : by_object.of(object))
-            for (Index i = s.line_offsets[l]; i + 1 < s.line_offsets[l + 1]; ++i)
-                lines.segments.push_back(
-                    {point(s.line_points[i]), point(s.line_points[i + 1]), material[used.of_face[l]]});
-        for (const Index v : taken) place[v] = none;
-        if (!lines.segments.empty()) log.lines.push_back(std::move(lines));
+            lines.add(
+                {s.line_points.data() + s.line_offsets[l], s.line_points.data() + s.line_offsets[l + 1]},
+                material[used.of_face[l]]);
+        Part part;
+        part.name = objects.names[object];
+        part.mesh = lines.finish();
+        if (part.mesh.line_count() > 0) parts.push_back(std::move(part));
     }
+    return parts;
 }
 
-/// Vertices of lines are no vertices of the surface, nor is a part of them a part.
-void drop_points(Scene& scene) {
-    for (Part& part : scene.parts) drop_unused(part.mesh);
+constexpr std::string_view ends_of_lines = "line"; ///< an attribute of vertices, while parts are made
+
+Attribute marked_ends(const Statements& s) {
+    std::vector<std::uint8_t> marked(s.positions.size());
+    for (std::size_t l = 0; l < s.lines(); ++l)
+        for (Index i = s.line_offsets[l];
+             s.line_offsets[l + 1] - s.line_offsets[l] > 1 && i < s.line_offsets[l + 1]; ++i)
+            marked[s.line_points[i]] = 1;
+    return {std::string(ends_of_lines), Domain::vertex, Role::generic, 1, false, std::move(marked)};
+}
+
+/// Vertices that only lines use are no vertices of the surface, nor is a part of them a part.
+void drop_ends(Scene& scene) {
+    for (Part& part : scene.parts) {
+        const auto marked =
+            std::get<std::vector<std::uint8_t>>(part.mesh.find(ends_of_lines, Domain::vertex)->data);
+        part.mesh.drop(ends_of_lines, Domain::vertex);
+        drop_unused(part.mesh, marked);
+    }
     std::erase_if(scene.parts, [](const Part& part) { return part.mesh.vertex_count() == 0; });
 }
 
@@ -374,6 +429,8 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     report_skipped(s, input.name(), log);
     Scene scene;
     Mesh mesh;
+    const bool any_lines = s.lines() > 0;
+    if (any_lines) mesh.attributes.push_back(marked_ends(s));
     mesh.positions = std::move(s.positions);
     mesh.corners = std::move(s.corners);
     mesh.face_offsets = s.face_offsets;
@@ -381,11 +438,13 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     normalise_offsets(mesh);
     MaterialMaker maker = maker_of_materials(s, input, log);
     add_materials(scene, mesh, s, maker);
-    if (s.lines() > 0) add_lines(scene, s, mesh.positions, maker, log);
+    std::vector<Part> lines;
+    if (any_lines) lines = parts_of_lines(scene, s, mesh, maker);
     maker.finish(scene);
     add_groups(mesh, s, input.name(), log);
     add_parts(scene, std::move(mesh), s);
-    if (s.lines() > 0) drop_points(scene);
+    if (any_lines) drop_ends(scene);
+    for (Part& part : lines) scene.parts.push_back(std::move(part));
     return scene;
 }
 
@@ -504,6 +563,7 @@ const RegisterCodec codec({
     .extensions = {"obj"},
     .can = {.polygons = true,
             .points = true,
+            .lines = true,
             .full_precision = true,
             .attributes = "texture points and normals by corner, colours of vertices, materials",
             .library = ".mtl"},

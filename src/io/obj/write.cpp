@@ -128,9 +128,13 @@ struct Switch {
 
 class PartWriter {
   public:
-    PartWriter(Bytes& bytes, const Mesh& mesh, const std::vector<std::string>& materials)
+    /// current: the material that holds in the file so far.
+    PartWriter(Bytes& bytes, const Mesh& mesh, const std::vector<std::string>& materials, Index& current)
         : bytes_(bytes), mesh_(mesh),
-          materials_(materials), group_{number("group")}, smoothing_{number("smoothing_group")} {}
+          materials_(materials), group_{number("group")}, smoothing_{number("smoothing_group")},
+          material_(current) {
+        if (material_ != none) material_ = of_other_part;
+    }
 
     void faces(const Pool& uv, const Pool& normal, const Offsets& offsets) {
         const auto count = static_cast<Index>(mesh_.face_count());
@@ -142,7 +146,35 @@ class PartWriter {
         }
     }
 
+    /// A line that goes on where the one before ends is of the same statement.
+    void lines(const Offsets& offsets) {
+        std::string out;
+        const auto put = [&](Index wedge) {
+            out += ' ';
+            put_number(out, offsets.vertex + mesh_.vertex_of_wedge(wedge));
+        };
+        for (std::size_t l = 0; l < mesh_.line_count(); ++l) {
+            const Index p = mesh_.primitive_of_line(l);
+            const bool goes_on =
+                l > 0 && mesh_.lines[2 * l] == mesh_.lines[2 * l - 1] && p == mesh_.primitive_of_line(l - 1);
+            if (!goes_on) {
+                if (l > 0) out += '\n';
+                out += use(p < mesh_.primitives.size() ? mesh_.primitives[p].material : none);
+                out += 'l';
+                put(mesh_.lines[2 * l]);
+            }
+            put(mesh_.lines[2 * l + 1]);
+        }
+        if (!out.empty()) append(bytes_, out + '\n');
+    }
+
   private:
+    /// The statement for the material, where it is not the current one.
+    std::string use(Index material) {
+        if (material == material_) return {};
+        material_ = material;
+        return material == none ? "usemtl\n" : fmt::format("usemtl {}\n", materials_[material]);
+    }
     const Attribute* number(std::string_view name) const {
         const Attribute* a = mesh_.find(name, Domain::face);
         return a && a->components == 1 ? a : nullptr;
@@ -168,16 +200,15 @@ class PartWriter {
             smoothing_.current = smoothing_.attribute->value(f, 0);
             append(bytes_, smoothing_.current > 0 ? fmt::format("s {}\n", smoothing_.current) : "s off\n");
         }
-        if (material(f) == material_) return;
-        material_ = material(f);
-        append(bytes_, material_ == none ? "usemtl\n" : fmt::format("usemtl {}\n", materials_[material_]));
+        append(bytes_, use(material(f)));
     }
 
     Bytes& bytes_;
     const Mesh& mesh_;
     const std::vector<std::string>& materials_;
     Switch group_, smoothing_;
-    Index material_ = none;
+    static constexpr Index of_other_part = none - 1;
+    Index& material_;
     bool uvs_ = true;
 };
 
@@ -198,7 +229,8 @@ void tell_what_is_lost(const Mesh& mesh, Written& written) {
     for (const auto& a : mesh.attributes) {
         const bool face = a.domain == Domain::face &&
                           (a.name == primitive_attribute || a.name == "group" || a.name == "smoothing_group");
-        const bool wedge = a.domain == Domain::wedge && (a.name == "NORMAL" || a.name == "TEXCOORD_0");
+        const bool wedge = mesh.face_count() > 0 && a.domain == Domain::wedge &&
+                           (a.name == "NORMAL" || a.name == "TEXCOORD_0");
         const bool colour = a.domain == Domain::wedge && a.name == "COLOR_0";
         if (colour && a.components == 4)
             written.changes.push_back(
@@ -227,13 +259,14 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     const std::string library = settings.title + ".mtl";
     if (!materials.empty()) append(bytes, fmt::format("mtllib {}\n", library));
     Offsets offsets;
+    Index material = none;
     ShareOfSteps parts(std::vector<double>(scene.parts.size(), 1));
     for (const auto& part : scene.parts) {
         ShareOfSteps steps({3, 1, 1, 4});
         const WorldMesh world(part);
         if (!settings.double_positions) require_floats(*world, fmt::format("part '{}'", part.name));
         const auto pool = [&](const char* name, int components) {
-            const Attribute* a = world->find(name, Domain::wedge);
+            const Attribute* a = world->face_count() > 0 ? world->find(name, Domain::wedge) : nullptr;
             return a && a->components == components ? pool_of(*a, components == 2) : Pool{};
         };
         const Pool uv = pool("TEXCOORD_0", 2), normal = pool("NORMAL", 3);
@@ -245,7 +278,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         put_values(bytes, "vn", normal);
         steps.next();
         const Share silent(nullptr); // it writes in pieces, by materials
-        PartWriter(bytes, *world, materials).faces(uv, normal, offsets);
+        PartWriter writer(bytes, *world, materials, material);
+        writer.faces(uv, normal, offsets);
+        writer.lines(offsets);
         offsets.vertex += static_cast<std::int64_t>(world->vertex_count());
         if (uv.components) offsets.uv += static_cast<std::int64_t>(uv.values.size() / uv.components);
         if (normal.components)
@@ -255,6 +290,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     }
     leave_documents(written, scene, "OBJ");
     warn_of_textures(written, scene, "OBJ");
+    warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
     if (!materials.empty()) {
         std::vector<Material> named = scene.materials;

@@ -301,18 +301,21 @@ class Builder {
     }
     void set_positions();
     void set_faces();
+    void set_lines();
     std::size_t index_column();
     void add_strips();
     void add_corner_uvs();
     void add_textures(Scene& scene, const Header& header);
     std::vector<Index> texture_of_faces(std::size_t textures);
     void report_lists(const Table& table);
+    void add_parts(Scene& scene);
 
     const Input& input_;
     const ReadSettings& settings_;
     ReadLog& log_;
-    Table vertices_, faces_, strips_;
+    Table vertices_, faces_, strips_, edges_;
     Mesh mesh_;
+    bool corner_uvs_ = false; ///< texture coordinates are of corners of faces
 };
 
 void Builder::set_positions() {
@@ -374,6 +377,31 @@ void Builder::set_faces() {
     mesh_.face_offsets.resize(faces + 1);
     for (std::size_t f = 0; f <= faces; ++f)
         mesh_.face_offsets[f] = static_cast<Index>(f == faces ? corners : column.begin(f));
+}
+
+/// Edges are lines between two vertices.
+void Builder::set_lines() {
+    if (edges_.count() == 0) return;
+    const auto columns = edges_.take({"vertex1", "vertex2"});
+    if (columns.empty()) return skipped(fmt::format("element 'edge' ({})", edges_.count()));
+    if (edges_.count() >= none / 2)
+        beyond_limit(input_.name(), fmt::format("{} edges are too many", edges_.count()));
+    mesh_.lines.resize(2 * edges_.count());
+    for (std::size_t end = 0; end < 2; ++end)
+        std::visit(
+            [&](const auto& values) {
+                for (std::size_t i = 0; i < edges_.count(); ++i) {
+                    const auto v = static_cast<double>(values[i]);
+                    if (!(v >= 0 && v < static_cast<double>(mesh_.vertex_count())))
+                        fail(*edges_.element, fmt::format("edge {} of {} names vertex {}, there are {}", i,
+                                                          edges_.count(), v, mesh_.vertex_count()));
+                    mesh_.lines[2 * i + end] = static_cast<Index>(values[i]);
+                }
+            },
+            edges_.columns[columns[end]].values);
+    for (std::size_t p = 0; p < edges_.columns.size(); ++p)
+        if (!edges_.taken[p])
+            skipped(fmt::format("the property '{}' of element 'edge'", edges_.property(p).name));
 }
 
 /// Triangle strips: every index after the second makes a triangle with the two before it, every other one
@@ -439,6 +467,7 @@ void Builder::add_corner_uvs() {
         uv[2 * w + 1] = std::bit_cast<float>(static_cast<std::uint32_t>(wedges.keys[w]));
     }
     add_attribute(mesh_, {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uv)});
+    corner_uvs_ = true;
 }
 
 /// The number of each face's texture (MeshLab's texnumber), `textures` for those of none; 0 where faces do
@@ -538,6 +567,7 @@ Scene Builder::read() {
         Table* place = e.name == "vertex"      ? &vertices_
                        : e.name == "face"      ? &faces_
                        : e.name == "tristrips" ? &strips_
+                       : e.name == "edge"      ? &edges_
                                                : nullptr;
         if (place && place->element) fail(e, fmt::format("element '{}' is declared twice", e.name));
         if (place)
@@ -548,6 +578,7 @@ Scene Builder::read() {
     }
     set_positions();
     set_faces();
+    set_lines();
     add_corner_uvs();
     add_normals(vertices_, mesh_);
     add_uvs(vertices_, mesh_);
@@ -569,8 +600,21 @@ Scene Builder::read() {
     report_lists(faces_);
     drop_short_faces(mesh_, input_.name(), log_);
     normalise_offsets(mesh_);
-    scene.parts.emplace_back().mesh = std::move(mesh_);
+    add_parts(scene);
     return scene;
+}
+
+constexpr const char* part_of_lines = "lines"; ///< beside that of the faces
+
+void Builder::add_parts(Scene& scene) {
+    Mesh lines;
+    if (mesh_.face_count() > 0 && mesh_.line_count() > 0) lines = split_lines(mesh_);
+    scene.parts.emplace_back().mesh = std::move(mesh_);
+    if (lines.line_count() == 0) return;
+    if (corner_uvs_) lines.drop("TEXCOORD_0", Domain::wedge);
+    Part& part = scene.parts.emplace_back();
+    part.name = part_of_lines;
+    part.mesh = std::move(lines);
 }
 
 } // namespace
@@ -588,6 +632,11 @@ bool has_property(const Header& header, std::string_view element, std::string_vi
             for (const auto& p : e.properties)
                 if (p.name == name) return true;
     return false;
+}
+
+bool has_elements(const Header& header, std::string_view element) {
+    return std::any_of(header.elements.begin(), header.elements.end(),
+                       [&](const Element& e) { return e.name == element && e.count > 0; });
 }
 
 bool has_texture_points(const Header& header) {
@@ -616,6 +665,7 @@ const RegisterCodec codec({
     .extensions = {"ply"},
     .can = {.polygons = true,
             .points = true,
+            .lines = true,
             .text = true,
             .big_endian = true,
             .full_precision = true,
@@ -634,6 +684,10 @@ const RegisterCodec codec({
                 if (const auto relative = relative_path_of(texture))
                     if (const auto path = path_below(input, *relative)) header.files.push_back(*path);
             header.parts = {""};
+            if ((has_elements(read, "face") || has_elements(read, "tristrips")) &&
+                has_elements(read, "edge") && has_property(read, "edge", "vertex1") &&
+                has_property(read, "edge", "vertex2"))
+                header.parts.emplace_back(part_of_lines);
             if (read.textures.empty() || !has_texture_points(read) || input.path().empty()) return;
             header.images = [path = input.path(), roots = input.asset_roots()] {
                 return images_of(path, roots);

@@ -190,6 +190,9 @@ std::string header_of(const Layout& l) {
                         name_of(l.count_type));
     if (l.corner_uvs) text += fmt::format("property list {} float texcoord\n", name_of(l.count_type));
     for (const auto& c : l.face) text += fmt::format("property {} {}\n", name_of(c.type()), c.name);
+    if (!l.mesh.lines.empty())
+        text +=
+            fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\n", l.mesh.line_count());
     return text + "end_header\n";
 }
 
@@ -239,6 +242,14 @@ void write_ascii(Bytes& bytes, const Layout& l) {
             out += '\n';
         }
     });
+    append_text(bytes, l.mesh.line_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
+        for (std::size_t i = begin; i < end; ++i) {
+            put_number(out, static_cast<std::int64_t>(l.row(l.mesh.lines[2 * i])));
+            out += ' ';
+            put_number(out, static_cast<std::int64_t>(l.row(l.mesh.lines[2 * i + 1])));
+            out += '\n';
+        }
+    });
 }
 
 template <class T>
@@ -274,7 +285,9 @@ void write_binary(Bytes& bytes, const Layout& l) {
                       faces_at = start + l.rows() * vertex_size;
     const std::size_t per_face = size_of(l.count_type) * (l.corner_uvs ? 2 : 1) + row_size(l.face);
     const std::size_t per_corner = l.corner_uvs ? 12 : 4;
-    bytes.resize(faces_at + l.mesh.face_count() * per_face + l.mesh.corner_count() * per_corner);
+    const std::size_t lines_at =
+        faces_at + l.mesh.face_count() * per_face + l.mesh.corner_count() * per_corner;
+    bytes.resize(lines_at + l.mesh.lines.size() * sizeof(std::int32_t));
     parallel_for(l.rows(),
                  [&](std::size_t i) { store_row(&bytes[start] + i * vertex_size, l.vertex, i, swap); });
     parallel_for(l.mesh.face_count(), [&](std::size_t i) {
@@ -289,6 +302,9 @@ void write_binary(Bytes& bytes, const Layout& l) {
         }
         store_row(to, l.face, i, swap);
     });
+    for (std::size_t i = 0; i < l.mesh.lines.size(); ++i)
+        store(bytes.data() + lines_at + i * sizeof(std::int32_t),
+              static_cast<std::int32_t>(l.row(l.mesh.lines[i])), swap);
 }
 
 } // namespace
@@ -316,6 +332,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY");
     warn_of_textures(written, scene, "PLY");
+    warn_of_point_materials(written, scene, "PLY");
     if (!scene.materials.empty())
         written.changes.push_back(
             {"materials", Domain::face, AttributeChange::Kind::dropped, "PLY has no materials"});

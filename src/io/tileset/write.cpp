@@ -45,9 +45,7 @@ Mesh as_one(const Scene& scene, Written& written) {
 /// its bytes become files where all tiles are to share them.
 std::shared_ptr<const Document> materials_only(const Document& document, bool share, Written& written) {
     Json json = gltf::parse_document(document.json);
-    std::vector<std::string> lost;
-    for (const char* list : {"animations", "skins", "cameras"})
-        if (json.contains(list) && !json[list].empty()) lost.emplace_back(list);
+    const std::vector<std::string> lost = gltf::keep_materials_only(json);
     if (!lost.empty())
         written.warnings.push_back(
             {Severity::warning,
@@ -57,8 +55,6 @@ std::shared_ptr<const Document> materials_only(const Document& document, bool sh
              {},
              "write a .glb to keep them"});
     Document kept{{}, document.buffers, document.files, document.name};
-    for (const char* list : {"animations", "skins", "cameras", "scenes", "scene", "nodes", "meshes"})
-        json.erase(list);
     const std::vector<Bytes> images = share ? image_bytes(document, json) : std::vector<Bytes>{};
     for (std::size_t i = 0; i < images.size(); ++i) {
         Json& image = json["images"][i];

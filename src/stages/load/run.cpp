@@ -56,9 +56,10 @@ void declare(Declare<LoadOptions>& d) {
         "asset_root", &LoadOptions::asset_root,
         "A folder, or a list of these: the file may name images, buffers and materials anywhere below it "
         "(../textures/wood.png), not only beside or below itself.");
-    d.option("lines", &LoadOptions::lines,
-             "Turns the lines of an OBJ or glTF file into tubes of this thickness (the diameter), parts of "
-             "their own; a percentage is of the diagonal of the file. Without it lines are skipped.")
+    d.option(
+         "lines", &LoadOptions::lines,
+         "Turns the lines of a PLY, OBJ or glTF file into tubes of this thickness (the diameter), parts of "
+         "their own; a percentage is of the diagonal of the file. Without it lines stay lines.")
         .above(0);
     d.option("line_sides", &LoadOptions::line_sides, "The number of sides of these tubes (a count).")
         .between(3, 360);

@@ -90,7 +90,8 @@ const RegisterStage registered =
     make_stage<MergeOptions>({.name = "merge",
                               .about = help::merge::about,
                               .details = help::merge::details,
-                              .examples = {"merge", "merge: body", "merge: {weld: true}"}},
+                              .examples = {"merge", "merge: body", "merge: {weld: true}"},
+                              .lines = LinesPolicy::pass},
                              declare, declare_report, run);
 
 } // namespace

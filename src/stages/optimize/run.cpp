@@ -498,7 +498,8 @@ const RegisterStage registered = make_stage<OptimizeOptions>(
      .about = help::optimize::about,
      .details = help::optimize::details,
      .examples = {"optimize", "optimize: {join: false}", "optimize: {keep_names: true}",
-                  "optimize: {palette: true, drop_attributes: true}", "optimize: {instance: true}"}},
+                  "optimize: {palette: true, drop_attributes: true}", "optimize: {instance: true}"},
+     .lines = LinesPolicy::pass},
     declare, declare_report, run);
 
 } // namespace

@@ -104,7 +104,8 @@ const RegisterStage registered = make_stage<OrientSettings>(
     {.name = "orient",
      .about = help::orient::about,
      .details = help::orient::details,
-     .examples = {"orient", "orient: consistent", "orient: flip", "orient: {nested: solids}"}},
+     .examples = {"orient", "orient: consistent", "orient: flip", "orient: {nested: solids}"},
+     .lines = LinesPolicy::pass},
     declare, declare_report, run);
 
 } // namespace

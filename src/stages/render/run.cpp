@@ -152,6 +152,7 @@ const RegisterStage registered{make_stage<RenderOptions>(
                   "render: {path: failed.png, attribute: failed}",
                   "render: {path: curvature.png, attribute: mean_curvature, unit: 1/mm, range: [-1, 1]}"},
      .tells = true,
+     .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes on: nothing is to be compared
      .crossing_faces = CrossingFacePolicy::name},
     declare_render, declare_report, run,

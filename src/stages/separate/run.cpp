@@ -79,7 +79,8 @@ const RegisterStage registered = make_stage<SeparateOptions>(
     {.name = "separate",
      .about = help::separate::about,
      .details = help::separate::details,
-     .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
+     .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"},
+     .lines = LinesPolicy::pass},
     declare_separate, declare_report, run, {.verify = verify_separate});
 
 } // namespace

@@ -120,6 +120,7 @@ const RegisterStage registered = make_stage<TransformOptions>(
                   "transform: {unit: m, up: y, centre: true, ground: true}",
                   "transform: {translate: [0, 0, 2mm]}"},
      .moves = true,
+     .lines = LinesPolicy::work,
      .may_lose = MayLose::area,
      .roles = {.sets_unit = "unit"}},
     declare_transform, declare_transform_report, run,

@@ -89,7 +89,8 @@ const RegisterStage registered{make_stage<TriangulateOptions>(
     {.name = "triangulate",
      .about = help::triangulate::about,
      .details = help::triangulate::details,
-     .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, feature_angle: 5deg}"}},
+     .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, feature_angle: 5deg}"},
+     .lines = LinesPolicy::pass},
     declare, declare_report, run)};
 
 } // namespace

@@ -85,7 +85,8 @@ const RegisterStage registered =
     make_stage<TwoSidedOptions>({.name = "two-sided",
                                  .about = help::two_sided::about,
                                  .details = help::two_sided::details,
-                                 .examples = {"two-sided", "two-sided: material"}},
+                                 .examples = {"two-sided", "two-sided: material"},
+                                 .lines = LinesPolicy::pass},
                                 declare, declare_report, run);
 
 } // namespace

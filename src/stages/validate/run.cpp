@@ -117,6 +117,7 @@ const RegisterStage registered{make_stage<ValidateOptions>(
                   "validate: {for: web, faces: {max: 5000}, baseline: known.json}",
                   "validate: {min_angle: {min: 5deg}, severity: warn, mark: failed.glb}"},
      .checks = true,
+     .lines = LinesPolicy::work,
      .roles = {.baseline = "baseline", .updates_baseline = "update_baseline"}},
     declare, declare_report, run,
     StageHooks<ValidateOptions>{

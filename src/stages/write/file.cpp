@@ -151,6 +151,7 @@ std::vector<std::optional<int>> normal_map_uvs(const Scene& scene) {
 
 bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
                    Context& context) {
+    if (part.mesh.face_count() == 0) return false;
     if (part.mesh.find("TANGENT", Domain::wedge) && o.tangents == Tangents::missing) return false;
     const auto uvs_of = [&](const Primitive& p) {
         return p.material < uvs_of_material.size() ? uvs_of_material[p.material] : std::nullopt;

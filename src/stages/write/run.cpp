@@ -1,5 +1,6 @@
 #include "base/portable_math.hpp"
 #include "base/progress.hpp"
+#include "base/words.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/help.hpp"
@@ -25,6 +26,7 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     if (o.normals == NormalKind::keep) return;
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
+        if (part.mesh.face_count() == 0 && o.normals != NormalKind::none) continue; // points and lines
         lent[k].mesh = part.mesh;
         context.attribute_changes(
             part, give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
@@ -67,20 +69,60 @@ void declare_tiles_written(DeclareFields<io::TilesWritten>& d) {
     d.field("error", &Tiles::error, "The geometric error of the root, in metres.");
 }
 
-/// Throws stage (E-EMPTY) unless the scene is a point cloud that the format holds as it is asked for.
+/// The names of the formats that are written and can do that.
+std::vector<std::string> formats_with(bool io::Capabilities::*what) {
+    std::vector<std::string> names;
+    for (const io::Codec& codec : io::codecs())
+        if (codec.write && codec.can.*what) names.push_back(codec.name);
+    return names;
+}
+
+/// Whether the part is left out because the format cannot hold lines.
+bool is_left_out(const Part& part, const io::Codec& codec) {
+    return part.mesh.line_count() > 0 && !codec.can.lines;
+}
+
+/// Says which parts were left out; throws stage (E-EMPTY) when nothing else is there.
+void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, const io::Codec& codec,
+                Context& context) {
+    std::vector<std::string> names;
+    for (const Part& part : scene.parts)
+        if (is_left_out(part, codec) && context.selects(part, scene)) names.push_back(part.name);
+    if (names.empty()) return;
+    const std::string hint =
+        fmt::format("lines go to {}", fmt::join(formats_with(&io::Capabilities::lines), ", "));
+    if (out.parts.empty())
+        throw Error(
+            ErrorKind::stage, "E-EMPTY",
+            fmt::format("there is nothing to write to '{}': the scene has lines and no faces", o.path.text),
+            hint, context.where());
+    context.warn("W-LINES",
+                 fmt::format("'{}': {} cannot hold lines, so {} {} left out: {}", o.path.text, codec.name,
+                             counted(names.size(), "part"), names.size() == 1 ? "is" : "are",
+                             fmt::join(names, ", ")),
+                 hint);
+}
+
+/// Throws stage (E-EMPTY) unless the scene is of points or lines that the format holds as it is asked for.
 void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
+    const bool lines = std::any_of(scene.parts.begin(), scene.parts.end(),
+                                   [](const Part& part) { return part.mesh.line_count() > 0; });
     const bool always = codec.can.draco == io::Capabilities::Draco::always;
     const bool compressed =
         (o.draco && o.draco->on && !always) || (o.quantize && o.quantize->on) || (o.meshopt && o.meshopt->on);
     if (any && codec.can.points && !compressed) return;
-    std::vector<std::string> formats, compressing;
-    for (const io::Codec& other : io::codecs()) {
-        if (!other.write || !other.can.points) continue;
-        formats.push_back(other.name);
-        if (other.can.draco == io::Capabilities::Draco::always) compressing.push_back(other.name);
-    }
+    if (lines && codec.can.lines)
+        throw Error(ErrorKind::stage, "E-EMPTY",
+                    fmt::format("there is nothing to compress in '{}': the scene has lines and no faces",
+                                o.path.text),
+                    "write lines without draco, quantize and meshopt", context.where());
+    const std::vector<std::string> formats = formats_with(&io::Capabilities::points);
+    std::vector<std::string> compressing;
+    for (const io::Codec& other : io::codecs())
+        if (other.write && other.can.points && other.can.draco == io::Capabilities::Draco::always)
+            compressing.push_back(other.name);
     throw Error(
         ErrorKind::stage, "E-EMPTY",
         fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
@@ -133,9 +175,10 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
-        if (context.selects(scene.parts[i], scene))
+        if (context.selects(scene.parts[i], scene) && !is_left_out(scene.parts[i], *codec))
             lent.push_back({i, scene.parts[i].transform, scene.parts[i].changed});
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
+    tell_lines(scene, out, o, *codec, context);
     if (out.face_count() == 0) check_points(out, o, *codec, context);
     ShareOfSteps steps({1, 4, 5});
     give_normals(out, lent, o, context);
@@ -182,6 +225,7 @@ const RegisterStage registered = make_stage<WriteOptions>(
                   "write: {path: web.glb, normals: smooth, feature_angle: 40deg}",
                   "write: {path: out/tileset.json, tiles: 3d, draco: true}"},
      .tells = true,
+     .lines = LinesPolicy::work,
      .crossing_faces = CrossingFacePolicy::name,
      .roles = {.writes_in_unit = "unit"}},
     declare_write, declare_write_report, run,

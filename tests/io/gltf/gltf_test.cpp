@@ -341,46 +341,63 @@ TEST_CASE("Draco takes meshes and attributes smaller than a millionth", "[io]") 
     }
 }
 
-TEST_CASE("lines beside points are said to be skipped", "[io]") {
-    const auto warnings = [](int mode) {
-        io::ReadLog log;
-        const Scene scene = test::read_text(
-            fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],
- "nodes":[{{"mesh":0}},{{"mesh":1}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":0}}]}},
+TEST_CASE("lines beside points are parts, and both keep their materials", "[io]") {
+    const auto read = [](const char* more, io::ReadLog& log) {
+        return test::read_text(
+            fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],{}
+ "nodes":[{{"mesh":0}},{{"mesh":1}}],"materials":[{{"name":"red","pbrMetallicRoughness":{{"baseColorFactor":[1,0,0,1]}}}},
+ {{"name":"plain"}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":0,"material":0,"extras":{{"a":1}}}}]}},
+ {{"primitives":[{{"attributes":{{"POSITION":0}},"mode":3,"material":1}},{{"attributes":{{"POSITION":0}},"mode":0}}]}}],
+ "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
+ "bufferViews":[{{"buffer":0,"byteLength":36}}],
+ "buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
+                        more),
+            &log);
+    };
+    io::ReadLog log;
+    const Scene scene = read("", log);
+    CHECK(log.warnings.empty());
+    REQUIRE(scene.parts.size() == 3);
+    CHECK(broken_invariants(scene).empty());
+    CHECK(scene.parts[0].mesh.line_count() == 2);
+    CHECK(scene.materials.at(scene.parts[0].mesh.primitives.at(0).material).name == "plain");
+    CHECK(scene.parts[1].mesh.line_count() == 0);
+    CHECK(scene.materials.at(scene.parts[1].mesh.primitives.at(0).material).name == "red");
+    CHECK(scene.parts[2].mesh.primitives.empty());
+    for (const Part& part : scene.parts) CHECK(part.document == -1);
+
+    const Scene again = test::again(scene, {});
+    REQUIRE(again.parts.size() == 3);
+    const Json json = Json::parse(test::json_of(test::written(scene, "glb").files[0].bytes));
+    CHECK(json["materials"].size() == 2);
+    CHECK(json.dump().find("\"extras\":{\"a\":1}") != std::string::npos);
+    const Part& points = again.parts[1];
+    CHECK(points.mesh.line_count() == 0);
+    CHECK(again.materials.at(points.mesh.primitives.at(0).material).base_colour[1] == 0);
+
+    read(R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)", log);
+    REQUIRE(log.warnings.size() == 1);
+    CHECK(log.warnings[0].message == "cameras of a document of points cannot be kept: skipped");
+}
+
+TEST_CASE("nodes of lines beside triangles are parts, and those of points are named", "[io]") {
+    const auto text = [](int mode) {
+        return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1,2]}}],
+ "nodes":[{{"mesh":0}},{{"mesh":1}},{{"mesh":1}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}},
  {{"primitives":[{{"attributes":{{"POSITION":0}},"mode":{}}}]}}],
  "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
  "bufferViews":[{{"buffer":0,"byteLength":36}}],
  "buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
-                        mode),
-            &log);
-        CHECK(scene.parts.size() == (mode == 0 ? 2 : 1));
-        return log.warnings;
+                           mode);
     };
-    CHECK(warnings(0).empty());
-    const auto said = warnings(3);
-    REQUIRE(said.size() == 1);
-    CHECK(said[0].id == "W-SKIPPED");
-    CHECK(said[0].message == "1 primitive of lines beside points cannot be kept: skipped");
-    CHECK(said[0].hint == io::hint_for_lines);
-}
-
-TEST_CASE("a node of lines beside parts is named", "[io]") {
-    const char* const text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
- "nodes":[{"mesh":0},{"mesh":1},{"mesh":1}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},
- {"primitives":[{"attributes":{"POSITION":0},"mode":3}]}],
- "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
- "bufferViews":[{"buffer":0,"byteLength":36}],
- "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
     io::ReadLog log;
-    CHECK(test::read_text(text, &log).parts.size() == 1);
+    const Scene lines = test::read_text(text(3), &log);
+    CHECK(log.warnings.empty());
+    REQUIRE(lines.parts.size() == 3);
+    CHECK(lines.parts[2].mesh.line_count() == 2);
+    CHECK(lines.parts[2].node == 2);
+    CHECK(test::read_text(text(0), &log).parts.size() == 1);
     REQUIRE(log.warnings.size() == 1);
     CHECK(log.warnings[0].id == "W-SKIPPED");
-    CHECK(log.warnings[0].message.starts_with("nodes[1] and 1 more have no triangles"));
-    CHECK(log.warnings[0].hint == io::hint_for_lines);
-    io::ReadSettings settings;
-    settings.lines = true; // they become tubes
-    log = {};
-    io::codec_named("gltf")->read(io::Input::of("t", test::to_bytes(text)), settings, log);
-    CHECK(log.warnings.empty());
-    CHECK(log.lines.size() == 2);
+    CHECK(log.warnings[0].message.starts_with("nodes[1] and 1 more have no triangles and no lines"));
 }

@@ -165,6 +165,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             input.columns.push_back(to_column(mesh, a));
     }
     leave_documents(written, scene, "Draco");
+    warn_of_point_materials(written, scene, "Draco");
     if (!scene.materials.empty())
         written.changes.push_back(
             {"materials", Domain::face, AttributeChange::Kind::dropped, "Draco has no materials"});
