@@ -2,7 +2,10 @@
 
 #include "cli/workflow.hpp"
 
+namespace workflow_test {
+
 using namespace facetmill::cli;
+using facetmill::cli::Job; // batch has one, too
 
 namespace {
 
@@ -65,3 +68,5 @@ TEST_CASE("workflows say what each job needs", "[cli]") {
     CHECK(make.find("\n# -j1 suits 8 cores, jobs of 2 threads and 500.0 MB of memory") != make.npos);
     CHECK(make.find("\n# 2 threads, about 300 MB\n") != make.npos);
 }
+
+} // namespace workflow_test

@@ -12,7 +12,7 @@ struct Plane {
     Vec3 normal{0, 0, 1};
 };
 
-struct Settings {
+struct OptionSettings {
     std::int64_t iterations = 1;
     double factor = 0.5;
     Method method = Method::better;
@@ -23,16 +23,16 @@ struct Settings {
 };
 
 Declaration declared_options() {
-    Declare<Settings> d;
-    d.option("iterations", &Settings::iterations, "How many times.").at_least(1).primary();
-    d.option("factor", &Settings::factor, "How far.").above(0).at_most(1);
-    d.choice("method", &Settings::method,
+    Declare<OptionSettings> d;
+    d.option("iterations", &OptionSettings::iterations, "How many times.").at_least(1).primary();
+    d.option("factor", &OptionSettings::factor, "How far.").above(0).at_most(1);
+    d.choice("method", &OptionSettings::method,
              {{"plain", Method::plain, "the plain one"}, {"better", Method::better, "ours"}}, "Which.");
-    d.option("ratio", &Settings::ratio, "Of the faces.").above(0).at_most(1);
-    d.option("faces", &Settings::faces, "How many are left.").at_least(1);
-    d.group("plane", &Settings::plane, "Where.",
+    d.option("ratio", &OptionSettings::ratio, "Of the faces.").above(0).at_most(1);
+    d.option("faces", &OptionSettings::faces, "How many are left.").at_least(1);
+    d.group("plane", &OptionSettings::plane, "Where.",
             [](Declare<Plane>& p) { p.option("normal", &Plane::normal, "Its direction.").required(); });
-    d.option("paths", &Settings::paths, "Files.");
+    d.option("paths", &OptionSettings::paths, "Files.");
     d.at_most_one({"ratio", "faces"});
     return d.declaration;
 }
@@ -46,7 +46,7 @@ Value map(std::initializer_list<std::pair<const char*, Value>> entries) {
 /// All complaints about the value, one a line.
 std::string complaints(const Value& value) {
     Problems problems;
-    Settings s;
+    OptionSettings s;
     const bool good = declared_options().parse(value, &s, "relax", problems, {"name"});
     std::string text;
     for (const auto& d : problems.all())
@@ -59,7 +59,7 @@ std::string complaints(const Value& value) {
 
 TEST_CASE("a bare value sets the primary option, nothing takes the defaults", "[options]") {
     Problems problems;
-    Settings s;
+    OptionSettings s;
     CHECK(declared_options().parse(Value::scalar("7"), &s, "relax", problems));
     CHECK(s.iterations == 7);
     CHECK(s.factor == 0.5);
@@ -105,7 +105,7 @@ TEST_CASE("open ends of a range are exclusive", "[options]") {
 
 TEST_CASE("a list option takes one value or several", "[options]") {
     Problems problems;
-    Settings s;
+    OptionSettings s;
     CHECK(declared_options().parse(map({{"paths", Value::scalar("a.ply")}}), &s, "load", problems));
     CHECK(s.paths.size() == 1);
     const Value two = Value::list({Value::scalar("a"), Value::scalar("b")});
