@@ -192,6 +192,7 @@ void append(Mesh& a, const Mesh& b) {
     } else {
         append_attributes(a, b);
         append_arrays(a, b);
+        a.drop(primitive_attribute, Domain::face); // tables of several equal entries are one now
     }
     a.primitives = one_plain ? std::vector<Primitive>{} : std::move(joined.table);
 }

@@ -284,6 +284,15 @@ TEST_CASE("append keeps equal primitives once", "[mesh]") {
     CHECK(a.primitive_of(0) == a.primitive_of(23));
 }
 
+TEST_CASE("append of several plain primitives to one leaves no numbers of them", "[mesh]") {
+    Mesh a = shapes::cube(), b = shapes::cube();
+    b.primitives = {{}, {}};
+    b.attributes.push_back(face_numbers("primitive", {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}));
+    append(a, b);
+    CHECK(broken_invariants(a).empty());
+    CHECK(a.primitive_of(23) == 0);
+}
+
 TEST_CASE("append to itself and to nothing", "[mesh]") {
     Mesh a = shapes::cube(), empty;
     append(a, a);
