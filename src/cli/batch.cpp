@@ -239,7 +239,10 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
 } // namespace
 
 Command batch_command() {
-    return {"batch", "Runs a pipeline for each of many inputs, in one process.", batch_examples, {},
+    return {"batch",
+            "Runs a pipeline for each of many inputs, in one process.",
+            batch_examples,
+            {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<BatchOptions>();
                 add_batch_options(arguments, *options);

@@ -67,7 +67,10 @@ int cache_work(const std::string& action, bool json) {
 } // namespace
 
 Command cache_command() {
-    return {"cache", "Shows or empties the cache of results.", cache_examples, {},
+    return {"cache",
+            "Shows or empties the cache of results.",
+            cache_examples,
+            {},
             [](Arguments& arguments, Console&) {
                 auto action = std::make_shared<std::string>();
                 auto json = std::make_shared<bool>(false);

@@ -31,7 +31,10 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
 } // namespace
 
 Command check_command() {
-    return {"check", "Checks pipeline files, and the headers of their inputs.", check_examples, {},
+    return {"check",
+            "Checks pipeline files, and the headers of their inputs.",
+            check_examples,
+            {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();

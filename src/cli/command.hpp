@@ -31,14 +31,15 @@ class CommandLine {
 /// What a command's work gets.
 struct Invocation {
     const CommandLine& line;
-    std::size_t rest = 0; ///< for pipe and render: index of the first argument that is not an option of the command
+    std::size_t rest =
+        0; ///< for pipe and render: index of the first argument that is not an option of the command
 };
 
 struct Command {
     std::string name, about;
-    std::string examples;        ///< worked examples and whatever else --help says at its end
-    /// What stands behind the options, as the usage line of --help shows it: these are read only up to the first
-    /// other word. Empty: options may stand anywhere.
+    std::string examples; ///< worked examples and whatever else --help says at its end
+    /// What stands behind the options, as the usage line of --help shows it: these are read only up to the
+    /// first other word. Empty: options may stand anywhere.
     std::string the_rest{};
     /// Declares the arguments; what it returns is called after they are read, for the exit code.
     std::function<std::function<int(const Invocation&)>(Arguments&, Console&)> declare;

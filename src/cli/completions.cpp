@@ -185,7 +185,10 @@ std::string completions_for(const std::string& shell) {
 } // namespace
 
 Command completions_command() {
-    return {"completions", "Prints completions for bash, zsh or fish.", completions_examples, {},
+    return {"completions",
+            "Prints completions for bash, zsh or fish.",
+            completions_examples,
+            {},
             [](Arguments& arguments, Console&) {
                 auto shell = std::make_shared<std::string>();
                 arguments.add("SHELL", shell.get(), "bash, zsh or fish.")

@@ -134,8 +134,11 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 
 Command diff_command() {
     return {
-        "diff", "Compares two mesh files, or two folders; the exit code is 1 when they differ.",
-        diff_examples, {}, [](Arguments& arguments, Console& console) {
+        "diff",
+        "Compares two mesh files, or two folders; the exit code is 1 when they differ.",
+        diff_examples,
+        {},
+        [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<DiffOptions>();
             auto& settings = options->settings;
             arguments

@@ -102,7 +102,10 @@ std::vector<Topic> topics() {
 }
 
 Command docs_command() {
-    return {"docs", "Prints the manual: guides, pages, commands, stages, messages.", docs_examples, {},
+    return {"docs",
+            "Prints the manual: guides, pages, commands, stages, messages.",
+            docs_examples,
+            {},
             [](Arguments& arguments, Console& console) {
                 auto name = std::make_shared<std::string>();
                 arguments.add("TOPIC", name.get(), "A topic, or the id of a message. Without it: the list.");

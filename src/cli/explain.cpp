@@ -48,7 +48,10 @@ int explain(const ExplainOptions& options, const CommandLine& line) {
 } // namespace
 
 Command explain_command() {
-    return {"explain", "Explains the id of an error or warning.", explain_examples, {},
+    return {"explain",
+            "Explains the id of an error or warning.",
+            explain_examples,
+            {},
             [](Arguments& arguments, Console&) {
                 auto options = std::make_shared<ExplainOptions>();
                 arguments.add("ID", &options->id, "E-KEY, W-UNITS ... Without it: all of them.");

@@ -100,8 +100,11 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
 } // namespace
 
 Command export_command() {
-    return {"export", "Writes the runs of many inputs as a workflow for Ninja, Make or Snakemake.",
-            export_examples, {}, [](Arguments& arguments, Console& console) {
+    return {"export",
+            "Writes the runs of many inputs as a workflow for Ninja, Make or Snakemake.",
+            export_examples,
+            {},
+            [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<ExportOptions>();
                 options->common.threads = 1;
                 arguments.add("--to", &options->engine, "The engine that the workflow is for.")

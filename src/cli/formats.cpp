@@ -80,7 +80,10 @@ int list_formats(bool json) {
 } // namespace
 
 Command formats_command() {
-    return {"formats", "Lists the formats that are read and written.", formats_examples, {},
+    return {"formats",
+            "Lists the formats that are read and written.",
+            formats_examples,
+            {},
             [](Arguments& arguments, Console&) {
                 auto json = std::make_shared<bool>(false);
                 arguments.add("--json", json.get(), "As JSON.");

@@ -237,7 +237,10 @@ int info(const InfoOptions& options, const Console& console, const CommandLine& 
 } // namespace
 
 Command info_command() {
-    return {"info", "Shows the properties of mesh files.", info_examples, {},
+    return {"info",
+            "Shows the properties of mesh files.",
+            info_examples,
+            {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<InfoOptions>();
                 arguments.add("MESH", &options->meshes, "Mesh files, or - for standard input.").required();

@@ -29,8 +29,11 @@ int migrate(const std::vector<std::string>& pipelines, bool check, const Command
 } // namespace
 
 Command migrate_command() {
-    return {"migrate", "Says what must be changed in pipelines for the current format.", migrate_examples,
-            {}, [](Arguments& arguments, Console& console) {
+    return {"migrate",
+            "Says what must be changed in pipelines for the current format.",
+            migrate_examples,
+            {},
+            [](Arguments& arguments, Console& console) {
                 auto pipelines = std::make_shared<std::vector<std::string>>();
                 auto check = std::make_shared<bool>(false);
                 arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();

@@ -77,7 +77,10 @@ int write_new(const NewOptions& options, const CommandLine& line, const Console&
 } // namespace
 
 Command new_command() {
-    return {"new", "Writes a commented pipeline to begin with.", new_examples, {},
+    return {"new",
+            "Writes a commented pipeline to begin with.",
+            new_examples,
+            {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<NewOptions>();
                 arguments.add("FILE", &options->file, "The file to write; -: print it.").required();

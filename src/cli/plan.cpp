@@ -52,8 +52,11 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
 
 Command plan_command() {
     return {
-        "plan", "Shows what a pipeline would do, with everything resolved, without running it.",
-        plan_examples, {}, [](Arguments& arguments, Console& console) {
+        "plan",
+        "Shows what a pipeline would do, with everything resolved, without running it.",
+        plan_examples,
+        {},
+        [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<PlanOptions>();
             arguments.add("PIPELINE", &options->pipeline, "A YAML file, - or a ready pipeline.").required();
             arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");

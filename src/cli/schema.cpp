@@ -20,8 +20,11 @@ constexpr const char* schema_examples = R"(Examples
 } // namespace
 
 Command schema_command() {
-    return {"schema", "Prints the JSON Schema of pipelines, reports, batches, timings, info or diff.",
-            schema_examples, {}, [](Arguments& arguments, Console&) {
+    return {"schema",
+            "Prints the JSON Schema of pipelines, reports, batches, timings, info or diff.",
+            schema_examples,
+            {},
+            [](Arguments& arguments, Console&) {
                 auto what = std::make_shared<std::string>("pipeline");
                 arguments
                     .add("WHAT", what.get(),

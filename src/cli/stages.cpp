@@ -42,7 +42,10 @@ int list_stages(const StagesOptions& options, const CommandLine& line) {
 } // namespace
 
 Command stages_command() {
-    return {"stages", "Lists the stages, or describes one.", stages_examples, {},
+    return {"stages",
+            "Lists the stages, or describes one.",
+            stages_examples,
+            {},
             [](Arguments& arguments, Console&) {
                 auto options = std::make_shared<StagesOptions>();
                 arguments.add("NAME", &options->name, "A stage.");

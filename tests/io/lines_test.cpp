@@ -56,7 +56,7 @@ TEST_CASE("lines of an OBJ come by object, with their points and materials", "[i
     CHECK(b.points[b.segments[0].from] == Vec3{5, 0, 0});
     CHECK(loaded.scene.materials.at(b.segments[0].material).name == "blue");
     CHECK(loaded.scene.materials.at(a.segments[0].material).name == "red");
-    REQUIRE(loaded.scene.parts.size() == 1); // points of lines only are no vertices
+    REQUIRE(loaded.scene.parts.size() == 1);               // points of lines only are no vertices
     CHECK(loaded.scene.parts[0].mesh.vertex_count() == 4); // with the first, which nothing uses
     CHECK(loaded.log.warnings.empty());
 }
