@@ -362,6 +362,9 @@ class CellCleaning {
         whole_ = {};
         faces_ = {};
         const auto faces = static_cast<std::uint32_t>(placed_->faces());
+        if (by.gone.size() == faces && by.come.mesh.face_count() == 0)
+            throw Error(ErrorKind::stage, "E-EMPTY", "clean: no face of the mesh is left",
+                        "what is left of a mesh in memory may be empty: --partition never");
         placed_.reset(); // temporary data goes first
         partition_.reset();
         partition_ =

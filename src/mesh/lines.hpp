@@ -24,8 +24,8 @@ struct Lines {
 /// The lines of the part as it stands in the world, under its name. O(n).
 Lines lines_of(const Part& part);
 
-/// Parts a mesh that has both faces and lines: returns the lines, with the vertices that they use and what
-/// these have of attributes, without primitives. Vertices that only lines use go from the mesh. O(n).
+/// Parts a mesh that has lines and faces or points: returns the lines, with the vertices that they use and
+/// what these have of attributes, without primitives. Vertices that only lines use go from the mesh. O(n).
 Mesh split_lines(Mesh& mesh);
 
 } // namespace facetmill

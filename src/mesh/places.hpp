@@ -20,13 +20,13 @@ namespace facetmill {
 /// The bits of a point's three float32, 0 for -0: equal where the point is, also where it is not a number.
 using FloatBits = std::array<std::uint32_t, 3>;
 
-/// A well-mixed number of the coordinates (products of 128 bits folded to 64, after
-/// Y. Wang et al., "wyhash", 2019).
+/// A well-mixed number of the coordinates (products of 128 bits folded to 64 with their factors, so that none
+/// is lost beside one that is 0; after Y. Wang et al., "wyhash", 2019).
 inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     __extension__ using Wide = unsigned __int128;
     const auto mixed = [](std::uint64_t x, std::uint64_t y) {
         const Wide product = Wide{x} * y;
-        return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+        return x ^ y ^ static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
     };
     constexpr std::uint64_t keys[] = {0xa0761d6478bd642f, 0xe7037ed1a0b428db, 0x8ebc6af09c88c6e3};
     return mixed(mixed(a ^ keys[0], b ^ keys[1]) ^ keys[2], c ^ keys[1]);
@@ -160,6 +160,7 @@ std::size_t number_places(std::vector<Index>& number, std::size_t expected, cons
     static_assert(default_chunk % 64 == 0, "a word of flags belongs to one chunk");
     while (!table.add(number, is_first, point)) {
         slots = std::min(most, 4 * slots);
+        table = PlaceTable(1, true); // the old one is freed before there is a new one
         table = PlaceTable(slots, slots < most);
         std::fill(is_first.begin(), is_first.end(), 0);
     }

@@ -5,19 +5,14 @@ import os
 import pathlib
 import shutil
 import signal
-import struct
 import subprocess
 import sys
 import unittest
 
+from cells_support import triangles, variants
 from support import FACETMILL, SCAN, SLOW, LargeCase, main
 
 MEGABYTE = 1 << 20
-
-
-def variants(*all_of_them):
-    """Runs that are compared; under sanitizers the second of them alone."""
-    return all_of_them[1:2] if SLOW else all_of_them
 
 
 def memory_group(test, limit):
@@ -37,76 +32,6 @@ def memory_group(test, limit):
             return group
     print(f"notice: no control group for memory can be made here, skipped {test.id()}", file=sys.stderr)
     return test.skipTest("no control group for memory")
-
-
-def vertex_size(head):
-    """The bytes of a vertex of a binary PLY, x, y and z first."""
-    return sum({b"float": 4, b"double": 8}[line.split()[1]] for line in head.split(b"element face")[0].splitlines()
-               if line.startswith(b"property"))
-
-
-def triangles(path):
-    """The faces of a binary PLY or STL as places, summed up so that numbers and order do not matter."""
-    data = path.read_bytes()
-    if path.suffix == ".stl":
-        rows = struct.iter_unpack("<12x36s2x", data[84:])
-        faces = ([row[0][12 * k:12 * k + 12] for k in range(3)] for row in rows)
-    else:
-        head, body = data.split(b"end_header\n", 1)
-        vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-        more = 4 * sum(line.startswith(b"property") for line in head.split(b"vertex_indices\n")[1].splitlines())
-        size = vertex_size(head)
-        rows = struct.iter_unpack(f"<B3i{more}x", body[size * vertices:])
-        faces = ([body[size * v:size * v + 12] for v in row[1:]] for row in rows)
-    count = total = 0
-    for face in faces:
-        count += 1
-        total += hash(b"".join(min(face[k:] + face[:k] for k in range(3))))
-    return count, total
-
-
-def rows(path):
-    """The vertices of a binary PLY with all of their attributes, in an order of their own; and the bytes of the file."""
-    data = path.read_bytes()
-    head, body = data.split(b"end_header\n", 1)
-    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-    size = vertex_size(head)
-    return sorted(body[size * v:size * (v + 1)] for v in range(vertices)), len(data)
-
-
-def scarred(path, scarred_path):
-    """A binary PLY with some faces left out, some twice, some with vertices of their own."""
-    head, body = path.read_bytes().split(b"end_header\n", 1)
-    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-    size = vertex_size(head)
-    points = [body[size * v:size * (v + 1)] for v in range(vertices)]
-    faces = []
-    for number, (_, *face) in enumerate(struct.iter_unpack("<B3i", body[size * vertices:])):
-        if number % 5000 == 17:
-            continue
-        faces.append(face)
-        if number % 7001 == 99:
-            faces.append(face[1:] + face[:1])
-        if number % 4001 == 55:
-            points += [points[v] for v in face]
-            faces[-1] = [len(points) - 3, len(points) - 2, len(points) - 1]
-    lines = [b"element %s %d" % (line.split()[1], len(points if b"vertex" in line else faces))
-             if line.startswith(b"element") else line for line in head.splitlines()]
-    scarred_path.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(points)
-                             + b"".join(struct.pack("<B3i", 3, *face) for face in faces))
-
-
-def soup(path):
-    """An STL-like PLY beside a binary PLY: each face with vertices of its own."""
-    head, body = path.read_bytes().split(b"end_header\n", 1)
-    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-    size = vertex_size(head)
-    corners = [v for _, *face in struct.iter_unpack("<B3i", body[size * vertices:]) for v in face]
-    lines = [b"element vertex %d" % len(corners) if line.startswith(b"element vertex") else line for line in head.splitlines()]
-    apart = path.with_name("soup.ply")
-    apart.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(body[size * v:size * v + size] for v in corners)
-                      + b"".join(struct.pack("<B3i", 3, v, v + 1, v + 2) for v in range(0, len(corners), 3)))
-    return apart
 
 
 class Cells(LargeCase):
@@ -225,130 +150,6 @@ class Cells(LargeCase):
                                          expect=2).stderr)
         self.assertIn("E-OVERWRITE", self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", "write", "large.ply",
                                                expect=2).stderr)
-
-    def test_a_large_mesh_is_measured_in_cells(self):
-        self.large()
-        results = set()
-        for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
-            self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "load", "large.ply", "!", "measure",
-                      "--path", "o.json")
-            results.add((self.dir / "o.json").read_bytes())
-        self.assertEqual(len(results), 1)
-        self.mill("pipe", "load", "large.ply", "!", "measure", "--path", "whole.json")
-        found, whole = (json.loads((self.dir / name).read_text())["parts"][0] for name in ("o.json", "whole.json"))
-        for group, name in (("faces", "angle"), ("faces", "area"), ("edges", "length"), ("edges", "turn")):
-            for key in ("count", "minimum", "median", "maximum"):
-                self.assertEqual(found[group][name][key], whole[group][name][key])
-        for key in ("convex", "concave", "flat", "feature", "boundary", "non_manifold"):
-            self.assertEqual(found["edges"][key], whole["edges"][key])
-        self.assertAlmostEqual(found["solid"]["volume"] / whole["solid"]["volume"], 1, 12)
-
-    def test_a_large_mesh_is_split_in_cells(self):
-        scan = self.dir / "scan.ply"
-        self.mill("pipe", "load", SCAN, "!", "measure", "--curvature", "!", "write", scan)
-        for passes in variants(1, 2):
-            results = set()
-            for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
-                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
-                          scan, "!", "split", "midpoint", "--passes", passes, "!", "validate", "--closed",
-                          "--vertex_manifold", "!", "write", "o.ply")
-                results.add((self.dir / "o.ply").read_bytes())
-            self.assertEqual(len(results), 1)
-            self.mill("pipe", "--report", "whole.json", "load", scan, "!", "split", "midpoint", "--passes", passes, "!",
-                      "write", "whole.ply")
-            found, whole = (json.loads((self.dir / name).read_text())["stages"][1]["result"]["parts"][0]
-                            for name in ("o.json", "whole.json"))
-            self.assertEqual(found, whole)
-            self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
-        self.assertIn("E-LIMIT", self.mill("pipe", "--partition", "always", "load", scan, "!", "split", "midpoint",
-                                           "--passes", 9, "!", "write", "o.ply", expect=7).stderr)
-
-    def test_a_large_mesh_is_crumpled_in_cells(self):
-        scan = self.dir / "scan.ply"
-        self.mill("pipe", "load", SCAN, "!", "measure", "--curvature", "!", "write", scan)
-        turn = ("transform", "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "!")  # percentages are of the world's box
-        for chain in variants((*turn, "crumple", "0.05%"), ("crumple", "0.1% of load", "--grid", 1, "--seed", 7),
-                              (*turn, "split", "midpoint", "!", "crumple", "0.5%", "--grid", 1, "--frequency", 3, "--octaves", 3)):
-            results = set()
-            for threads, memory in variants((1, "40M"), (2, "64M"), (5, "1G")):
-                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
-                          scan, "!", *chain, "!", "validate", "--closed", "--vertex_manifold", "!", "write", "o.ply")
-                results.add((self.dir / "o.ply").read_bytes())
-            self.assertEqual(len(results), 1)
-            self.mill("pipe", "--report", "whole.json", "load", scan, "!", *chain, "!", "validate", "--closed",
-                      "--vertex_manifold", "!", "write", "whole.ply")
-            found, whole = (json.loads((self.dir / name).read_text()) for name in ("o.json", "whole.json"))
-            found, whole = (next(stage for stage in report["stages"] if stage["stage"] == "crumple")
-                            for report in (found, whole))
-            self.assertEqual(found["resolved"], whole["resolved"])
-            found, whole = (stage["result"]["parts"][0] for stage in (found, whole))
-            self.assertAlmostEqual(found.pop("root_mean_square_move") / whole.pop("root_mean_square_move"), 1, 12)
-            self.assertEqual(found, whole)
-            self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
-            self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
-
-    def test_a_large_mesh_is_cleaned_in_cells(self):
-        scarred(self.large(), self.dir / "scarred.ply")
-        for options in variants(("--t_junctions", "off"), ()):
-            results = set()
-            for threads, memory in variants((1, "48M"), (2, "64M"), (5, "1G")):
-                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
-                          "scarred.ply", "!", "clean", *options, "!", "write", "o.ply")
-                results.add((self.dir / "o.ply").read_bytes())
-            self.assertEqual(len(results), 1)
-            self.mill("pipe", "--report", "whole.json", "load", "scarred.ply", "!", "clean", *options, "!", "write", "whole.ply")
-            found, whole = (json.loads((self.dir / name).read_text())["stages"][1] for name in ("o.json", "whole.json"))
-            self.assertEqual(found["result"], whole["result"])
-            self.assertGreater(found["result"]["parts"][0]["welded_vertices"], 100)
-            self.assertEqual(found["after"]["bounds"], whole["after"]["bounds"])
-            self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
-            self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
-        self.mill("pipe", "load", "large.ply", "!", "measure", "--curvature", "!", "write", "attributes.ply")
-        scarred(self.dir / "attributes.ply", self.dir / "scarred.ply")
-        run = self.mill("pipe", "--partition", "always", "load", "scarred.ply", "!", "clean", "!", "write", "o.ply", expect=2)
-        self.assertIn("vertices at one place have attributes of their own", run.stderr)
-        self.mill("pipe", "--partition", "always", "load", "scarred.ply", "!", "clean", "--weld", "off",
-                  "--non_manifold=false", "!", "write", "o.ply")
-        self.mill("pipe", "load", "scarred.ply", "!", "clean", "--weld", "off", "--non_manifold=false", "!", "write",
-                  "whole.ply")
-        self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
-        self.assertIn("places are not sound", self.mill(
-            "pipe", "--memory", "32M", "--partition", "always", "load", soup(self.dir / "large.ply"), "!", "clean", "--weld",
-            "off", "!", "write", "o.ply", expect=7).stderr)
-
-    def test_a_large_mesh_is_cut_by_planes_in_cells(self):
-        self.large()
-        turn = ("transform", "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "!")
-        for chain in variants(("section", "z=50%", "--hatch", "2%"), (*turn, "section", "--count", 5), (*turn, "section", "x=40%")):
-            results = set()
-            for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
-                self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "--report", "o.json", "load",
-                          "large.ply", "!", *chain, "--path", "o.cut.json", "--path", "o.svg", "!", "validate", "--closed")
-                results.add((self.dir / "o.svg").read_bytes())
-            self.assertEqual(len(results), 1)
-            self.mill("pipe", "--report", "whole.json", "load", "large.ply", "!", *chain, "--path", "whole.cut.json", "--path",
-                      "whole.svg")
-            for suffix in (".cut.json", ".svg"):
-                self.assertEqual(*((self.dir / (n + suffix)).read_bytes() for n in ("o", "whole")))
-            found, whole = (next(stage["result"] for stage in json.loads((self.dir / name).read_text())["stages"]
-                                 if stage["stage"] == "section") for name in ("o.json", "whole.json"))
-            if "volume" in whole:  # a sum in another order
-                self.assertAlmostEqual(found.pop("volume") / whole.pop("volume"), 1, 12)
-                self.assertAlmostEqual(found.pop("ratio") / whole.pop("ratio"), 1, 12)
-            self.assertEqual(found, whole)
-        for how, out in (("always", "o.ply"), ("never", "whole.ply")):  # the box is that of what was turned
-            self.mill("pipe", "--partition", how, "load", "large.ply", "!", *turn, "clip", "z=60%", "--triangulate", "!",
-                      "write", out)
-        self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
-        self.assertIn("E-MEMORY", self.mill("pipe", "--memory", "32M", "--partition", "always", "load", "large.ply", "!",
-                                            "section", "--count", 500, expect=7).stderr)
-
-    def test_crumple_in_cells_leaves_normals_out_and_says_so(self):
-        self.mill("pipe", "load", SCAN, "!", "write", "normals.ply", "--normals", "smooth")
-        run = self.mill("pipe", "--partition", "always", "load", "normals.ply", "!", "crumple", "!", "write", "o.ply")
-        self.assertIn("W-CELLS", run.stderr)
-        self.assertIn("do not carry NORMAL further", run.stderr)
-        self.assertNotIn(b"property float nx", (self.dir / "o.ply").read_bytes()[:999])
 
     def test_a_glb_is_written_in_cells(self):
         self.large()

@@ -58,7 +58,8 @@ TEST_CASE("lines of an OBJ come by object, with their points and materials", "[i
     CHECK(loaded.scene.materials.at(a.segments[0].material).name == "red");
     REQUIRE(loaded.scene.parts.size() == 1);               // points of lines only are no vertices
     CHECK(loaded.scene.parts[0].mesh.vertex_count() == 4); // with the first, which nothing uses
-    CHECK(loaded.log.warnings.empty());
+    REQUIRE(loaded.log.warnings.size() == 1);
+    CHECK(loaded.log.warnings[0].message.find("texture points of l") != std::string::npos);
 }
 
 TEST_CASE("lines of an OBJ are parts, by object, with the colours of their vertices and their materials",
@@ -69,7 +70,9 @@ TEST_CASE("lines of an OBJ are parts, by object, with the colours of their verti
              "usemtl blue\nl 3 2\no b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nl -3 -2\nf 5 6 7\nusemtl\nl 5 7\n",
              false);
     CHECK(loaded.log.lines.empty());
-    CHECK(loaded.log.warnings.empty());
+    REQUIRE(loaded.log.warnings.size() == 1);
+    CHECK(loaded.log.warnings[0].id == "W-SKIPPED");
+    CHECK(loaded.log.warnings[0].message.find("texture points of l") != std::string::npos);
     REQUIRE(loaded.scene.parts.size() == 3);
     CHECK(broken_invariants(loaded.scene).empty());
     CHECK(loaded.scene.parts[0].name == "b");
@@ -98,9 +101,18 @@ TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
         edges = "element edge 2\nproperty int vertex1\nproperty int vertex2\n",
         faces = "element face 1\nproperty list uchar int vertex_indices\n";
     const Loaded alone = load("a.ply", head + edges + "end_header\n" + rows + "3 1\n1 0\n", false);
-    REQUIRE(alone.scene.parts.size() == 1);
-    CHECK(alone.scene.parts[0].mesh.vertex_count() == 5);
-    CHECK(alone.scene.parts[0].mesh.lines == std::vector<Index>{3, 1, 1, 0});
+    REQUIRE(alone.scene.parts.size() == 2);
+    CHECK(broken_invariants(alone.scene).empty());
+    const Mesh& points = alone.scene.parts[0].mesh; // what no line uses
+    CHECK(points.positions == std::vector<Vec3>{Vec3{0, 1, 0}, Vec3{6, 6, 6}});
+    CHECK(points.find("heat", Domain::wedge)->value(1, 0) == 5);
+    CHECK(alone.scene.parts[1].name == "lines");
+    CHECK(alone.scene.parts[1].mesh.lines == std::vector<Index>{2, 1, 1, 0});
+    const std::string more = "element edge 4\nproperty int vertex1\nproperty int vertex2\n";
+    const Loaded all = load("a.ply", head + more + "end_header\n" + rows + "3 1\n1 0\n2 4\n0 2\n", false);
+    REQUIRE(all.scene.parts.size() == 1);
+    CHECK(all.scene.parts[0].mesh.vertex_count() == 5);
+    CHECK(all.scene.parts[0].mesh.lines == std::vector<Index>{3, 1, 1, 0, 2, 4, 0, 2});
     const Loaded both =
         load("a.ply", head + faces + edges + "end_header\n" + rows + "3 0 1 2\n3 1\n1 0\n", false);
     CHECK(both.log.warnings.empty());

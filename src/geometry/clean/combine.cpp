@@ -127,6 +127,8 @@ class Combining {
         Failures failures = trial.run(found, &operands);
         std::size_t crowded = 0;
         if (failures.empty()) failures = trial.open_clusters(crowded);
+        if (failures.empty() && crowded > 0)
+            failures.emplace(0, "the result, rounded, would not be edge-manifold");
         if (!failures.empty()) {
             const Vec3 at = found.pairs.empty() ? Vec3{} : corner_mean(work_.mesh, found.pairs[0].first);
             CombineResult result = failed({failures.begin()->second, none, at});

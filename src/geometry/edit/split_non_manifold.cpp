@@ -176,7 +176,8 @@ DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges, cons
         const Vec3 &a = mesh.positions[low], &b = mesh.positions[high];
         const Vec3 middle = mix(a, b, 0.5), rounded = as_float32(middle);
         const Vec3 point = how.single && is_finite(rounded) ? rounded : middle;
-        const bool beside = is_finite(a) && is_finite(b) && is_finite(point) && !collinear(a, b, point);
+        const bool beside = is_finite(a) && is_finite(b) && is_finite(point) &&
+                            (point == a || point == b || !collinear(a, b, point));
         result.edges.push_back({low, high, point, beside});
         const auto groups = groups_at(edges, joints, e);
         for (std::size_t g = how.all || beside ? 0 : 1; g < groups.size(); ++g) {

@@ -36,7 +36,7 @@ struct DividedEdges {
     struct Edge {
         Index low, high; ///< its vertices, which stay
         Vec3 point;
-        bool beside; ///< the point, as rounded, is not on the edge: faces have moved
+        bool beside; ///< the point, as rounded, is not within the edge: faces have moved
     };
     Mesh mesh; ///< empty when no edge was divided
     AttributeChanges changes;

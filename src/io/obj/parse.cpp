@@ -136,10 +136,13 @@ class ChunkParser {
     void line() {
         const std::size_t first = chunk_.corners.size();
         while (!text_.at_line_end()) corner();
+        bool has_texture_points = false;
         for (std::size_t i = first; i < chunk_.corners.size(); ++i) {
+            has_texture_points |= chunk_.corners.at(i, 1) != absent;
             chunk_.line_corners.push_back(chunk_.corners.at(i, 0));
             chunk_.line_relative.push_back(chunk_.corners.bits(i) & 1);
         }
+        if (has_texture_points) ++out_.skipped["texture points of l"];
         chunk_.corners.shrink(first);
         out_.line_offsets.push_back(static_cast<Index>(chunk_.line_corners.size()));
     }

@@ -604,11 +604,19 @@ Scene Builder::read() {
     return scene;
 }
 
-constexpr const char* part_of_lines = "lines"; ///< beside that of the faces
+constexpr const char* part_of_lines = "lines"; ///< beside that of the faces or points
+
+/// Points that no line uses are points, as they are without the lines.
+bool is_lines_alone(const Mesh& mesh) {
+    if (mesh.face_count() > 0) return false;
+    std::vector<std::uint8_t> used(mesh.vertex_count());
+    for (const Index w : mesh.lines) used[mesh.vertex_of_wedge(w)] = 1;
+    return std::find(used.begin(), used.end(), 0) == used.end();
+}
 
 void Builder::add_parts(Scene& scene) {
     Mesh lines;
-    if (mesh_.face_count() > 0 && mesh_.line_count() > 0) lines = split_lines(mesh_);
+    if (mesh_.line_count() > 0 && !is_lines_alone(mesh_)) lines = split_lines(mesh_);
     scene.parts.emplace_back().mesh = std::move(mesh_);
     if (lines.line_count() == 0) return;
     if (corner_uvs_) lines.drop("TEXCOORD_0", Domain::wedge);
@@ -684,8 +692,7 @@ const RegisterCodec codec({
                 if (const auto relative = relative_path_of(texture))
                     if (const auto path = path_below(input, *relative)) header.files.push_back(*path);
             header.parts = {""};
-            if ((has_elements(read, "face") || has_elements(read, "tristrips")) &&
-                has_elements(read, "edge") && has_property(read, "edge", "vertex1") &&
+            if (has_elements(read, "edge") && has_property(read, "edge", "vertex1") &&
                 has_property(read, "edge", "vertex2"))
                 header.parts.emplace_back(part_of_lines);
             if (read.textures.empty() || !has_texture_points(read) || input.path().empty()) return;
