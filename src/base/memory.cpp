@@ -1,13 +1,13 @@
 #include "base/memory.hpp"
 
 #include "base/error.hpp"
+#include "base/storage.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace facetmill {
 
@@ -53,8 +53,7 @@ std::optional<std::uint64_t> of_group(const std::string& folder) {
 std::optional<std::uint64_t> of_process() {
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
-    const std::uint64_t used =
-        number_in("/proc/self/statm").value_or(0) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    const std::uint64_t used = number_in("/proc/self/statm").value_or(0) * std::uint64_t{page_size()};
     return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
 }
 

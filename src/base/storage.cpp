@@ -9,11 +9,16 @@
 
 namespace facetmill {
 
+std::size_t page_size() noexcept {
+    static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    return size;
+}
+
 void ask_for_large_pages(void* memory, std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
     constexpr std::size_t least = std::size_t{2} << 20; // less holds no page of 2 MiB
     if (bytes < least) return;
-    static const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const std::size_t page = page_size();
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t begin = start / page * page, end = (start + bytes + page - 1) / page * page;
     // Refused (a kernel without them): the pages are small, as they would have been.
@@ -30,7 +35,7 @@ void prefault(void* memory, std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
     constexpr std::size_t piece = std::size_t{2} << 20; // a large page
     if (bytes < piece) return;
-    static const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const std::size_t page = page_size();
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t begin = start / page * page, end = (start + bytes) / page * page;
     parallel_chunks(

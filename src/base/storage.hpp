@@ -7,6 +7,9 @@
 
 namespace facetmill {
 
+/// Bytes of a page of memory, as the system counts them.
+std::size_t page_size() noexcept;
+
 /// Lets the system give the memory in pages of 2 MiB where it is large: to get it and to give it back then
 /// takes a fifth of the time that pages of 4 KiB take (Linux, transparent huge pages). operator new asks for
 /// all that it gives.

@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "base/sandbox.hpp"
+#include "base/storage.hpp"
 #include "io/packing.hpp"
 
 #include <algorithm>
@@ -124,7 +125,7 @@ void Input::release(Span part) const {
     const auto before = [](const std::byte* a, const std::byte* b) { return std::less<>()(a, b); };
     const std::byte *const begin = part.data(), *const end = begin + part.size();
     if (!mapped_ || before(begin, stored_.data()) || before(stored_.data() + stored_.size(), end)) return;
-    static const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const std::size_t page = page_size();
     const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page,
                last = reinterpret_cast<std::uintptr_t>(end) / page * page;
     if (first < last) (void)::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);

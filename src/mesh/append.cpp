@@ -155,10 +155,6 @@ void append_arrays(Mesh& a, const Mesh& b) {
     a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
 }
 
-} // namespace
-
-namespace {
-
 /// The primitive of each line, of both; empty where all are of the first.
 std::vector<Index> joined_line_primitives(const Mesh& a, const Mesh& b, const std::vector<Index>& of_b) {
     std::vector<Index> all;

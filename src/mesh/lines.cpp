@@ -18,17 +18,22 @@ Lines lines_of(const Part& part) {
     return lines;
 }
 
+std::vector<std::uint8_t> marked_ends_of_lines(const Mesh& mesh) {
+    std::vector<std::uint8_t> marked(mesh.vertex_count());
+    for (const Index w : mesh.lines) marked[mesh.vertex_of_wedge(w)] = 1;
+    return marked;
+}
+
 Mesh split_lines(Mesh& mesh) {
     Mesh apart;
     apart.positions = mesh.positions;
     apart.wedge_vertex = mesh.wedge_vertex;
     for (const Attribute& a : mesh.attributes)
         if (a.domain != Domain::face) apart.attributes.push_back(a);
+    const std::vector<std::uint8_t> of_lines = marked_ends_of_lines(mesh);
     apart.lines = std::move(mesh.lines);
     mesh.lines = {};
     mesh.line_primitive = {};
-    std::vector<std::uint8_t> of_lines(mesh.vertex_count());
-    for (const Index w : apart.lines) of_lines[mesh.vertex_of_wedge(w)] = 1;
     drop_unused(mesh, of_lines);
     drop_unused(apart);
     return apart;

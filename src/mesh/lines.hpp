@@ -24,6 +24,9 @@ struct Lines {
 /// The lines of the part as it stands in the world, under its name. O(n).
 Lines lines_of(const Part& part);
 
+/// [vertices] 1 where a line of the mesh uses the vertex. O(n).
+std::vector<std::uint8_t> marked_ends_of_lines(const Mesh& mesh);
+
 /// Parts a mesh that has lines and faces or points: returns the lines, with the vertices that they use and
 /// what these have of attributes, without primitives. Vertices that only lines use go from the mesh. O(n).
 Mesh split_lines(Mesh& mesh);

@@ -108,16 +108,6 @@ Mesh scarred(unsigned seed, unsigned rarely) {
     return mesh;
 }
 
-/// Every triangle by itself.
-Mesh soup(const Mesh& mesh) {
-    Mesh apart;
-    for (Index c = 0; c < mesh.corner_count(); ++c) {
-        apart.corners.push_back(c);
-        apart.positions.push_back(mesh.point(c));
-    }
-    return apart;
-}
-
 /// A cube whose top carries a wall, so that three faces meet at edges of sheets whose own borders are far.
 Mesh cube_with_fin() {
     Mesh mesh = shapes::cube();
@@ -157,10 +147,10 @@ TEST_CASE("cells of sheets that meet at edges are taken apart as the mesh is", "
 }
 
 TEST_CASE("cells of triangles that stand alone are welded", "[cells]") {
-    const Mesh sphere = soup(on_a_lattice(test::noisy_icosphere(4, 0.02, 5)));
+    const Mesh sphere = test::torn_apart(on_a_lattice(test::noisy_icosphere(4, 0.02, 5)));
     const CleanCounts counts = check_clean(sphere, 400);
     CHECK(counts.welded_vertices == sphere.vertex_count() - 2562);
-    check_clean(soup(scarred(3, 300)), 300);
+    check_clean(test::torn_apart(scarred(3, 300)), 300);
 }
 
 TEST_CASE("what is sound stays in cells as it is", "[cells]") {

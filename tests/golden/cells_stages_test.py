@@ -4,18 +4,23 @@ import json
 import struct
 import unittest
 
-from cells_support import rows, triangles, variants, vertex_size
+from cells_support import parted_ply, rows, triangles, variants
 from support import SCAN, SLOW, LargeCase, main
+
+
+def write_ply(path, head, points, faces):
+    """A binary PLY with the header of another, but for the counts, and triangles."""
+    lines = [b"element %s %d" % (line.split()[1], len(points if b"vertex" in line else faces))
+             if line.startswith(b"element") else line for line in head.splitlines()]
+    path.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(points)
+                     + b"".join(struct.pack("<B3i", 3, *face) for face in faces))
 
 
 def scarred(path, scarred_path):
     """A binary PLY with some faces left out, some twice, some with vertices of their own."""
-    head, body = path.read_bytes().split(b"end_header\n", 1)
-    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-    size = vertex_size(head)
-    points = [body[size * v:size * (v + 1)] for v in range(vertices)]
+    head, points, rest = parted_ply(path)
     faces = []
-    for number, (_, *face) in enumerate(struct.iter_unpack("<B3i", body[size * vertices:])):
+    for number, (_, *face) in enumerate(struct.iter_unpack("<B3i", rest)):
         if number % 5000 == 17:
             continue
         faces.append(face)
@@ -24,22 +29,15 @@ def scarred(path, scarred_path):
         if number % 4001 == 55:
             points += [points[v] for v in face]
             faces[-1] = [len(points) - 3, len(points) - 2, len(points) - 1]
-    lines = [b"element %s %d" % (line.split()[1], len(points if b"vertex" in line else faces))
-             if line.startswith(b"element") else line for line in head.splitlines()]
-    scarred_path.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(points)
-                             + b"".join(struct.pack("<B3i", 3, *face) for face in faces))
+    write_ply(scarred_path, head, points, faces)
 
 
 def soup(path):
     """An STL-like PLY beside a binary PLY: each face with vertices of its own."""
-    head, body = path.read_bytes().split(b"end_header\n", 1)
-    vertices = next(int(line.split()[2]) for line in head.splitlines() if line.startswith(b"element vertex"))
-    size = vertex_size(head)
-    corners = [v for _, *face in struct.iter_unpack("<B3i", body[size * vertices:]) for v in face]
-    lines = [b"element vertex %d" % len(corners) if line.startswith(b"element vertex") else line for line in head.splitlines()]
+    head, points, rest = parted_ply(path)
+    corners = [points[v] for _, *face in struct.iter_unpack("<B3i", rest) for v in face]
     apart = path.with_name("soup.ply")
-    apart.write_bytes(b"\n".join(lines) + b"\nend_header\n" + b"".join(body[size * v:size * v + size] for v in corners)
-                      + b"".join(struct.pack("<B3i", 3, v, v + 1, v + 2) for v in range(0, len(corners), 3)))
+    write_ply(apart, head, corners, [(v, v + 1, v + 2) for v in range(0, len(corners), 3)])
     return apart
 
 

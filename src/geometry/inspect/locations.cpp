@@ -6,6 +6,7 @@
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/orient/orient.hpp"
+#include "mesh/lines.hpp"
 #include "mesh/placement.hpp"
 
 #include <algorithm>
@@ -266,8 +267,7 @@ std::vector<Location> vertices_of_several_fans(const Mesh& mesh, const LocationQ
 }
 
 std::vector<Index> vertices_without_lines(const Mesh& mesh) {
-    std::vector<std::uint8_t> used(mesh.vertex_count());
-    for (const Index w : mesh.lines) used[mesh.vertex_of_wedge(w)] = 1;
+    const std::vector<std::uint8_t> used = marked_ends_of_lines(mesh);
     std::vector<Index> others;
     for (Index v = 0; v < used.size(); ++v)
         if (!used[v]) others.push_back(v);

@@ -609,8 +609,7 @@ constexpr const char* part_of_lines = "lines"; ///< beside that of the faces or 
 /// Points that no line uses are points, as they are without the lines.
 bool is_lines_alone(const Mesh& mesh) {
     if (mesh.face_count() > 0) return false;
-    std::vector<std::uint8_t> used(mesh.vertex_count());
-    for (const Index w : mesh.lines) used[mesh.vertex_of_wedge(w)] = 1;
+    const std::vector<std::uint8_t> used = marked_ends_of_lines(mesh);
     return std::find(used.begin(), used.end(), 0) == used.end();
 }
 

@@ -19,16 +19,6 @@ CleanSettings nothing() {
     return s;
 }
 
-/// Every triangle with vertices of its own.
-Mesh apart(const Mesh& mesh) {
-    Mesh soup;
-    for (Index c = 0; c < mesh.corner_count(); ++c) {
-        soup.corners.push_back(c);
-        soup.positions.push_back(mesh.point(c));
-    }
-    return soup;
-}
-
 Mesh triangles(std::vector<Vec3> positions, std::vector<Index> corners) {
     Mesh mesh;
     mesh.positions = std::move(positions);
@@ -63,14 +53,14 @@ bool is_sound_solid(const Mesh& mesh) {
 } // namespace
 
 TEST_CASE("clean welds what is at one place", "[geometry]") {
-    const auto r = cleaned(apart(shapes::cube()));
+    const auto r = cleaned(test::torn_apart(shapes::cube()));
     CHECK(r.counts.welded_vertices == 28);
     CHECK(r.mesh.vertex_count() == 8);
     CHECK(is_sound_solid(r.mesh));
 }
 
 TEST_CASE("clean with every step off changes nothing", "[geometry]") {
-    const Mesh soup = apart(shapes::cube());
+    const Mesh soup = test::torn_apart(shapes::cube());
     const auto r = cleaned(soup, nothing());
     CHECK(r.counts.total() == 0);
     CHECK(r.mesh.positions == soup.positions);
@@ -78,7 +68,7 @@ TEST_CASE("clean with every step off changes nothing", "[geometry]") {
 }
 
 TEST_CASE("clean welds near ends of open edges only", "[geometry]") {
-    Mesh mesh = apart(shapes::cube());
+    Mesh mesh = test::torn_apart(shapes::cube());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         mesh.positions[v].x += 1e-4 * static_cast<double>(v % 3);
     CleanSettings s;
@@ -97,7 +87,7 @@ TEST_CASE("clean keeps seams when it welds", "[geometry]") {
 }
 
 TEST_CASE("clean stitches open edges whose ends are near", "[geometry]") {
-    Mesh mesh = apart(shapes::cube());
+    Mesh mesh = test::torn_apart(shapes::cube());
     weld_exact(mesh);
     const auto stray = static_cast<Index>(mesh.positions.size()); // one corner of one face is off
     mesh.positions.push_back(mesh.positions[mesh.corners[0]] + Vec3{0.01, 0.01, 0});
