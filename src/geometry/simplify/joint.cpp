@@ -1,6 +1,7 @@
 #include "geometry/simplify/joint.hpp"
 
 #include "geometry/edit/surgery.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -21,12 +22,6 @@ struct PlacedEdge {
 
 auto order_of(const Vec3& p) { return std::tie(p.x, p.y, p.z); }
 auto place_of(const PlacedEdge& e) { return std::tuple(order_of(e.low), order_of(e.high)); }
-
-bool meet(const Box& a, const Box& b) {
-    for (std::size_t i = 0; i < 3; ++i)
-        if (a.min[i] > b.max[i] || b.min[i] > a.max[i]) return false;
-    return true;
-}
 
 void add_open_edges(const PlacedMesh& placed, std::size_t number, std::vector<PlacedEdge>& edges) {
     const EdgeTable table = build_edges(*placed.mesh);
@@ -49,13 +44,10 @@ std::vector<PlacedEdge> open_edges(std::span<const PlacedMesh> meshes) {
     std::vector<Box> boxes(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i)
         for (const Vec3& p : meshes[i].mesh->positions) boxes[i].add(meshes[i].to_world.point(p));
+    const BoxTree tree(boxes);
     std::vector<PlacedEdge> edges;
     for (std::size_t i = 0; i < meshes.size(); ++i)
-        for (std::size_t k = 0; k < meshes.size(); ++k)
-            if (k != i && meet(boxes[i], boxes[k])) {
-                add_open_edges(meshes[i], i, edges);
-                break;
-            }
+        if (tree.any_of(boxes[i], [i](Index k) { return k != i; })) add_open_edges(meshes[i], i, edges);
     std::sort(edges.begin(), edges.end(), [](const PlacedEdge& a, const PlacedEdge& b) {
         return std::tuple(place_of(a), a.mesh, a.from, a.to) < std::tuple(place_of(b), b.mesh, b.from, b.to);
     });

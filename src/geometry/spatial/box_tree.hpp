@@ -23,7 +23,16 @@ class BoxTree {
     /// the boxes only.
     template <class Found>
     void visit(const Box& box, Found&& found) const {
-        if (levels_.empty()) return;
+        any_of(box, [&](Index item) {
+            found(item);
+            return false;
+        });
+    }
+
+    /// Whether holds(item) is true for an item whose box meets `box`, touching included. Stops at the first.
+    template <class Holds>
+    bool any_of(const Box& box, Holds&& holds) const {
+        if (levels_.empty()) return false;
         struct Node {
             std::uint32_t level, index;
         };
@@ -36,13 +45,14 @@ class BoxTree {
             if (node.level == 0) {
                 const std::size_t end = std::min(boxes_.size(), std::size_t{node.index + 1} * leaf);
                 for (std::size_t i = std::size_t{node.index} * leaf; i < end; ++i)
-                    if (meet(boxes_[i], box)) found(items_[i]);
+                    if (meet(boxes_[i], box) && holds(items_[i])) return true;
                 continue;
             }
             const std::uint32_t child = 2 * node.index;
             if (child + 1 < levels_[node.level - 1].size()) stack[size++] = {node.level - 1, child + 1};
             stack[size++] = {node.level - 1, child};
         }
+        return false;
     }
 
   private:

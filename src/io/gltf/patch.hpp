@@ -15,6 +15,7 @@ struct Patch {
     Builder& builder;
     Written& written;
     int base; ///< the document that is patched, or -1 when there is none
+    const bool of_points = scene.face_count() == 0; ///< no part has faces: vertices are written as points
 
     std::vector<NodeFrame> frames{};          ///< of the document as read, moved skeletons where they are now
     std::map<std::size_t, Transform> above{}; ///< the matrices of new nodes above roots

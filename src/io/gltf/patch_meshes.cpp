@@ -84,7 +84,7 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     if (s.order == TriangleOrder::automatic)
         s.order = patch.settings.meshopt.on ? TriangleOrder::size : TriangleOrder::draw;
     s.keep_exact = patch.settings.quantize.on;
-    s.points = patch.scene.face_count() == 0;
+    s.points = patch.of_points;
     s.name = part.name;
     s.material = [&patch](Index m) { return patch_material(patch, m); };
     // Numbers of features and tables mean something in one document only.
