@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "base/random.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/sorted_once.hpp"
 #include "cells/clean_source.hpp"
 #include "cells/collar.hpp"
 #include "cells/hierarchy.hpp"
@@ -188,11 +189,6 @@ GatheredFaces in_order(const GatheredFaces& all) {
     return sorted;
 }
 
-std::size_t distinct(std::vector<std::uint64_t> names) {
-    std::sort(names.begin(), names.end());
-    return static_cast<std::size_t>(std::unique(names.begin(), names.end()) - names.begin());
-}
-
 class CellCleaning {
   public:
     CellCleaning(std::unique_ptr<Partition>& partition, const CleanSettings& settings, const Means& means,
@@ -299,7 +295,7 @@ class CellCleaning {
             else
                 sound.push_back(v);
         }
-        spared_ = unsound.size() - distinct(unsound);
+        spared_ = unsound.size() - sorted_once(unsound).size();
         unite(whole_.mesh, whole_.names, std::move(sound));
     }
 

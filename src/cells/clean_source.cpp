@@ -1,5 +1,6 @@
 #include "cells/clean_source.hpp"
 
+#include "base/sorted_once.hpp"
 #include "cells/pieces.hpp"
 #include "cells/unite.hpp"
 
@@ -17,12 +18,6 @@ std::uint32_t number_in(io::Span record) {
     std::uint32_t number = 0;
     std::memcpy(&number, record.data() + record.size() - number_size, number_size);
     return number;
-}
-
-std::vector<std::uint64_t> sorted_once(std::vector<std::uint64_t> names) {
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
 }
 
 void unite_all(Piece& piece) {

@@ -1,6 +1,7 @@
 #include "cells/pieces.hpp"
 
 #include "base/random.hpp"
+#include "base/sorted_once.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,8 +20,7 @@ Piece some_faces(const Piece& all, const std::vector<Index>& faces) {
     kept.reserve(3 * faces.size());
     for (const Index f : faces)
         for (const Index v : all.mesh.face_wedges(f)) kept.push_back(v);
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    sort_once(kept);
     Piece some;
     for (const Index v : kept) {
         some.mesh.positions.push_back(all.mesh.positions[v]);

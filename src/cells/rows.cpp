@@ -1,5 +1,6 @@
 #include "cells/rows.hpp"
 
+#include "base/sorted_once.hpp"
 #include "cells/pieces.hpp"
 #include "cells/unite.hpp"
 #include "io/text.hpp"
@@ -225,8 +226,7 @@ class RowSource final : public FaceSource {
         const io::Bytes rows = read_records(*rows_.vertices, rows_.vertices_at, stride_, numbers);
         for (std::size_t i = 0; i < names.size(); ++i)
             names[i] = name_of(numbers[i], coordinates_.of(rows.data() + i * stride_));
-        std::sort(names.begin(), names.end());
-        names.erase(std::unique(names.begin(), names.end()), names.end());
+        sort_once(names);
         return names;
     }
 
@@ -268,8 +268,7 @@ class RowSource final : public FaceSource {
         std::vector<std::uint32_t> numbers(records.size() / sizeof(std::uint32_t));
         if (numbers.empty()) return numbers;
         std::memcpy(numbers.data(), records.data(), numbers.size() * sizeof(std::uint32_t));
-        std::sort(numbers.begin(), numbers.end());
-        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+        sort_once(numbers);
         return numbers;
     }
 

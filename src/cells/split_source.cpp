@@ -3,6 +3,7 @@
 #include "base/portable_math.hpp"
 #include "base/progress.hpp"
 #include "base/random.hpp"
+#include "base/sorted_once.hpp"
 #include "cells/pieces.hpp"
 #include "cells/rims.hpp"
 #include "mesh/topology.hpp"
@@ -95,8 +96,7 @@ class SplitSource final : public FaceSource {
 
     std::vector<std::uint64_t> names(io::Span records) const override {
         std::vector<std::uint64_t> names = piece(records).names;
-        std::sort(names.begin(), names.end());
-        names.erase(std::unique(names.begin(), names.end()), names.end());
+        sort_once(names);
         return names;
     }
 

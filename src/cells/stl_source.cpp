@@ -1,13 +1,13 @@
 #include "cells/stl_source.hpp"
 
 #include "base/random.hpp"
+#include "base/sorted_once.hpp"
 #include "base/spelling.hpp"
 #include "cells/rows.hpp"
 #include "cells/text_window.hpp"
 #include "io/stl/stl.hpp"
 #include "io/text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -104,8 +104,7 @@ class StlSource final : public FaceSource {
         keys.reserve(records.size() / stl_record * 3);
         for (std::size_t at = 0; at + stl_record <= records.size(); at += stl_record)
             for (const Point& p : corners_of(records.data() + at)) keys.push_back(key_of(p));
-        std::sort(keys.begin(), keys.end());
-        keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+        sort_once(keys);
         return keys;
     }
 

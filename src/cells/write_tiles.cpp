@@ -5,6 +5,7 @@
 #include "base/progress.hpp"
 #include "base/random.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/sorted_once.hpp"
 #include "cells/stations.hpp"
 #include "geometry/pyramid/pyramid.hpp"
 #include "io/tileset/tiles.hpp"
@@ -112,8 +113,7 @@ class TileMaker {
         borders_.emplace(partition_.tree(), means_.scratch, means_.memory, partition_.faces(),
                          [&](std::uint32_t leaf) {
                              auto keys = keys_of_places(in_frame(leaf).mesh);
-                             std::sort(keys.begin(), keys.end());
-                             keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+                             sort_once(keys);
                              return keys;
                          });
     }

@@ -1,6 +1,7 @@
 #include "geometry/clip/cap.hpp"
 
 #include "base/parallel.hpp"
+#include "base/sorted_once.hpp"
 #include "geometry/cut/fill_disjoint.hpp"
 
 #include <algorithm>
@@ -77,8 +78,7 @@ struct SectionGraph {
             vertices.push_back(e.low);
             vertices.push_back(e.high);
         }
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        sort_once(vertices);
         root.resize(vertices.size());
         std::iota(root.begin(), root.end(), Index{0});
         balance.resize(vertices.size());
@@ -149,8 +149,7 @@ class Capper {
             local_.push_back(e.low);
             local_.push_back(e.high);
         }
-        std::sort(local_.begin(), local_.end());
-        local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
+        sort_once(local_);
         for (const Index v : local_) {
             const Vec3& p = cut_.point(v);
             contours_.points.push_back({p[first_], p[second_]});
@@ -273,8 +272,7 @@ class Capper {
     /// A wall wedge for every vertex of the cap: the lowest there.
     void find_cap_wedges() {
         cap_.vertices = cap_.corners;
-        std::sort(cap_.vertices.begin(), cap_.vertices.end());
-        cap_.vertices.erase(std::unique(cap_.vertices.begin(), cap_.vertices.end()), cap_.vertices.end());
+        sort_once(cap_.vertices);
         cap_.wedges = cap_.vertices;
         if (!cut_.mesh->has_seams()) return;
         std::map<Index, Index> lowest;

@@ -1,6 +1,7 @@
 // The pairs of faces that lie on each other: neighbours, faces in one plane, faces on the texture.
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
+#include "base/sorted_once.hpp"
 #include "geometry/edit/around_edge.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
@@ -112,8 +113,7 @@ std::optional<Pairs> uv_overlaps(const Mesh& mesh) {
             return a;
         },
         1024);
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_once(pairs);
     return pairs;
 }
 

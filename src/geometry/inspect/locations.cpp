@@ -2,6 +2,7 @@
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
 #include "base/random.hpp"
+#include "base/sorted_once.hpp"
 #include "geometry/edit/t_junctions.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
@@ -84,8 +85,7 @@ std::vector<Location> locations_of_vertices(const Mesh& mesh, std::size_t limit,
 void vertex_set(const Mesh& mesh, Index f, std::vector<Index>& set) {
     set.clear();
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) set.push_back(mesh.vertex(c));
-    std::sort(set.begin(), set.end());
-    set.erase(std::unique(set.begin(), set.end()), set.end());
+    sort_once(set);
 }
 
 struct HashedFace {

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
+#include "base/sorted_once.hpp"
 #include "mesh/buckets.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
@@ -131,8 +132,7 @@ struct Surroundings {
         for (const Corner& c : corners)
             for (Index other = mesh.face_begin(c.face); other < mesh.face_end(c.face); ++other)
                 if (mesh.vertex(other) != c.vertex) all.push_back(mesh.vertex(other));
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
+        sort_once(all);
     }
 };
 

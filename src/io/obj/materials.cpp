@@ -3,6 +3,7 @@
 #include "io/obj/materials.hpp"
 
 #include "base/hash.hpp"
+#include "base/sorted_once.hpp"
 #include "io/flatten.hpp"
 #include "io/image_files.hpp"
 
@@ -300,8 +301,7 @@ Index MaterialMaker::index_of(const std::string& name, bool textured, std::vecto
         for (const char* other : {"ka", "ns", "disp", "decal", "refl", "ps"})
             if (textured && word == other && !repeats_colour) lost.push_back("map_" + word + " " + map.file);
     }
-    std::sort(lost.begin(), lost.end());
-    lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
+    sort_once(lost);
     if (!lost.empty() && !known_.count({name, !textured}))
         warn(name, fmt::format("glTF cannot represent {}", fmt::join(lost, ", ")));
     return at->second;
