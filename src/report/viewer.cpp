@@ -17,7 +17,7 @@ namespace facetmill::report {
 
 namespace {
 
-constexpr std::size_t all_faces = 150000, most_faces = 60000; ///< of all scenes, and of one
+constexpr std::size_t all_faces = 150000, most_faces = 40000; ///< of all scenes, and of one
 constexpr std::size_t most_scenes = 6;                        ///< that have their share of the faces
 /// Of a page of 3 MB, as text: of all scenes with their textures, and of the textures.
 constexpr std::size_t most_bytes = 1200000, most_texture_bytes = 500000;
@@ -49,6 +49,13 @@ const char* word_of(MaterialLook::Alpha alpha) {
     return alpha == MaterialLook::Alpha::mask    ? "mask"
            : alpha == MaterialLook::Alpha::blend ? "blend"
                                                  : "opaque";
+}
+
+/// The vertices of triangles.
+std::span<const Vec3> of_surface(const Preview& preview) {
+    const std::span<const Vec3> all = preview.mesh.positions;
+    if (preview.first_loose >= preview.mesh.wedge_count()) return all;
+    return all.first(preview.mesh.vertex_of_wedge(static_cast<Index>(preview.first_loose)));
 }
 
 Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -97,8 +104,9 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     if (preview.mesh.vertex_count() == 0) return {};
     std::vector<float> distances;
     if (from && !from->empty() && preview.mesh.face_count() > 0)
-        distances = signed_distances(*from, preview.mesh.positions);
+        distances = signed_distances(*from, of_surface(preview));
     const auto [most, largest] = spans(distances);
+    if (!distances.empty()) distances.resize(preview.mesh.vertex_count()); // lines and points have none
     PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
     PictureSettings as_first; // a scene that does not say what is up keeps that of the first
     if (first_ && first_up_ == scene.up) as_first.camera = first_;
@@ -107,11 +115,10 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
         first_ = camera;
         first_up_ = scene.up;
     }
-    std::size_t points = 0;
-    for (const Part& part : scene.parts) points += part.mesh.vertex_count();
     Json json = {{"name", name},
                  {"faces", preview.faces},
-                 {"points", points},
+                 {"lines", preview.all_lines},
+                 {"points", preview.all_dots},
                  {"up", list_of(camera.up)},
                  {"front", list_of(camera.front)},
                  {"unit", scene.unit == Unit::unknown ? "" : to_string(scene.unit)},

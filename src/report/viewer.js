@@ -127,7 +127,10 @@ zoom. With the keyboard: arrows orbit, Shift and arrows pan, + and &minus; zoom,
       if (code === 0) ++next;
     }
     delete scene.data;
-    return scene.triangles ? by_corners(out, places) : out;
+    // Lines and single points come after the vertices of triangles.
+    const mesh = scene.triangles ? by_corners(out, places) : {};
+    mesh.loose = { position: out.position.subarray(3 * scene.loose), colour: out.colour?.subarray(4 * scene.loose) };
+    return mesh;
   }
 
   // Every corner by itself, with a normal: its own, or of the faces at its place that are within 40 degrees of its face.
@@ -218,7 +221,7 @@ void main() {
   const fragment_shader = `#version 300 es
 precision highp float;
 in vec3 eye, side; in vec4 tint; in vec2 place; in float away;
-uniform vec4 base; uniform bool textured, coloured, unlit, both_sides, blends, flat_faces, points; uniform int mode; uniform float cutoff;
+uniform vec4 base; uniform bool textured, coloured, unlit, both_sides, blends, flat_faces, loose; uniform int mode; uniform float cutoff;
 uniform sampler2D image, scale;
 out vec4 result;
 vec3 encoded(vec3 c) { return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
@@ -230,9 +233,9 @@ void main() {
   if (mode == 2) c = vec4(texture(scale, vec2((away * 0.5 + 0.5) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb, 1.0);
   if (mode == 3) { result = base; return; }
   if (mode == 0 && c.a < cutoff) discard;
-  bool inside = !points && !gl_FrontFacing && !both_sides;
+  bool inside = !loose && !gl_FrontFacing && !both_sides;
   if (inside) c.rgb = vec3(0.75, 0.3, 0.12);
-  if (!points && !(unlit && mode == 0 && !inside)) {
+  if (!loose && !(unlit && mode == 0 && !inside)) {
     vec3 face = normalize(cross(dFdx(eye), dFdy(eye)));
     vec3 n = flat_faces || dot(side, side) < 0.01 ? face : normalize(side) * (gl_FrontFacing ? 1.0 : -1.0);
     c.rgb *= 0.16 + 0.84 * max(0.0, dot(n, normalize(vec3(-0.35, 0.55, 0.75))));
@@ -288,7 +291,7 @@ void main() {
 
   function buffers_of(scene) {
     if (scene.buffers) return scene.buffers;
-    const mesh = scene.mesh, faces = gl.createVertexArray();
+    const mesh = scene.mesh, faces = gl.createVertexArray(), loose = gl.createVertexArray();
     gl.bindVertexArray(faces);
     const put = (place, content, size, type, normalised) => {
       if (!content) return;
@@ -302,7 +305,10 @@ void main() {
     put(3, mesh.uv, 2, gl.FLOAT, false);
     put(4, mesh.distance, 1, gl.FLOAT, false);
     if (mesh.edges) buffer_of(gl.ELEMENT_ARRAY_BUFFER, mesh.edges);
-    return scene.buffers = { faces };
+    gl.bindVertexArray(loose);
+    put(0, mesh.loose.position, 3, gl.FLOAT, false);
+    put(2, mesh.loose.colour, 4, gl.UNSIGNED_BYTE, true);
+    return scene.buffers = { faces, loose };
   }
 
   function image_of(number) {
@@ -383,15 +389,15 @@ void main() {
     const colours = control("colours").value, wireframe = control("wireframe").checked;
     const mode = { material: 0, plain: 1, deviation: 2 }[colours];
     gl.uniform1i(uniforms.flat_faces, control("shading").value === "flat");
-    gl.uniform1i(uniforms.points, !scene.triangles);
     gl.uniform1i(uniforms.image, 0);
     gl.uniform1i(uniforms.scale, 1);
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, scale_texture);
     gl.activeTexture(gl.TEXTURE0);
-    if (!scene.triangles) draw_points(scene, mode);
-    else draw_faces(scene, mode, wireframe);
+    if (scene.triangles) draw_faces(scene, mode, wireframe);
     if (wireframe && scene.triangles) draw_edges(scene);
+    gl.bindVertexArray(buffers_of(scene).loose);
+    draw_loose(scene, mode);
     gl.bindVertexArray(null);
     canvas.dataset.frames = Number(canvas.dataset.frames || 0) + 1;
   }
@@ -407,17 +413,23 @@ void main() {
                                                      0, 0, 2 * far * near / (near - far), 0]);
   }
 
-  function draw_points(scene, mode) {
-    gl.uniform4fv(uniforms.base, scene.coloured ? [1, 1, 1, 1] : [0.4, 0.42, 0.46, 1]);
+  // Lines and single points have their colour, or all the same one, and no light and no distance.
+  function draw_loose(scene, mode) {
+    if (scene.loose === scene.vertices) return;
+    gl.uniform1i(uniforms.loose, 1);
+    gl.uniform4fv(uniforms.base, mode === 0 ? [1, 1, 1, 1] : [0.16, 0.20, 0.28, 1]);
     for (const name of ["textured", "unlit", "both_sides", "blends"]) gl.uniform1i(uniforms[name], 0);
-    gl.uniform1i(uniforms.coloured, Boolean(scene.coloured));
+    gl.uniform1i(uniforms.coloured, mode === 0);
     gl.uniform1f(uniforms.cutoff, -1);
-    gl.uniform1i(uniforms.mode, mode);
-    gl.drawArrays(gl.POINTS, 0, scene.vertices);
+    gl.uniform1i(uniforms.mode, 0);
+    gl.drawArrays(gl.LINES, 0, scene.dots - scene.loose);
+    gl.drawArrays(gl.POINTS, scene.dots - scene.loose, scene.vertices - scene.dots);
+    gl.uniform1i(uniforms.loose, 0);
   }
 
   // What blends comes last, over all else; grey and deviations are opaque.
   function draw_faces(scene, mode, wireframe) {
+    const over = wireframe || scene.loose < scene.dots; // lines on the surface
     gl.uniform1i(uniforms.mode, mode);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -437,7 +449,7 @@ void main() {
           gl.uniform1f(uniforms.cutoff, group.alpha === "mask" ? group.cutoff : -1);
           if (blends) gl.enable(gl.BLEND);
           gl.depthMask(!blends);
-          draw_sides(group, first, wireframe);
+          draw_sides(group, first, over);
         }
         first += group.count;
       }
@@ -448,8 +460,8 @@ void main() {
   }
 
   // Inner sides lie a little deeper, so that they do not show through at the edges of outer ones.
-  function draw_sides(group, first, wireframe) {
-    const own = wireframe ? 1 : 0, draw_them = () => gl.drawArrays(gl.TRIANGLES, 3 * first, 3 * group.count);
+  function draw_sides(group, first, over) {
+    const own = over ? 1 : 0, draw_them = () => gl.drawArrays(gl.TRIANGLES, 3 * first, 3 * group.count);
     gl.polygonOffset(own, own);
     if (group.double_sided) return draw_them();
     gl.enable(gl.CULL_FACE);
@@ -475,10 +487,12 @@ void main() {
 
   function told() {
     const scene = scenes[current], heat = control("colours").value === "deviation";
-    const what = scene.triangles ? "triangles" : "points", all = scene.triangles ? scene.faces : scene.points;
-    const shown = scene.triangles || scene.vertices;
-    section.querySelector(".caption").textContent = `${scene.before ? "Before: " : ""}${scene.name}, shown with ` +
-      (shown < all ? `${grouped(shown)} of ${grouped(all)} ${what}.` : `all ${grouped(all)} ${what}.`) +
+    const kinds = [[scene.triangles, scene.faces, "triangles"], [(scene.dots - scene.loose) / 2, scene.lines, "lines"],
+                   [scene.vertices - scene.dots, scene.points, "points"]];
+    const shown = kinds.filter(([, all]) => all > 0).map(([shown, all, what]) =>
+      shown < all ? `${grouped(shown)} of ${grouped(all)} ${what}` : `all ${grouped(all)} ${what}`);
+    section.querySelector(".caption").textContent =
+      `${scene.before ? "Before: " : ""}${scene.name}, shown with ${shown.join(", ")}.` +
       (scene.deviation && heat ? ` Colours: signed distance from ${scene.reference}, blue inside, red outside.` : "") +
       (scene.note && !heat ? ` ${scene.note}` : "") + (data.left_out ? ` ${data.left_out}` : "");
     canvas.setAttribute("aria-label", `3D view of ${scene.name}`);

@@ -60,10 +60,12 @@ std::array<std::uint32_t, 2> folded(const Vec3& n) {
 /// The faces by their primitives, and the wedges in the order in which they are then met.
 struct Order {
     std::vector<Index> faces, wedges;
+    std::size_t loose = 0;            ///< of the wedges, the first one that no face has
     std::vector<std::uint32_t> codes; ///< [corners] of those faces: wedges met so far less the wedge's number
 };
 
-Order order_of(const Mesh& mesh) {
+Order order_of(const Preview& preview) {
+    const Mesh& mesh = preview.mesh;
     Order out;
     out.faces.resize(mesh.face_count());
     std::iota(out.faces.begin(), out.faces.end(), Index{0});
@@ -79,9 +81,9 @@ Order order_of(const Mesh& mesh) {
             number[w] = met;
             out.wedges.push_back(w);
         }
-    if (mesh.face_count() > 0) return out;
-    out.wedges.resize(mesh.vertex_count());
-    std::iota(out.wedges.begin(), out.wedges.end(), Index{0});
+    out.loose = out.wedges.size();
+    for (auto w = static_cast<Index>(preview.first_loose); w < mesh.wedge_count(); ++w)
+        out.wedges.push_back(w);
     return out;
 }
 
@@ -151,9 +153,13 @@ void put_coordinates(const Attribute& uv, const Order& order, Planes& planes, Js
 
 PackedMesh packed(const Preview& preview, const std::vector<float>& distances, double most) {
     const Mesh& mesh = preview.mesh;
-    const Order order = order_of(mesh);
+    const Order order = order_of(preview);
     Planes planes;
-    PackedMesh out{{{"vertices", order.wedges.size()}, {"triangles", mesh.face_count()}}, {}};
+    PackedMesh out{{{"vertices", order.wedges.size()},
+                    {"triangles", mesh.face_count()},
+                    {"loose", order.loose},
+                    {"dots", order.loose + preview.first_dot - preview.first_loose}},
+                   {}};
     put_places(mesh, order, planes, out.json);
     const Attribute* normals = mesh.face_count() > 0 ? mesh.find("NORMAL", Domain::wedge) : nullptr;
     out.json["normals"] = normals != nullptr;

@@ -13,10 +13,11 @@ struct PackedGroup {
 };
 
 struct PackedMesh {
-    /// vertices, triangles, origin, size, normals, coloured, uv, and data: the bytes, gzipped, in base64.
-    /// Coordinates are 16 bits over the box, normals 8 bits on an octahedron's net, colours the square roots
-    /// of linear light in 8 bits, coordinates of textures 16 bits over their range. What follows each other
-    /// is told as differences, in planes of bytes, which gzip likes.
+    /// vertices, triangles, loose (the first vertex that no triangle has: from there the ends of lines, two
+    /// each), dots (the first single point), origin, size, normals, coloured, uv, and data: the bytes,
+    /// gzipped, in base64. Coordinates are 16 bits over the box, normals 8 bits on an octahedron's net,
+    /// colours the square roots of linear light in 8 bits, coordinates of textures 16 bits over their range.
+    /// What follows each other is told as differences, in planes of bytes, which gzip likes.
     Json json;
     std::vector<PackedGroup> groups;
 };

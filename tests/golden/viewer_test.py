@@ -2,7 +2,9 @@
 """The 3D view of pages in a real browser (Chromium, where there is one): it draws, its switches and keys change what is
 seen, and it asks for nothing."""
 
+import base64
 import json
+import struct
 import unittest
 
 from browser import CHROMIUM, Browser
@@ -86,7 +88,7 @@ class Viewer(Case):
             browser.wait("document.querySelector('.viewer .caption').textContent.startsWith('Before')")
             differs("before")
             self.assertRegex(browser.do("document.querySelector('.viewer .caption').textContent"),
-                             r"shown with 60,000 of 70,000 triangles|shown with all [\d,]+ triangles")
+                             r"shown with [34]\d,\d+ of 70,000 triangles|shown with all [\d,]+ triangles")
             browser.size(390, 800)
             self.assertLessEqual(browser.do("document.documentElement.scrollWidth"), 390)
             self.assertGreater(browser.do(SHOWN)["covered"], 0.05)
@@ -157,6 +159,33 @@ report: page.html
             self.assertGreater(browser.do(SHOWN)["covered"], 0)
             self.assertEqual(browser.do("document.querySelector('.viewer .caption').textContent"),
                              f"{name}, shown with all 4 points.")
+            self.clean(browser)
+
+    def test_lines_and_points_beside_faces(self):
+        self.write("all.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}], "scene": 0,
+            "nodes": [{"mesh": 0}, {"mesh": 1}, {"mesh": 2}],
+            "meshes": [{"primitives": [{"mode": mode, "attributes": {"POSITION": at}}]} for mode, at in ((4, 0), (3, 1), (0, 2))],
+            "accessors": [{"bufferView": 0, "byteOffset": 12 * first, "componentType": 5126, "count": count, "type": "VEC3",
+                           "min": low, "max": high}
+                          for first, count, low, high in ((0, 3, [0, 0, 0], [1, 1, 0]), (3, 3, [0, 0, 1], [1, 1, 1]),
+                                                          (6, 2, [2, 0, 0], [2, 1, 0]))],
+            "bufferViews": [{"buffer": 0, "byteLength": 96}],
+            "buffers": [{"byteLength": 96, "uri": "data:application/octet-stream;base64," + base64.b64encode(struct.pack(
+                "<24f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 2, 0, 0, 2, 1, 0)).decode()}]}))
+        self.mill("diff", "all.gltf", "all.gltf", "--report", "page.html")
+        with Browser() as browser:
+            self.page(browser, self.dir / "page.html")
+            self.assertEqual(browser.do("document.querySelector('.viewer .caption').textContent"),
+                             "all.gltf, shown with all 1 triangles, all 2 lines, all 2 points.")
+            first = browser.do(SHOWN)
+            for number in ("LINES", "POINTS"):  # what is not drawn is missed
+                browser.do(f"WebGL2RenderingContext.prototype.drawArrays = (f => function(kind, ...all) "
+                           f"{{ if (kind !== this.{number}) f.call(this, kind, ...all); }})"
+                           f"(WebGL2RenderingContext.prototype.drawArrays)")
+                second = browser.do(SHOWN)
+                self.assertLess(second["covered"], first["covered"], number)
+                first = second
             self.clean(browser)
 
     def test_without_webgl_the_pictures_are_there(self):

@@ -8,12 +8,6 @@ namespace facetmill {
 
 namespace {
 
-const Attribute* colours_in(const Mesh& mesh) {
-    for (const Attribute& a : mesh.attributes)
-        if (a.role == Role::colour && a.components >= 3) return &a;
-    return nullptr;
-}
-
 const Attribute* normals_in(const Mesh& mesh) {
     const Attribute* a = mesh.find("NORMAL", Domain::wedge);
     return a && a->components == 3 ? a : nullptr;
@@ -22,6 +16,12 @@ const Attribute* normals_in(const Mesh& mesh) {
 float finite_or(double x, float otherwise) { return std::isfinite(x) ? static_cast<float>(x) : otherwise; }
 
 } // namespace
+
+const Attribute* colours_in(const Mesh& mesh) {
+    for (const Attribute& a : mesh.attributes)
+        if (a.role == Role::colour && a.components >= 3) return &a;
+    return nullptr;
+}
 
 PreviewAttributes preview_attributes(const Scene& scene, const MaterialLooks* looks) {
     PreviewAttributes out{.normals = true};
@@ -146,19 +146,6 @@ void Gatherer::add(const Mesh& triangles, const Transform& to_world, std::span<c
         for (const Index corner : face) out_.mesh.corners.push_back(wedge_for(placed, corner, primitive));
         primitives_.push_back(primitive);
     }
-}
-
-void Gatherer::add_point(const Mesh& mesh, const Transform& to_world, Index vertex) {
-    const Vec3 place = to_world.point(mesh.positions[vertex]);
-    if (!is_finite(place)) return;
-    out_.mesh.positions.push_back(place);
-    if (!wanted_.colours) return;
-    const Attribute* own = colours_in(mesh);
-    for (int c = 0; c < 4; ++c)
-        colours_.push_back(own && own->domain == Domain::vertex && c < own->components
-                               ? std::clamp(finite_or(own->value(vertex, c), 0), 0.0f, 1.0f)
-                           : own || c == 3 ? 1.0f
-                                           : 0.72f);
 }
 
 Preview Gatherer::finish() {

@@ -12,6 +12,8 @@ struct PreviewAttributes {
     bool normals = false, colours = false, textures = false;
     bool baked = false; ///< base textures as colours, sampled at each wedge
 };
+/// The colours of a mesh, or null.
+const Attribute* colours_in(const Mesh& mesh);
 PreviewAttributes preview_attributes(const Scene& scene, const MaterialLooks* looks);
 
 /// Takes triangles, part by part, into one mesh.
@@ -21,8 +23,6 @@ class Gatherer {
     /// Triangles of a mesh of triangles that stands there, by their corners, three each: whose vertices and
     /// attributes they have. Those with a point that is not finite are left out.
     void add(const Mesh& triangles, const Transform& to_world, std::span<const Index> corners);
-    /// The vertex of that place, without a face.
-    void add_point(const Mesh& mesh, const Transform& to_world, Index vertex);
     Preview finish();
 
   private:

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "geometry/preview/gathered.hpp"
 #include "geometry/preview/grid.hpp"
+#include "geometry/preview/loose.hpp"
 #include "geometry/simplify/simplify.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/topology.hpp"
@@ -27,24 +28,27 @@ std::size_t triangles_in(const Mesh& mesh) {
     return sum;
 }
 
-/// The area of a mesh in the world.
+/// The area of a mesh in the world; of a large one about so, from one face in seven.
 double area_of(const Mesh& mesh, const Transform& to_world) {
-    return parallel_reduce(
-        mesh.face_count(), 0.0,
-        [&](std::size_t begin, std::size_t end) {
-            double sum = 0;
-            for (std::size_t f = begin; f < end; ++f) {
-                const Index first = mesh.face_begin(static_cast<Index>(f)),
-                            last = mesh.face_end(static_cast<Index>(f));
-                Vec3 twice;
-                for (Index c = first + 1; c + 1 < last; ++c)
-                    twice += cross(to_world.vector(mesh.point(c) - mesh.point(first)),
-                                   to_world.vector(mesh.point(c + 1) - mesh.point(first)));
-                if (const double area = length(twice) / 2; std::isfinite(area)) sum += area;
-            }
-            return sum;
-        },
-        [](double a, double b) { return a + b; });
+    constexpr std::size_t large = 100000, of_large = 7;
+    const std::size_t step = mesh.face_count() > large ? of_large : 1;
+    return static_cast<double>(step) *
+           parallel_reduce(
+               mesh.face_count() / step, 0.0,
+               [&](std::size_t begin, std::size_t end) {
+                   double sum = 0;
+                   for (std::size_t f = begin * step; f < end * step; f += step) {
+                       const Index first = mesh.face_begin(static_cast<Index>(f)),
+                                   last = mesh.face_end(static_cast<Index>(f));
+                       Vec3 twice;
+                       for (Index c = first + 1; c + 1 < last; ++c)
+                           twice += cross(to_world.vector(mesh.point(c) - mesh.point(first)),
+                                          to_world.vector(mesh.point(c + 1) - mesh.point(first)));
+                       if (const double area = length(twice) / 2; std::isfinite(area)) sum += area;
+                   }
+                   return sum;
+               },
+               [](double a, double b) { return a + b; });
 }
 
 /// The edge of cells of which the surface meets about so many.
@@ -53,18 +57,6 @@ double cell_edge(const Scene& scene, std::size_t cells) {
     for (const Part& part : scene.parts) area += area_of(part.mesh, part.transform);
     constexpr double met = 1.6; // cells that a plane meets, on the average, for each of its own size
     return std::sqrt(met * area / static_cast<double>(cells));
-}
-
-Preview points_of(const Scene& scene, std::size_t most) {
-    std::size_t all = 0;
-    for (const Part& part : scene.parts) all += part.mesh.vertex_count();
-    const std::size_t step = (all + most - 1) / std::max<std::size_t>(1, most);
-    Gatherer gatherer(scene, nullptr, preview_attributes(scene, nullptr));
-    std::size_t number = 0;
-    for (const Part& part : scene.parts)
-        for (Index v = 0; v < part.mesh.vertex_count(); ++v)
-            if (number++ % step == 0) gatherer.add_point(part.mesh, part.transform, v);
-    return gatherer.finish();
 }
 
 /// The triangles of a mesh of triangles that these corners are of, three each.
@@ -141,12 +133,11 @@ Preview gathered(const Scene& scene, const MaterialLooks* looks, const PreviewAt
     return gatherer.finish();
 }
 
-} // namespace
-
-Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
+/// Of the faces alone.
+Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     std::size_t faces = 0;
     for (const Part& part : scene.parts) faces += triangles_in(part.mesh);
-    if (faces == 0) return points_of(scene, settings.faces);
+    if (faces == 0) return {};
     const MaterialLooks* looks = settings.looks.get();
     PreviewAttributes wanted = preview_attributes(scene, looks);
     wanted.baked = wanted.textures && faces > many_with_textures * settings.faces;
@@ -159,6 +150,14 @@ Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
     if (cell && out.mesh.face_count() < settings.faces / 4) out = gathered(scene, looks, wanted, {});
     out.faces = faces;
     if (out.mesh.face_count() > settings.faces) out.mesh = reduced(std::move(out.mesh), settings.faces);
+    return out;
+}
+
+} // namespace
+
+Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
+    Preview out = surface_preview(scene, settings);
+    append_loose(out, loose_parts(scene, settings.looks.get(), settings.faces));
     return out;
 }
 

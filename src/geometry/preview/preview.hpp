@@ -8,7 +8,7 @@
 namespace facetmill {
 
 struct PreviewSettings {
-    std::size_t faces = 60000; ///< about so many triangles at most; of points without faces, exactly so many
+    std::size_t faces = 60000; ///< about so many triangles at most; of lines and of points exactly so many
     std::shared_ptr<const MaterialLooks> looks{}; ///< whose base textures will be laid on; or none
 };
 
@@ -22,10 +22,13 @@ struct Preview {
     /// Triangles in world space with the wedge attributes NORMAL where all parts with faces have it, COLOR_0
     /// where a part has colours (linear, clamped to 0 to 1) and TEXCOORD_0 where a material has a base
     /// texture (as the image is sampled: Texture::set and Texture::transform are applied). Each vertex is one
-    /// of the scene's. A scene without faces gives its points, every n-th of them, and no corners.
+    /// of the scene's. After the wedges of triangles come those of parts without faces, every n-th of them:
+    /// the ends of lines, two each, and single points; then all have COLOR_0.
     Mesh mesh;
-    std::vector<PreviewPaint> paints; ///< [mesh.primitives]
-    std::size_t faces = 0;            ///< triangles of the scene
+    std::size_t first_loose = 0, first_dot = 0; ///< wedges: the first end of a line, the first single point
+    std::vector<PreviewPaint> paints;           ///< [mesh.primitives]
+    std::size_t faces = 0;                      ///< triangles of the scene
+    std::size_t all_lines = 0, all_dots = 0;    ///< of the scene
 };
 
 /// Makes one mesh of all parts and simplifies it, to vertices among those that it has; a scene of more than

@@ -22,6 +22,13 @@ Texel factor_of(const Material& material, const MaterialLook* look) {
     return colour;
 }
 
+/// Of what has no shade, white says nothing: it is how glTF tells that there is no colour.
+bool is_white(const Material& material, const MaterialLook* look) {
+    for (std::size_t c = 0; c < 3; ++c)
+        if ((look ? static_cast<double>(look->base[c]) : material.base_colour[c]) < 1) return false;
+    return true;
+}
+
 } // namespace
 
 Painter::Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& settings, std::size_t number,
@@ -40,13 +47,16 @@ Painter::Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& se
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
         PrimitivePaint& paint = primitives_[i];
         paint.colour = {plain[0], plain[1], plain[2], 1};
+        const bool loose = mesh.face_count() == 0 && !colours_ && settings.paint != Paint::part;
+        if (loose) paint.colour = loose_colour;
         paint.coloured = colours_ && (i >= mesh.primitives.size() || mesh.primitives[i].has(colours_->name));
         if (i >= mesh.primitives.size() || mesh.primitives[i].material >= scene.materials.size()) continue;
         const Index m = mesh.primitives[i].material;
         paint.double_sided = scene.materials[m].double_sided;
         if (!as_is) continue;
         if (looks && m < looks->size()) paint.look = &(*looks)[m];
-        paint.colour = factor_of(scene.materials[m], paint.look);
+        if (!loose || !is_white(scene.materials[m], paint.look))
+            paint.colour = factor_of(scene.materials[m], paint.look);
     }
 }
 

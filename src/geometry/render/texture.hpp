@@ -36,6 +36,11 @@ enum class TextureWrap { repeat, clamp, mirror };
 /// Red, green, blue and alpha; colours linear.
 using Texel = std::array<float, 4>;
 
+/// Of lines and single points without a colour of their own: as far from white as from black, so that they
+/// are seen on any ground (4.2 to 1, where 3 to 1 is asked of graphics; W3C, "Web Content Accessibility
+/// Guidelines 2.1", 2018).
+inline constexpr Texel loose_colour{0.16f, 0.20f, 0.28f, 1};
+
 /// How far the coordinates move from one pixel of the picture to the next, right and down.
 struct TextureFootprint {
     double du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;

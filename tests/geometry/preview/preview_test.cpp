@@ -172,3 +172,55 @@ TEST_CASE("a preview of points, of nothing, and of what is not finite", "[geomet
     for (const Vec3& p : rest.mesh.positions) CHECK(is_finite(p));
     for (const Attribute& a : rest.mesh.attributes) CHECK(std::isfinite(a.value(0, 0)));
 }
+
+TEST_CASE("lines and single points come after the triangles of a preview, with their colours", "[geometry]") {
+    Scene scene = scene_of(shapes::uv_cube());
+    scene.materials.resize(2);
+    scene.materials[1].base_colour[1] = 0.5;
+    scene.materials[1].base_colour[2] = 0;
+    Mesh lines;
+    lines.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {HUGE_VAL, 0, 0}};
+    lines.lines = {0, 1, 1, 2, 2, 3}; // the last goes nowhere
+    lines.primitives = {{none, {}, {}}, {1, {}, {}}};
+    lines.line_primitive = {0, 1, 1};
+    scene.parts.emplace_back().mesh = lines;
+    scene.parts.back().transform.m[2][3] = 7;
+    Mesh cloud;
+    cloud.positions = {{5, 5, 5}, {6, 6, 6}};
+    cloud.attributes.push_back(
+        {"COLOR_0", Domain::vertex, Role::colour, 3, false, std::vector<float>{1, 0, 0, 0, 0, 1}});
+    scene.parts.emplace_back().mesh = cloud;
+
+    const Preview preview = preview_of(scene);
+    CHECK(preview.faces == 12);
+    CHECK(preview.all_lines == 3);
+    CHECK(preview.all_dots == 2);
+    CHECK(preview.first_loose == 24);
+    CHECK(preview.first_dot == 28);
+    const Mesh& mesh = preview.mesh;
+    REQUIRE(mesh.wedge_count() == 30);
+    const auto place = [&](Index w) { return mesh.positions[mesh.vertex_of_wedge(w)]; };
+    CHECK(place(24) == Vec3{0, 0, 7});
+    CHECK(place(27) == Vec3{2, 2, 7});
+    CHECK(place(29) == Vec3{6, 6, 6});
+    const Attribute* colours = mesh.find("COLOR_0", Domain::wedge);
+    REQUIRE(colours);
+    const auto colour = [&](std::size_t w) {
+        return std::array{colours->value(w, 0), colours->value(w, 1), colours->value(w, 2)};
+    };
+    CHECK(colour(0) == std::array{1.0, 1.0, 1.0}); // leaves the faces' own
+    CHECK(colour(24)[0] == Approx(loose_colour[0]));
+    CHECK(colour(26) == std::array{1.0, 0.5, 0.0});
+    CHECK(colour(28) == std::array{1.0, 0.0, 0.0});
+    for (const Attribute& a : mesh.attributes)
+        if (a.domain == Domain::wedge)
+            CHECK(std::get<std::vector<float>>(a.data).size() ==
+                  30U * static_cast<std::size_t>(a.components));
+
+    scene.parts.erase(scene.parts.begin());
+    const Preview alone = preview_of(scene, at_most(1)); // one line, one point
+    CHECK(alone.mesh.face_count() == 0);
+    CHECK(alone.mesh.vertex_count() == 3);
+    CHECK(alone.first_dot == 2);
+    CHECK(alone.all_lines == 3);
+}

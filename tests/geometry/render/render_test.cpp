@@ -482,3 +482,47 @@ TEST_CASE("pictures of what can hardly be seen", "[geometry]") {
     CHECK(covered(picture_of(scene_of(cube))) > 10000);
     CHECK(covered(picture_of(scene_of(shapes::quad_cube()))) > 10000);
 }
+
+TEST_CASE("lines and points without a colour are seen on white and on black", "[geometry]") {
+    Scene scene;
+    Mesh& mesh = scene.parts.emplace_back().mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 1}};
+    PictureSettings settings = seen_from({0, -1, 0});
+    settings.point = 9;
+    const auto contrast = [&](float ground) {
+        settings.ground = {ground, ground, ground};
+        const Picture picture = picture_of(scene, settings);
+        float best = 0; // of the pixels that are not ground: those that are covered whole
+        for (int y = 0; y < 100; ++y)
+            for (int x = 0; x < 100; ++x) {
+                const Pixel p = at(picture, x, y), there = at(picture, 0, 0);
+                if (p.r == there.r && p.b == there.b) continue;
+                const double light = 0.2126 * std::pow(p.r / 255.0, 2.2) +
+                                     0.7152 * std::pow(p.g / 255.0, 2.2) +
+                                     0.0722 * std::pow(p.b / 255.0, 2.2);
+                const double a = std::max<double>(light, static_cast<double>(ground)) + 0.05,
+                             b = std::min<double>(light, static_cast<double>(ground)) + 0.05;
+                best = std::max(best, static_cast<float>(a / b));
+            }
+        return best;
+    };
+    for (const bool lines : {false, true}) {
+        if (lines) mesh.lines = {0, 1, 1, 2, 2, 0};
+        for (const bool white : {false, true}) { // the material of glTF that says nothing
+            scene.materials.resize(white);
+            mesh.primitives.assign(white, {0, {}, {}});
+            for (const float ground : {0.0f, 0.01f, 0.9f, 1.0f}) CHECK(contrast(ground) > 3);
+        }
+    }
+    scene.materials[0].base_colour[1] = scene.materials[0].base_colour[2] = 0;
+    settings.ground = {};
+    const Picture red = picture_of(scene, settings);
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < red.rgba.size(); i += 4) {
+        if (red.rgba[i + 3] == 0) continue;
+        ++all;
+        CHECK(red.rgba[i] > 150);
+        CHECK(red.rgba[i + 1] == 0);
+    }
+    CHECK(all > 100);
+}
