@@ -69,8 +69,11 @@ class Page {
     report::RunRecord& record_;
     std::shared_ptr<Reference> loaded_, entering_;
     std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances, and of what they were from
-    std::string shown_at_, shown_stage_;  ///< where these stand, and the name of the stage if it is one
-    std::string last_picture_, pictured_; ///< the text of it, and the digest of its scene
+    std::string shown_at_, shown_stage_; ///< where these stand, and the name of the stage if it is one
+    std::string last_picture_;           ///< its text
+    /// Vertices and faces of its scene, and the digest of that where it was asked for.
+    std::optional<std::pair<std::size_t, std::size_t>> pictured_size_;
+    std::string pictured_;
     Camera camera_;
     UpAxis camera_up_{};   ///< of the scene that it is of
     int cameras_ = 0;      ///< so far

@@ -94,11 +94,41 @@ class ShapesOfFaces {
     Shapes operator()(std::size_t begin, std::size_t end) const {
         Shapes out;
         Outline outline;
-        for (std::size_t f = begin; f < end; ++f) add(static_cast<Index>(f), outline, out);
+        for (std::size_t f = begin; f < end; ++f)
+            if (mesh_.face_size(static_cast<Index>(f)) == 3)
+                add_triangle(static_cast<Index>(f), out);
+            else
+                add(static_cast<Index>(f), outline, out);
         return out;
     }
 
   private:
+    /// As add, without arrays of unknown size: most faces are triangles.
+    void add_triangle(Index f, Shapes& out) const {
+        const Index first = mesh_.face_begin(f);
+        const Vec3 a = to_world_.point(mesh_.point(first)), b = to_world_.point(mesh_.point(first + 1)),
+                   c = to_world_.point(mesh_.point(first + 2));
+        if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return;
+        const Vec3 ab = b - a, bc = c - b, ca = a - c;
+        const double x = length(ab), y = length(bc), z = length(ca);
+        for (const double edge : {x, y, z}) out.edges.add(power_bin(edge, lowest_octave), edge);
+        double sharpest = -1; // stays where lengths are beyond all numbers
+        sharpest = std::max(sharpest, cosine_between(ab, x, bc, y));
+        sharpest = std::max(sharpest, cosine_between(bc, y, ca, z));
+        sharpest = std::max(sharpest, cosine_between(ca, z, ab, x));
+        add_shape(sharpest, aspect_ratio(x, y, z, length(cross(ab, ca)) / 2), out);
+    }
+
+    /// sharpest: the cosine of the smallest angle; worst: the aspect.
+    static void add_shape(double sharpest, double worst, Shapes& out) {
+        const double angle = arc_cosine(sharpest) * 180 / pi;
+        out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
+        if (std::isfinite(worst))
+            out.aspects.add(power_bin(worst, 0), worst);
+        else
+            ++out.flat;
+    }
+
     /// A face in the world: its points, the edges from each of them to the next, and their lengths.
     struct Outline {
         std::vector<Vec3> points, edges;
@@ -125,13 +155,8 @@ class ShapesOfFaces {
 
     /// The largest of the triangles around the first corner.
     static double worst_aspect(const Outline& o) {
-        const std::size_t n = o.points.size();
-        if (n == 3) {
-            const double area = length(cross(o.edges[0], o.edges[2])) / 2;
-            return aspect_ratio(o.lengths[0], o.lengths[1], o.lengths[2], area);
-        }
         double worst = 0;
-        for (std::size_t i = 1; i + 1 < n; ++i)
+        for (std::size_t i = 1; i + 1 < o.points.size(); ++i)
             worst = std::max(worst, aspect_ratio(o.points[0], o.points[i], o.points[i + 1]));
         return worst;
     }
@@ -146,13 +171,7 @@ class ShapesOfFaces {
             sharpest = std::max(sharpest, cosine_between(outline.edges[i], outline.lengths[i],
                                                          outline.edges[next], outline.lengths[next]));
         }
-        const double worst = worst_aspect(outline);
-        const double angle = arc_cosine(sharpest) * 180 / pi;
-        out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
-        if (std::isfinite(worst))
-            out.aspects.add(power_bin(worst, 0), worst);
-        else
-            ++out.flat;
+        add_shape(sharpest, worst_aspect(outline), out);
     }
 
     const Mesh& mesh_;
