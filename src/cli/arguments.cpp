@@ -40,10 +40,8 @@ CLI::Option* make(CLI::App& app, const Argument& a) {
         return app.add_option_function<std::string>(a.names, *call, a.help);
     if (const auto* list = std::get_if<std::vector<std::string>*>(&a.target)) {
         CLI::Option* option = app.add_option(a.names, **list, a.help);
-        if (a.at_commas)
-            option->delimiter(',');
-        else if (a.names.starts_with("-"))
-            option->allow_extra_args(false);
+        if (a.at_commas) option->delimiter(',');
+        if (a.names.starts_with("-") && (!a.at_commas || a.in_one_word)) option->allow_extra_args(false);
         return option;
     }
     if (const auto* number = std::get_if<int*>(&a.target)) return app.add_option(a.names, **number, a.help);

@@ -18,7 +18,7 @@ struct Argument {
     std::string names; ///< "-j,--threads"; "MESH" for a positional one
     Target target;
     std::string help;
-    bool needed = false, is_hidden = false, at_commas = false;
+    bool needed = false, is_hidden = false, at_commas = false, in_one_word = false;
     std::string heading{}; ///< in --help; empty: the general one
     std::vector<std::string> choices{};
     std::vector<std::string> (*suggestions)() = nullptr; ///< what completions offer; others are taken, too
@@ -51,6 +51,11 @@ struct Argument {
     }
     Argument& not_negative() {
         at_least_0 = true;
+        return *this;
+    }
+    /// A list whose values are one argument, so that what follows it is another's.
+    Argument& separated_by_commas_alone() {
+        at_commas = in_one_word = true;
         return *this;
     }
     /// A list whose values may also be separated by commas.

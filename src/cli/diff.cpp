@@ -115,6 +115,11 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
     else
         for (const auto& file : {options.a, options.b}) allow_input(allowed, file);
     allowed.read.insert(allowed.read.end(), options.asset_roots.begin(), options.asset_roots.end());
+    for (const auto& [option, said] : {std::pair{"--unit", options.units}, std::pair{"--up", options.ups}})
+        if (said.size() > 2)
+            throw Error(ErrorKind::usage, "E-ARGUMENT",
+                        fmt::format("{} has {} values, and there are two files", option, said.size()),
+                        "give one, for both, or two, for A and for B", line.find(option));
     check_reports(options, line);
     for (const auto& report : options.reports) {
         allow_output(allowed, report);
@@ -133,59 +138,66 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 } // namespace
 
 Command diff_command() {
-    return {
-        "diff",
-        "Compares two mesh files, or two folders; the exit code is 1 when they differ.",
-        diff_examples,
-        {},
-        [](Arguments& arguments, Console& console) {
-            auto options = std::make_shared<DiffOptions>();
-            auto& settings = options->settings;
-            arguments
-                .add("A", &options->a,
-                     "The mesh file to compare with, a folder of such, or - for standard input.")
-                .required();
-            arguments.add("B", &options->b, "The other mesh file, or folder.").required();
-            arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
-            arguments.add("--rms", &options->rms,
-                          "The largest root mean square distance over the area allowed.");
-            arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
-            arguments
-                .add("--values", &settings.attribute_limit,
-                     "The largest allowed difference of attribute values. Default: 1e-6.")
-                .not_negative();
-            arguments
-                .add("--ignore", &options->ignored,
-                     "Sections that do not decide:\ncounts, topology, geometry, attributes, materials, "
-                     "parts, document.")
-                .separated_by_commas()
-                .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
-            arguments
-                .add("--samples", &options->samples,
-                     "Points spread over the area, each way, all of them measured.\n"
-                     "Default: 100000; rms and mean are of as many of these as they need.")
-                .between(0, 1000000000);
-            arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
-                .not_negative();
-            arguments.add("--certify", &settings.deviation.certify,
-                          "Also computes a guaranteed bound of the distance, and compares --max with it.");
-            arguments.add("--unit", &options->unit, "The unit of a file that states none.")
-                .one_of(stated_units());
-            arguments.add("--up", &options->up, "The up axis of a file that states none.").one_of({"y", "z"});
-            arguments.add("--html", report_named(options, "--html", ".html"),
-                          "Also writes F.html, a page with pictures of both files and of the distances.");
-            arguments.add("--markdown", report_named(options, "--markdown", ".md"),
-                          "Also writes F.md, for a pull request.");
-            arguments.add("--report", &options->reports, "The same for either: F.html or F.md.");
-            arguments.add("--all", &options->all, "Also shows what is equal.");
-            arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
-            arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
-                .between(1, 4096);
-            add_asset_root_option(arguments, options->asset_roots);
-            add_sandbox_option(arguments, options->sandbox);
-            add_message_options(arguments, console);
-            return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
-        }};
+    return {"diff",
+            "Compares two mesh files, or two folders; the exit code is 1 when they differ.",
+            diff_examples,
+            {},
+            [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<DiffOptions>();
+                auto& settings = options->settings;
+                arguments
+                    .add("A", &options->a,
+                         "The mesh file to compare with, a folder of such, or - for standard input.")
+                    .required();
+                arguments.add("B", &options->b, "The other mesh file, or folder.").required();
+                arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
+                arguments.add("--rms", &options->rms,
+                              "The largest root mean square distance over the area allowed.");
+                arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
+                arguments
+                    .add("--values", &settings.attribute_limit,
+                         "The largest allowed difference of attribute values. Default: 1e-6.")
+                    .not_negative();
+                arguments
+                    .add("--ignore", &options->ignored,
+                         "Sections that do not decide:\ncounts, topology, geometry, attributes, materials, "
+                         "parts, document.")
+                    .separated_by_commas()
+                    .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
+                arguments
+                    .add("--samples", &options->samples,
+                         "Points spread over the area, each way, all of them measured.\n"
+                         "Default: 100000; rms and mean are of as many of these as they need.")
+                    .between(0, 1000000000);
+                arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
+                    .not_negative();
+                arguments.add(
+                    "--certify", &settings.deviation.certify,
+                    "Also computes a guaranteed bound of the distance, and compares --max with it.");
+                arguments
+                    .add("--unit", &options->units,
+                         "The unit of a file that states none; mm,m: of A and of B where they differ.")
+                    .separated_by_commas_alone()
+                    .one_of(stated_units());
+                arguments
+                    .add("--up", &options->ups,
+                         "The up axis of a file that states none; z,y: of A and of B where they differ.")
+                    .separated_by_commas_alone()
+                    .one_of({"y", "z"});
+                arguments.add("--html", report_named(options, "--html", ".html"),
+                              "Also writes F.html, a page with pictures of both files and of the distances.");
+                arguments.add("--markdown", report_named(options, "--markdown", ".md"),
+                              "Also writes F.md, for a pull request.");
+                arguments.add("--report", &options->reports, "The same for either: F.html or F.md.");
+                arguments.add("--all", &options->all, "Also shows what is equal.");
+                arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
+                arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
+                    .between(1, 4096);
+                add_asset_root_option(arguments, options->asset_roots);
+                add_sandbox_option(arguments, options->sandbox);
+                add_message_options(arguments, console);
+                return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
+            }};
 }
 
 } // namespace facetmill::cli

@@ -64,10 +64,13 @@ Scene read(const std::string& name, bool is_a, const DiffOptions& options, repor
 }
 
 /// What a file does not state is as the command line says.
-void state(Scene& scene, const DiffOptions& options) {
-    if (scene.unit == Unit::unknown) scene.unit = unit_named(options.unit).value_or(Unit::unknown);
-    if (scene.up == UpAxis::unknown && !options.up.empty())
-        scene.up = options.up == "y" ? UpAxis::y : UpAxis::z;
+void state(Scene& scene, bool is_a, const DiffOptions& options) {
+    const auto stated = [&](const std::vector<std::string>& said) {
+        return said.empty() ? std::string() : is_a ? said.front() : said.back();
+    };
+    if (scene.unit == Unit::unknown) scene.unit = unit_named(stated(options.units)).value_or(Unit::unknown);
+    if (const std::string up = stated(options.ups); scene.up == UpAxis::unknown && !up.empty())
+        scene.up = up == "y" ? UpAxis::y : UpAxis::z;
 }
 
 /// Whether the scene is one part that is called like its file: a format without names.
@@ -88,8 +91,8 @@ ComparedFiles compared_files(const DiffOptions& options, const std::string& name
     steps.next();
     b = read(name_b, false, options, notes, console);
     steps.next();
-    state(a, options);
-    state(b, options);
+    state(a, true, options);
+    state(b, false, options);
     io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
                     b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
     if (is_named_by_file(a, name_a) && is_named_by_file(b, name_b)) b.parts[0].name = a.parts[0].name;

@@ -13,9 +13,9 @@ struct DiffOptions {
     std::string a, b, maximum, rms, mean;
     std::vector<std::string> ignored;
     report::ComparisonSettings settings;
-    std::size_t samples = SIZE_MAX;   ///< of the deviation, which averages them all then; or not given
-    std::string unit, up;             ///< of files that state none
-    std::vector<std::string> reports; ///< pages and Markdown files to write
+    std::size_t samples = SIZE_MAX;      ///< of the deviation, which averages them all then; or not given
+    std::vector<std::string> units, ups; ///< of files that state none: of both, or of A and of B
+    std::vector<std::string> reports;    ///< pages and Markdown files to write
     std::vector<std::string> asset_roots;
     bool json = false, all = false;
     int threads = 0;

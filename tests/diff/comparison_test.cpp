@@ -280,8 +280,20 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
     const Scene mm = box(100, 200, 300);
     CHECK(hint(mm, mm).empty());
     CHECK(hint(mm, box(0.1, 0.2, 0.3)) == "the box of the second file is that of the first times 0.001, as "
-                                          "from mm to m: --unit says what unit a "
-                                          "file has that states none");
+                                          "from mm to m: --unit mm,m says so of the files, which state none");
+    Scene metre = box(0.1, 0.2, 0.3), both = mm;
+    metre.unit = Unit::m;
+    both.unit = Unit::mm;
+    CHECK(hint(mm, metre).ends_with("--unit mm says so of the first file, which states none"));
+    CHECK(hint(both, box(0.1, 0.2, 0.3)).ends_with("--unit m says so of the second file, which states none"));
+    CHECK(hint(both, metre).ends_with("both files state a unit, and one seems to be wrong"));
+    CHECK(hint(box(1, 2, 3),
+               [&] {
+                   Scene cm = box(30.48, 60.96, 91.44);
+                   cm.unit = Unit::cm;
+                   return cm;
+               }())
+              .find("as from ft to cm: --unit ft") != std::string::npos);
     CHECK(hint(box(1, 2, 3), box(25.4, 50.8, 76.2)).find("times 25.4, as from in to mm") !=
           std::string::npos);
     CHECK(hint(mm, box(130, 260, 390)).empty());
@@ -289,11 +301,26 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
     Scene z_up = mm;
     for (Vec3& p : z_up.parts[0].mesh.positions) p = {p.x, -p.z, p.y};
     CHECK(hint(mm, z_up) ==
-          "the box of the second file is that of the first turned from y up to z up: --up says "
-          "which axis is up in a file that states none");
+          "the box of the second file is that of the first turned from y up to z up: --up y,z says so of the "
+          "files, which state none");
     for (Vec3& p : z_up.parts[0].mesh.positions) p = p * 0.001;
-    CHECK(hint(mm, z_up).find("times 0.001, as from mm to m, and turned from y up to z up: --unit says") !=
+    CHECK(hint(mm, z_up).find("times 0.001, as from mm to m, and turned from y up to z up: --unit mm,m") !=
           std::string::npos);
+    Scene turned = mm;
+    for (Vec3& p : turned.parts[0].mesh.positions) p = {p.y, p.z, p.x};
+    CHECK(hint(mm, turned) ==
+          "the box of the second file is that of the first turned so that its x, y, z are y, z, x "
+          "(transform --matrix 0,1,0,0,0,0,1,0,1,0,0,0)");
+    for (Vec3& p : turned.parts[0].mesh.positions) p = {-p.x, p.y, p.z}; // mirrored is not turned
+    CHECK(hint(mm, turned).empty());
+    // A box with its middle at 0 is the same in all ways up but for what lies in it.
+    Scene low = scene_called(shapes::cube()), lying = low;
+    auto& places = low.parts[0].mesh.positions;
+    for (Vec3& p : places) p = p * 2 - Vec3{1, 1, 1};
+    places.insert(places.end(), 20, Vec3{0, -0.9, 0});
+    lying = low;
+    for (Vec3& p : lying.parts[0].mesh.positions) p = {p.x, p.z, -p.y};
+    CHECK(hint(low, lying).find("turned from z up to y up") != std::string::npos);
     ComparisonSettings ignoring;
     ignoring.ignored = {"geometry"};
     CHECK(report::compare(mm, z_up, ignoring).hint.empty());
