@@ -143,8 +143,8 @@ std::span<const MessageId> message_ids() {
          "Use fewer aliases, or a foreach."},
         {"E-EXPORT",
          {Kind::usage},
-         "A run cannot be exported to a workflow: none of its outputs is known in advance, or the engine "
-         "cannot represent the name of one of its files.",
+         "A run cannot be exported to a workflow: none of its outputs is known in advance, the engine cannot "
+         "represent the name of one of its files, or there is nothing that `--keep-cells` could divide.",
          "Add a report to the pipeline, as in `report: \"${input.stem}.json\"`, rename the file, or use "
          "`facetmill batch`."},
         {"E-EXPRESSION",
@@ -355,8 +355,9 @@ std::span<const MessageId> message_ids() {
          "Save the pipeline in the working directory."},
         {"E-SCRATCH",
          {Kind::output},
-         "Temporary data of cells cannot be read back as it was written: its disk is damaged.",
-         "Use another disk: `--scratch DIR`."},
+         "Temporary data of cells cannot be read back as it was written: its disk is damaged. Or a job of "
+         "`--cells-job` finds no cells, or not those of its inputs and options.",
+         "Use another disk: `--scratch DIR`. Run the workflow again: it makes the cells first."},
         {"E-SECTION",
          {Kind::limit, Kind::stage},
          "The spacing of sections is 0, or there would be too many.",

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace facetmill::cells {
@@ -37,22 +38,26 @@ CellFolder::CellFolder(Settings settings) : settings_(std::move(settings)) {
     std::error_code error;
     fs::create_directories(settings_.path, error);
     if (error) cannot_keep(settings_.path, error.message());
-    take_lock();
+    take_lock(std::string(lock_name), settings_.beside.empty() ? LOCK_EX : LOCK_SH);
+    if (!settings_.beside.empty()) take_lock(fmt::format("facetmill-{}.lock", settings_.beside), LOCK_EX);
 }
 
-CellFolder::~CellFolder() {
-    if (lock_ >= 0) ::close(lock_);
+CellFolder::~CellFolder() { leave(); }
+
+void CellFolder::leave() {
+    for (const int lock : locks_) ::close(lock);
+    locks_.clear();
 }
 
 /// The file stays: were it removed, a third run could lock a new one while a second waits for this one.
-void CellFolder::take_lock() {
-    const fs::path path = file(std::string(lock_name));
-    lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (lock_ < 0) cannot_keep(settings_.path, std::strerror(errno));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+void CellFolder::take_lock(const std::string& name, int how) {
+    const fs::path path = file(name);
+    const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (lock >= 0) locks_.push_back(lock);
+    if (lock >= 0 && ::flock(lock, how | LOCK_NB) == 0) return;
     const int why = errno;
-    ::close(lock_);
-    if (why != EWOULDBLOCK) cannot_keep(settings_.path, std::strerror(why));
+    leave();
+    if (lock < 0 || why != EWOULDBLOCK) cannot_keep(settings_.path, std::strerror(why));
     throw Error(ErrorKind::output, "E-BUSY",
                 fmt::format("another run is at work on the cells in '{}'", settings_.path.string()),
                 "wait for its end, or name another folder with --keep-cells");
@@ -116,6 +121,11 @@ std::vector<std::string> CellFolder::names(const std::string& begin) const {
 void CellFolder::remove(const std::string& name) const {
     std::error_code ignored;
     fs::remove(file(name), ignored);
+}
+
+void CellFolder::touch(const std::string& name) const {
+    if (::utimensat(AT_FDCWD, file(name).c_str(), nullptr, 0) != 0)
+        cannot_keep(settings_.path, std::strerror(errno));
 }
 
 } // namespace facetmill::cells

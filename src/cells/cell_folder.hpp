@@ -8,7 +8,7 @@
 
 namespace facetmill::cells {
 
-/// Locked as long as it is open.
+/// Locked as long as it is open, for all others or for those that are not beside.
 class CellFolder {
   public:
     struct Settings {
@@ -16,6 +16,9 @@ class CellFolder {
         bool sync = true; ///< what is kept waits until it is on the disk
         /// Is told in words what is taken up, and what is not and why; such things are in no report.
         std::function<void(const std::string&)> tell = {};
+        /// Names what is done in it beside other processes, which have other names; empty: nobody else is
+        /// at work in it.
+        std::string beside = {};
     };
     /// Makes it. Throws output: E-BUSY when another run holds it, E-WRITE, E-SPACE.
     explicit CellFolder(Settings settings);
@@ -43,12 +46,15 @@ class CellFolder {
     /// The names of the files in it that begin so.
     std::vector<std::string> names(const std::string& begin) const;
     void remove(const std::string& name) const;
+    /// Makes it as new as one that is written now. Throws output (E-WRITE).
+    void touch(const std::string& name) const;
 
   private:
-    void take_lock();
+    void take_lock(const std::string& name, int how);
+    void leave();
 
     Settings settings_;
-    int lock_ = -1;
+    std::vector<int> locks_;
 };
 
 } // namespace facetmill::cells

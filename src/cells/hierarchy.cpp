@@ -2,7 +2,9 @@
 
 #include "base/memory.hpp"
 #include "base/readable_numbers.hpp"
+#include "cells/kept_partition.hpp"
 #include "cells/stations.hpp"
+#include "geometry/edit/moved.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,27 +38,24 @@ std::uint64_t target_of(std::uint64_t faces, const SimplifySettings& settings) {
 
 class Hierarchy {
   public:
-    Hierarchy(const Partition& partition, const SimplifySettings& settings, const Means& means)
-        : partition_(partition), settings_(settings), means_(means), stations_(stations_of(partition)),
-          left_(stations_, means, true), target_(target_of(partition.faces(), settings)),
+    Hierarchy(const Partition& partition, const SimplifySettings& settings, const Means& means,
+              const Transform& transform)
+        : partition_(partition), settings_(settings), means_(means), transform_(transform),
+          stations_(stations_of(partition)), left_(stations_, means, true),
+          target_(target_of(partition.faces(), settings)),
           diagonal_(partition.source().contents().bounds.diagonal()) {}
 
     HierarchyResult run() {
-        settle_below_root(
-            stations_, left_.take_up(),
-            means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0,
-            [&](std::size_t s) {
-                require_room(s);
-                return bytes_given(s);
-            },
-            [&](std::size_t s) { settle(s); });
+        settle_all(left_.take_up(std::vector<std::uint8_t>(stations_.size(), 1), true));
         const std::size_t root = stations_.size() - 1;
         require_room(root);
         Cell cell = cell_of(root);
         HierarchyResult result;
+        const double area = area_of(root, cell);
         SimplifyResult r = simplified(root, cell);
-        const StationWork work = work_with(root, r);
+        const StationWork work = work_with(root, area, r);
         result.error = work.error;
+        result.area_before = work.area;
         result.collapses = work.collapses;
         result.turned = work.turned;
         result.mesh = std::move(r.mesh);
@@ -69,7 +68,32 @@ class Hierarchy {
         return result;
     }
 
+    void run(const CellJob& job) {
+        settle_all(left_.take_up(stations_of_job(stations_, job), false));
+        const std::string text = means_.key + "\n";
+        means_.kept->write(stamp_of(job), {std::as_bytes(std::span(text))});
+    }
+
   private:
+    void settle_all(const std::vector<std::uint8_t>& wanted) {
+        settle_below_root(
+            stations_, wanted, means_.memory > bytes_of_process ? means_.memory - bytes_of_process : 0,
+            [&](std::size_t s) {
+                require_room(s);
+                return bytes_given(s);
+            },
+            [&](std::size_t s) { settle(s); });
+    }
+
+    /// Of a leaf's faces; of those above what was noted there.
+    double area_of(std::size_t station, const Cell& cell) const {
+        const Station& s = stations_[station];
+        if (s.is_leaf()) return surface_size(cell.mesh, transform_, false).area;
+        double area = 0;
+        for (const std::size_t child : s.children) area += left_.work(child).area;
+        return area;
+    }
+
     /// Bytes that simplifying the station takes.
     std::uint64_t bytes_given(std::size_t station) const {
         const Station& s = stations_[station];
@@ -95,14 +119,16 @@ class Hierarchy {
 
     void settle(std::size_t station) {
         Cell cell = cell_of(station);
+        const double area = area_of(station, cell);
         SimplifyResult r = simplified(station, cell);
-        const StationWork work = work_with(station, r);
+        const StationWork work = work_with(station, area, r);
         left_.put(station, reduced(std::move(r.mesh), r.sources, cell), work);
     }
 
     /// What was done at the station, with that below it.
-    StationWork work_with(std::size_t station, const SimplifyResult& r) const {
+    StationWork work_with(std::size_t station, double area, const SimplifyResult& r) const {
         StationWork work;
+        work.area = area;
         for (const std::size_t child : stations_[station].children) {
             const StationWork& below = left_.work(child);
             work.error = std::max(work.error, below.error);
@@ -146,6 +172,7 @@ class Hierarchy {
     const Partition& partition_;
     const SimplifySettings& settings_;
     const Means& means_;
+    const Transform& transform_;
     std::vector<Station> stations_; ///< the root is the last
     LeftCells left_;
     std::uint64_t target_;
@@ -174,16 +201,35 @@ std::uint64_t memory_for_cells(std::uint64_t faces, std::uint64_t target) {
 
 std::uint64_t memory_in_core(std::uint64_t faces) { return bytes_of_process + bytes_in_core * faces; }
 
-HierarchyResult simplify_cells(const Partition& partition, const SimplifySettings& settings,
-                               const Means& means) {
+namespace {
+
+void require_memory(const Partition& partition, const SimplifySettings& settings, const Means& means) {
     const std::uint64_t target = target_of(partition.faces(), settings);
     const std::uint64_t needed = memory_for_cells(partition.faces(), target);
-    if (needed > means.memory)
-        throw out_of_memory(
-            fmt::format("a result of {} triangles needs at least {} in cells, --memory gives {}", target,
-                        sized(needed), sized(means.memory)),
-            "ask for fewer faces, or give more memory");
-    return Hierarchy(partition, settings, means).run();
+    if (needed <= means.memory) return;
+    throw out_of_memory(fmt::format("a result of {} triangles needs at least {} in cells, --memory gives {}",
+                                    target, sized(needed), sized(means.memory)),
+                        "ask for fewer faces, or give more memory");
+}
+
+} // namespace
+
+HierarchyResult simplify_cells(const Partition& partition, const SimplifySettings& settings,
+                               const Means& means, const Transform& transform) {
+    require_memory(partition, settings, means);
+    return Hierarchy(partition, settings, means, transform).run();
+}
+
+void simplify_job(const Partition& partition, const SimplifySettings& settings, const Means& means,
+                  const Transform& transform) {
+    require_memory(partition, settings, means);
+    try {
+        Hierarchy(partition, settings, means, transform).run(*means.job);
+    } catch (const Error& error) {
+        if (error.diagnostics().front().id != "E-SCRATCH") throw;
+        make_cells_due(*means.kept,
+                       fmt::format("cells in '{}' are not as written", means.kept->path().string()));
+    }
 }
 
 } // namespace facetmill::cells

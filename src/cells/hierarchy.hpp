@@ -19,6 +19,7 @@ struct HierarchyResult {
     SimplifyResult::Blocked blocked;
     std::size_t collapses = 0, turned = 0, cells = 0, levels = 0;
     std::uint64_t faces_before = 0;
+    double area_before = 0; ///< where the transform puts the mesh
 };
 
 /// Why these settings need the whole mesh at once, in words; none when they do not.
@@ -33,6 +34,10 @@ std::uint64_t memory_in_core(std::uint64_t faces);
 /// Simplifies the cells to the settings' faces or ratio. Throws limit (E-MEMORY) when memory_for_cells is
 /// more than there is; output (E-SCRATCH, E-SPACE).
 HierarchyResult simplify_cells(const Partition& partition, const SimplifySettings& settings,
-                               const Means& means);
+                               const Means& means, const Transform& transform = {});
+
+/// Does what means.job has to do of that, and leaves its stamp in means.kept. Throws as simplify_cells.
+void simplify_job(const Partition& partition, const SimplifySettings& settings, const Means& means,
+                  const Transform& transform);
 
 } // namespace facetmill::cells

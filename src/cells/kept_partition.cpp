@@ -13,8 +13,7 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr const char *manifest_file = "facetmill-cells.json", *records_file = "facetmill-cells.records",
-                     *borders_file = "facetmill-cells.borders";
+constexpr auto manifest_file = kept_files[0], records_file = kept_files[1], borders_file = kept_files[2];
 constexpr const char* format_name = "facetmill-cells";
 constexpr int format_version = 1;
 
@@ -58,13 +57,22 @@ class PartitionKeeper {
         if (auto taken = take(why)) {
             folder_.tell(fmt::format("{} reused from '{}'", counted(taken->tree().leaves.size(), "cell"),
                                      folder_.path().string()));
+            if (means_.job &&
+                means_.job->makes_cells()) // a workflow sees that they are newer than the inputs
+                for (const char* name : kept_files) folder_.touch(name);
             return taken;
         }
+        if (is_beside_others())
+            make_cells_due(folder_, why.empty()
+                                        ? fmt::format("there are no cells in '{}'", folder_.path().string())
+                                        : why);
         if (!why.empty()) folder_.tell(why + ": they are made again");
         return make();
     }
 
   private:
+    bool is_beside_others() const { return means_.job && !means_.job->makes_cells(); }
+
     /// What the partition depends on.
     Json origin() const {
         return {{"format", format_name}, {"version", format_version}, {"program", code_id()},
@@ -119,7 +127,8 @@ class PartitionKeeper {
         Tree tree;
         if (!tree.restore(depths)) return {};
         const std::size_t damaged =
-            count_damaged(records_file, records) + count_damaged(borders_file, borders);
+            is_beside_others() ? 0
+                               : count_damaged(records_file, records) + count_damaged(borders_file, borders);
         if (damaged > 0) {
             why = fmt::format("{} of the {} cells in '{}' {} not as written", damaged, depths.size(),
                               folder_.path().string(), damaged == 1 ? "is" : "are");
@@ -185,6 +194,11 @@ std::unique_ptr<Partition> kept_partition(std::shared_ptr<FaceSource> source, co
                                           std::uint64_t most) {
     if (!means.kept) return std::make_unique<Partition>(std::move(source), means, most);
     return PartitionKeeper(std::move(source), means, most).partition();
+}
+
+void make_cells_due(const CellFolder& folder, const std::string& why) {
+    folder.remove(manifest_file);
+    throw Error(ErrorKind::output, "E-SCRATCH", why, "run the workflow again, which makes the cells first");
 }
 
 } // namespace facetmill::cells

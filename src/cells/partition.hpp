@@ -4,6 +4,7 @@
 
 #include "cells/borders.hpp"
 #include "cells/cell_folder.hpp"
+#include "cells/cell_job.hpp"
 #include "cells/face_source.hpp"
 #include "cells/tree.hpp"
 
@@ -15,7 +16,8 @@ struct Means {
     std::uint64_t memory = 0; ///< bytes, for everything
     /// Where cells are kept; none: they are temporary, too.
     std::shared_ptr<const CellFolder> kept{};
-    std::string key{}; ///< of what was done so far: the program, inputs and options, 64 digits
+    std::string key{};            ///< of what was done so far: the program, inputs and options, 64 digits
+    std::optional<CellJob> job{}; ///< all there is to do, of which others do the rest
 };
 
 /// A part of a mesh. Vertices that other parts have too stay known by name and position.

@@ -49,7 +49,8 @@ class StationMaker {
 
 /// What goes before a cell. left: of LeftCells.
 void archive_left(auto& archive, auto& left) {
-    archive(left.vertices, left.faces, left.work.error, left.work.collapses, left.work.turned);
+    archive(left.vertices, left.faces, left.work.error, left.work.area, left.work.collapses,
+            left.work.turned);
 }
 
 constexpr std::string_view kept_begin = "facetmill-simplified.";
@@ -72,6 +73,41 @@ std::size_t levels_of(const std::vector<Station>& stations) {
     std::size_t deepest = 0;
     for (const Station& s : stations) deepest = std::max(deepest, s.level);
     return deepest + 1;
+}
+
+namespace {
+
+/// Where the tree of stations is cut for jobs: those of a level, and cells above it.
+std::vector<std::size_t> tops_of(const std::vector<Station>& stations, std::size_t level) {
+    std::vector<std::size_t> tops;
+    for (std::size_t s = 0; s + 1 < stations.size(); ++s)
+        if (stations[s].level == level || (stations[s].is_leaf() && stations[s].level < level))
+            tops.push_back(s);
+    return tops;
+}
+
+} // namespace
+
+std::string name_of(const CellJob& job) { return fmt::format("job.{}-of-{}", job.number, job.of); }
+
+std::string stamp_of(const CellJob& job) { return "facetmill-" + name_of(job); }
+
+std::vector<std::uint8_t> stations_of_job(const std::vector<Station>& stations, const CellJob& job) {
+    constexpr std::size_t tops_per_job = 2; // so that none has much more to do than another
+    std::size_t level = 1;
+    while (level + 1 < levels_of(stations) && tops_of(stations, level).size() < tops_per_job * job.of)
+        ++level;
+    std::vector<std::uint8_t> of_job(stations.size(), 0);
+    std::uint64_t before = 0;
+    for (const std::size_t top : tops_of(stations, level)) {
+        const std::uint64_t middle = before + stations[top].faces / 2;
+        of_job[top] = middle * job.of / std::max<std::uint64_t>(1, stations.back().faces) + 1 == job.number;
+        before += stations[top].faces;
+    }
+    for (std::size_t s = stations.size(); s-- > 0;)
+        if (of_job[s])
+            for (const std::size_t child : stations[s].children) of_job[child] = 1;
+    return of_job;
 }
 
 void settle_below_root(const std::vector<Station>& stations, const std::vector<std::uint8_t>& wanted,
@@ -142,16 +178,18 @@ CellFolder::Found LeftCells::take(std::size_t station) {
     return found;
 }
 
-std::vector<std::uint8_t> LeftCells::take_up() {
-    std::vector<std::uint8_t> wanted(stations_.size(), 1);
+std::vector<std::uint8_t> LeftCells::take_up(const std::vector<std::uint8_t>& among, bool others_go) {
+    std::vector<std::uint8_t> wanted = among;
     if (!kept_) return wanted;
-    std::size_t reused = 0, damaged = 0, others = 0;
+    std::size_t reused = 0, damaged = 0, others = 0, all = 0;
     for (const std::string& name : kept_->names(std::string(kept_begin))) {
-        if (name.starts_with(kept_name_begin(key_))) continue;
+        if (!others_go || name.starts_with(kept_name_begin(key_))) continue;
         kept_->remove(name);
         ++others;
     }
     for (std::size_t s = stations_.size() - 1; s-- > 0;) { // those above before those below
+        if (!among[s]) continue;
+        ++all;
         if (wanted[s]) {
             const CellFolder::Found found = take(s);
             damaged += found == CellFolder::Found::damaged;
@@ -169,8 +207,7 @@ std::vector<std::uint8_t> LeftCells::take_up() {
         kept_->tell(fmt::format("{} in '{}' {} not as written: made again",
                                 counted(damaged, "simplified cell"), where, damaged == 1 ? "is" : "are"));
     if (reused > 0)
-        kept_->tell(
-            fmt::format("{} of {} simplified cells reused from '{}'", reused, stations_.size() - 1, where));
+        kept_->tell(fmt::format("{} of {} simplified cells reused from '{}'", reused, all, where));
     return wanted;
 }
 

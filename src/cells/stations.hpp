@@ -22,6 +22,10 @@ std::vector<Station> stations_of(const Partition& partition);
 
 std::size_t levels_of(const std::vector<Station>& stations);
 
+/// Which stations a job that simplifies settles: [stations], each with all below it. Jobs have about as many
+/// faces, and what is above those of all jobs is left to the last run.
+std::vector<std::uint8_t> stations_of_job(const std::vector<Station>& stations, const CellJob& job);
+
 /// Settles these stations, none of them the root, each after its children and as many at a time as threads
 /// and memory allow. wanted: [stations]. bytes_of(station): what settling it takes, asked when its children
 /// are settled, and what may throw.
@@ -32,6 +36,7 @@ void settle_below_root(const std::vector<Station>& stations, const std::vector<s
 /// What was done at a station, and below it.
 struct StationWork {
     double error = 0;
+    double area = 0; ///< of the mesh as it came
     std::size_t collapses = 0, turned = 0;
 };
 
@@ -41,9 +46,10 @@ class LeftCells {
     /// kept: in files of means.kept, where there is such a folder.
     LeftCells(const std::vector<Station>& stations, const Means& means, bool kept);
 
-    /// Takes up what was kept with this key. Returns which stations are still to be settled: [stations] not
-    /// those that are there, nor those below them.
-    std::vector<std::uint8_t> take_up();
+    /// Takes up what was kept with this key of these stations, each with all below it. Returns which of them
+    /// are still to be settled: [stations] not those that are there, nor those below them. others_go: what
+    /// was kept with another key is removed.
+    std::vector<std::uint8_t> take_up(const std::vector<std::uint8_t>& among, bool others_go);
     /// Any thread. Throws output (E-WRITE, E-SPACE).
     void put(std::size_t station, const Cell& cell, const StationWork& work = {});
     const StationWork& work(std::size_t station) const { return left_[station].work; }

@@ -1,6 +1,7 @@
 // facetmill export: the runs of many assets as a workflow of Ninja, Make or Snakemake.
 
 #include "base/cores.hpp"
+#include "cells/kept_partition.hpp"
 #include "cli/assets.hpp"
 #include "cli/workflow.hpp"
 
@@ -20,24 +21,28 @@ outputs of the job; Make and Ninja keep them and run the whole shard again. Path
 directory: run the workflow in it.
 The outputs are those of `facetmill batch` with the same options, byte for byte.
 
+A single run that simplifies a mesh larger than memory is divided into jobs with --keep-cells: one makes the cells,
+--cell-jobs simplify some of them each, and the last is the run itself. Its outputs are those of `facetmill run` with
+the same --memory, byte for byte. Jobs that were killed go on where they ended.
+
 Examples
   facetmill export --to ninja scan-to-web --input 'scans/**/*.ply' -o web > build.ninja && ninja
   facetmill export --to make scan.yaml --table params.csv -o web > assets.mk && make -f assets.mk -j4
   facetmill export --to snakemake scan.yaml --input 'scans/**/*.ply' -o web > Snakefile
   snakemake -j4                        (here; on a cluster by a profile: snakemake --profile slurm)
   facetmill export --to snakemake scan.yaml --table params.csv -o web --shard 100 > Snakefile
+  facetmill export --to ninja huge.yaml --memory 2G --keep-cells cells -o web > build.ninja && ninja
 )";
 
 struct ExportOptions : AssetOptions {
     std::string engine;
     int shard = 1;
+    int cell_jobs = 0; ///< 0: as many as suit the input
 };
 
-/// The run of an asset, as one would type it.
-Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline::PlanSettings& of_all) {
-    const auto own = settings_for(work.asset, of_all);
-    Job job{work.asset.name, {{"run", options.pipeline}}, {}, {}, work.memory};
-    auto& arguments = job.runs.front();
+/// A run as one would type it.
+std::vector<std::string> arguments_of(const ExportOptions& options, const pipeline::PlanSettings& own) {
+    std::vector<std::string> arguments{"run", options.pipeline};
     const auto give = [&](const char* option, const std::string& name, const std::string& value) {
         arguments.emplace_back(option);
         arguments.push_back(fmt::format("{}={}", name, value));
@@ -63,17 +68,98 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
     for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.string(),
                                         std::string("--threads"), threads, std::string("--quiet")})
         arguments.push_back(argument);
+    return arguments;
+}
+
+/// The pipeline, where it is a file that is there when the jobs run.
+std::vector<std::string> pipeline_as_input(const ExportOptions& options) {
     std::error_code ignored; // a pipe of the shell is gone when the job runs
     if (is_pipeline_file(options.pipeline) && !std::filesystem::is_fifo(options.pipeline, ignored))
-        job.inputs.push_back(options.pipeline);
+        return {options.pipeline};
+    return {};
+}
+
+/// The run of an asset.
+Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline::PlanSettings& of_all) {
+    const auto own = settings_for(work.asset, of_all);
+    Job job{work.asset.name, {arguments_of(options, own)}, pipeline_as_input(options), {}, work.memory};
     for (const auto& input : work.inputs) job.inputs.push_back(input.string());
     for (const auto& output : work.outputs) job.outputs.push_back(output.string());
     return job;
 }
 
-int export_work(const ExportOptions& options, const CommandLine& line, const Console& console) {
+/// One run, as jobs that meet in --keep-cells: one that makes the cells, those that simplify, and the run
+/// itself. Each writes the files that it declares, and no other job does.
+std::vector<Job> cell_jobs(const ExportOptions& options, const CommandLine& line,
+                           const pipeline::PlanSettings& settings, Problems& problems) {
+    const auto plan = plan_of(options.pipeline, settings, problems);
+    problems.throw_if_any(ErrorKind::usage);
+    auto missing = pipeline::missing_inputs(plan);
+    if (!missing.empty()) throw Error(ErrorKind::missing, std::move(missing));
+    pipeline::CellSettings cell = cell_settings(options.common, line);
+    const auto divided = pipeline::plan_cell_jobs(plan, cell, static_cast<std::size_t>(options.cell_jobs));
+    auto arguments = arguments_of(options, settings);
+    for (const std::string& argument :
+         {std::string("--partition"), std::string("always"), std::string("--memory"), options.common.memory,
+          std::string("--keep-cells"), options.common.kept_cells})
+        arguments.push_back(argument);
+    auto inputs = pipeline_as_input(options);
+    for (const auto& path : divided.inputs)
+        if (path != options.pipeline) inputs.push_back(path.string());
+    const auto kept = [&](const std::string& name) { return (cell.kept / name).string(); };
+    std::vector<Job> jobs;
+    const auto add = [&](const std::string& name, const std::string& job) -> Job& {
+        jobs.push_back({name, {arguments}, inputs, {}, cell.memory});
+        if (!job.empty())
+            jobs.back().runs.front().insert(jobs.back().runs.front().end(), {"--cells-job", job});
+        return jobs.back();
+    };
+    Job& first = add("the cells of " + plan.name, "cells");
+    for (const char* name : cells::kept_files) first.outputs.push_back(kept(name));
+    const std::vector<std::string> made = first.outputs;
+    std::vector<std::string> stamps;
+    for (std::size_t number = 1; number <= divided.count; ++number) {
+        const std::string share = fmt::format("{}/{}", number, divided.count);
+        Job& job = add(fmt::format("cells {} of {}", share, plan.name), share);
+        job.inputs.insert(job.inputs.end(), made.begin(), made.end());
+        job.outputs = {kept(cells::stamp_of({number, divided.count}))};
+        stamps.push_back(job.outputs.front());
+    }
+    Job& last = add(plan.name, "");
+    last.inputs.insert(last.inputs.end(), stamps.begin(), stamps.end());
+    for (const auto& path : divided.outputs) last.outputs.push_back(path.string());
+    return jobs;
+}
+
+/// What is wrong with options that divide one run, or that do not.
+void check_cells(const ExportOptions& options, const CommandLine& line, Problems& problems) {
+    const auto& sources = options.sources;
+    if (options.common.kept_cells.empty()) {
+        if (options.cell_jobs > 0 || options.common.partition != "auto")
+            problems.add(line.find(options.cell_jobs > 0 ? "--cell-jobs" : "--partition"), "E-ARGUMENT",
+                         "--partition and --cell-jobs are for a run in cells", "give --keep-cells DIR");
+        return check_sources(options, line, problems);
+    }
+    if (!sources.patterns.empty() || !sources.lists.empty() || !sources.table.empty() || options.shard > 1)
+        problems.add(line.find("--keep-cells"), "E-CONFLICT",
+                     "--keep-cells divides one run, and does not go with many assets",
+                     "give the input as the pipeline takes it: -D input=scan.ply");
+    if (options.common.memory.empty() || options.common.memory.ends_with('%'))
+        problems.add(line.find("--keep-cells"), "E-ARGUMENT", "jobs in cells need a memory each, in bytes",
+                     "--memory 2G");
+}
+
+std::string workflow_of(const ExportOptions& options, const std::vector<Job>& jobs, std::uint64_t memory) {
+    const Resources resources{options.common.threads, default_threads(), batch::memory_for_jobs(memory)};
+    return options.engine == "ninja"  ? ninja_workflow(jobs, resources)
+           : options.engine == "make" ? make_workflow(jobs, resources)
+                                      : snakemake_workflow(jobs, resources);
+}
+
+int export_work(ExportOptions& options, const CommandLine& line, const Console& console) {
     Problems problems;
-    check_sources(options, line, problems);
+    options.common.memory = options.memory;
+    check_cells(options, line, problems);
     if (options.pipeline == "-")
         problems.add(line.mark(0), "E-ARGUMENT",
                      "the jobs of a workflow cannot read the pipeline from standard input",
@@ -83,17 +169,19 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
     batch::Settings settings;
     set_planner(settings, options, of_all);
     confine({.read_all = true}, options.common.sandbox, console);
+    if (!options.common.kept_cells.empty()) {
+        const auto jobs = cell_jobs(options, line, of_all, problems);
+        settle(problems, console);
+        print(workflow_of(options, jobs, 0));
+        return 0;
+    }
     auto prepared = batch::prepare(assets_of(options, line), settings, problems);
     settle(problems, console);
     if (!prepared.missing.empty()) throw Error(ErrorKind::missing, std::move(prepared.missing));
     std::vector<Job> jobs;
     for (const auto& work : prepared.works) jobs.push_back(job_of(work, options, of_all));
     jobs = in_shards(std::move(jobs), static_cast<std::size_t>(options.shard));
-    const Resources resources{options.common.threads, default_threads(),
-                              batch::memory_for_jobs(memory_bytes(options.memory, line))};
-    print(options.engine == "ninja"  ? ninja_workflow(jobs, resources)
-          : options.engine == "make" ? make_workflow(jobs, resources)
-                                     : snakemake_workflow(jobs, resources));
+    print(workflow_of(options, jobs, memory_bytes(options.memory, line)));
     return 0;
 }
 
@@ -120,6 +208,15 @@ Command export_command() {
                          "The number of threads of each job. Default: 1.")
                     .between(1, 4096);
                 add_memory_option(arguments, *options, "jobs");
+                arguments.add(
+                    "--keep-cells", &options->common.kept_cells,
+                    "Divides one run in cells, which are kept in the folder DIR, into jobs that\nsimplify "
+                    "some of them each. --memory is then that of each job.");
+                add_partition_option(arguments, options->common);
+                arguments
+                    .add("--cell-jobs", &options->cell_jobs,
+                         "How many jobs simplify cells. Default: one for 2 million faces, 2 to 64.")
+                    .between(1, 100000);
                 add_sandbox_option(arguments, options->common.sandbox);
                 add_warning_options(arguments, options->common);
                 add_message_options(arguments, console);

@@ -93,15 +93,19 @@ std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
                 value.mark);
 }
 
-void add_cell_options(Arguments& arguments, PipelineOptions& options) {
-    arguments.add("--memory", &options.memory,
-                  "The memory for the run: 2G, 500MB, 50% of what is available. A mesh that needs\nmore is "
-                  "processed in cells on disk, see --partition. Default: no limit.");
+void add_partition_option(Arguments& arguments, PipelineOptions& options) {
     arguments
         .add("--partition", &options.partition,
              "Whether the first stages work on cells on disk: auto (where --memory is too\nlittle), always "
              "or never.")
         .one_of({"auto", "always", "never"});
+}
+
+void add_cell_options(Arguments& arguments, PipelineOptions& options) {
+    arguments.add("--memory", &options.memory,
+                  "The memory for the run: 2G, 500MB, 50% of what is available. A mesh that needs\nmore is "
+                  "processed in cells on disk, see --partition. Default: no limit.");
+    add_partition_option(arguments, options);
     arguments.add(
         "--scratch", &options.scratch,
         "The folder for the temporary data of cells. Default: that of --keep-cells, else the\noutput "
@@ -110,6 +114,26 @@ void add_cell_options(Arguments& arguments, PipelineOptions& options) {
                   "Keeps cells in the folder DIR: a run that was ended early, or comes again with\nthe same "
                   "inputs, takes up what is there.");
 }
+
+namespace {
+
+/// "cells", or "3/16": the third of 16. Throws usage (E-ARGUMENT).
+cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
+    cells::CellJob job;
+    if (text == "cells") return job;
+    const auto slash = text.find('/');
+    const auto number = parse_real(std::string_view(text).substr(0, slash));
+    const auto of = slash == text.npos ? std::nullopt : parse_real(std::string_view(text).substr(slash + 1));
+    constexpr double most = 100000;
+    const auto whole = [](double x) { return x == static_cast<double>(static_cast<std::size_t>(x)); };
+    if (!number || !of || !(*number >= 1) || !(*of >= *number) || !(*of <= most) || !whole(*number) ||
+        !whole(*of))
+        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--cells-job takes a job, found '{}'", text),
+                    "cells, or 3/16 for the third of 16", line.value(text));
+    return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
+}
+
+} // namespace
 
 pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line) {
     using When = pipeline::CellSettings::When;
@@ -123,6 +147,10 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--keep-cells is for runs in cells",
                     "give the memory for the run, as --memory 2G, or --partition always",
                     line.value(options.kept_cells));
+    if (!options.cells_job.empty()) settings.job = cell_job(options.cells_job, line);
+    if (settings.job && (settings.kept.empty() || settings.when == When::never))
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cells-job is for runs that keep their cells",
+                    "give their folder: --keep-cells DIR", line.value(options.cells_job));
     settings.scratch = !options.scratch.empty() ? options.scratch : options.kept_cells;
     if (settings.scratch.empty()) settings.scratch = options.output_dir;
     if (settings.scratch.empty()) settings.scratch = ".";
@@ -148,6 +176,10 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "Outputs and reports that stay the same keep their times, for Ninja's restat.");
     add_sync_option(arguments, options);
     add_cell_options(arguments, options);
+    arguments.add(
+        "--cells-job", &options.cells_job,
+        "Does one job of several that --keep-cells holds together: cells, or 3/16 for the third of\n16 "
+        "that simplify. It has no outputs. facetmill export writes them.");
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
                   "Says for each stage why it ran again, or that its result is from the cache.");

@@ -19,7 +19,7 @@ struct PipelineOptions {
     bool check_invariants = false, update_baseline = false;
     bool restat = false, explain = false;
     bool no_sync = false;
-    std::string memory, partition = "auto", scratch, kept_cells;
+    std::string memory, partition = "auto", scratch, kept_cells, cells_job;
     pipeline::CellSettings cells{}; ///< see cell_settings
     CacheOptions cache;
     SandboxOptions sandbox;
@@ -29,7 +29,9 @@ struct PipelineOptions {
 void add_param_options(Arguments& arguments, PipelineOptions& options);
 /// ... and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
-/// --memory, --partition, --scratch and --keep-cells: meshes larger than memory.
+/// --partition.
+void add_partition_option(Arguments& arguments, PipelineOptions& options);
+/// ... with --memory, --scratch and --keep-cells: meshes larger than memory.
 void add_cell_options(Arguments& arguments, PipelineOptions& options);
 /// What they ask for. Throws usage (E-ARGUMENT).
 pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);

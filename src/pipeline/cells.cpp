@@ -4,6 +4,7 @@
 #include "cells/face_source.hpp"
 #include "cells/hierarchy.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::pipeline {
@@ -59,16 +60,30 @@ std::size_t steps_on_cells(const Steps& steps, const std::string& what, const st
     return steps.size();
 }
 
+std::uint64_t estimated_faces(const std::vector<PlannedFile>& inputs) {
+    std::uint64_t faces = 0;
+    for (const PlannedFile& file : inputs) faces += cells::estimated_faces(file.path);
+    return faces;
+}
+
+std::vector<PlannedFile> mesh_inputs(const Plan& plan) {
+    std::vector<PlannedFile> inputs;
+    for (const PlannedFile& file : planned_files(plan.steps, plan.places))
+        if (!file.written && !file.shapes) inputs.push_back(file);
+    return inputs;
+}
+
+[[noreturn]] void refuse_jobs(const std::string& why, const std::string& hint, const Mark& where = {}) {
+    throw Error(ErrorKind::usage, "E-EXPORT", why, hint, where);
+}
+
 } // namespace
 
 CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     using When = CellSettings::When;
     if (settings.when == When::never || (settings.memory == 0 && settings.when == When::automatic)) return {};
-    std::vector<PlannedFile> inputs;
-    for (const PlannedFile& file : planned_files(plan.steps, plan.places))
-        if (!file.written && !file.shapes) inputs.push_back(file);
-    std::uint64_t faces = 0;
-    for (const PlannedFile& file : inputs) faces += cells::estimated_faces(file.path);
+    const std::vector<PlannedFile> inputs = mesh_inputs(plan);
+    const std::uint64_t faces = estimated_faces(inputs);
     const std::string needed = sized(cells::memory_in_core(faces));
     CellPlan cells;
     if (settings.when == When::automatic && cells::memory_in_core(faces) <= settings.memory) {
@@ -93,6 +108,34 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     cells.why = last.stage->ends_cells ? fmt::format("in cells on disk up to '{}': {}", last.name, what)
                                        : fmt::format("in cells on disk: {}", what);
     return cells;
+}
+
+CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count) {
+    const CellPlan cells = plan_cells(plan, settings);
+    if (cells.steps == 0)
+        refuse_jobs(
+            fmt::format("the run has no cells: {}", cells.why.empty() ? "--partition never" : cells.why),
+            "export it without --keep-cells, or use --partition always");
+    const Step& last = plan.steps[cells.steps - 1];
+    if (last.stage->name != "simplify")
+        refuse_jobs(
+            fmt::format("'{}' works on cells by itself: only what simplify does is divided", last.name),
+            "facetmill run is one job for all of it", last.where);
+    for (std::size_t i = 1; i + 1 < cells.steps; ++i) {
+        const Step& step = plan.steps[i];
+        if (!step.stage->checks && !step.stage->tells && !step.stage->moves)
+            refuse_jobs(fmt::format("each job would do '{}' again before it simplifies", step.name),
+                        "write its result by a run of its own, and load that", step.where);
+    }
+    CellJobs jobs;
+    constexpr std::uint64_t faces_of_job = 2000000, most = 64;
+    jobs.count = count > 0 ? count
+                           : static_cast<std::size_t>(std::clamp<std::uint64_t>(
+                                 estimated_faces(mesh_inputs(plan)) / faces_of_job, 2, most));
+    const Headers headers = read_headers(plan);
+    jobs.inputs = planned_inputs(plan, headers);
+    jobs.outputs = planned_outputs(plan, headers);
+    return jobs;
 }
 
 } // namespace facetmill::pipeline

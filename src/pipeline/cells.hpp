@@ -1,6 +1,7 @@
 #pragma once
 // Which of a plan's first steps work on cells, because the mesh is larger than the memory that is given.
 
+#include "cells/cell_job.hpp"
 #include "pipeline/plan.hpp"
 
 namespace facetmill::pipeline {
@@ -11,6 +12,7 @@ struct CellSettings {
     std::uint64_t memory = 0;        ///< bytes; 0: no limit is given
     std::filesystem::path scratch{}; ///< the folder for temporary data
     std::filesystem::path kept{};    ///< the folder in which cells are kept; empty: they are not
+    std::optional<cells::CellJob> job{}; ///< all there is to do; it needs `kept`
 };
 
 struct CellPlan {
@@ -21,5 +23,14 @@ struct CellPlan {
 /// Decides by the headers and sizes of the inputs. Throws usage (E-CELLS) when the mesh needs cells and a
 /// stage, an option or a file cannot be processed so, with the way out.
 CellPlan plan_cells(const Plan& plan, const CellSettings& settings);
+
+/// A run in cells as jobs: see cells/cell_job.hpp.
+struct CellJobs {
+    std::size_t count = 0;                              ///< of those that simplify
+    std::vector<std::filesystem::path> inputs, outputs; ///< of the run
+};
+/// count: jobs that simplify; 0: as many as suit the inputs. Throws usage (E-EXPORT) where nothing of the
+/// plan is simplified in cells, as plan_cells decides, or a stage before that makes cells anew.
+CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count);
 
 } // namespace facetmill::pipeline

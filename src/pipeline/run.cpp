@@ -104,8 +104,9 @@ class Runner {
         for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, {missing});
         const Headers headers = read_headers(plan_);
         for (const auto& error : headers.errors) failures_.add(error);
-        try_outputs(headers);
+        if (!settings_.cells.job) try_outputs(headers);
         Flow flow;
+        if (settings_.cells.job) return run_job();
         const bool small = !failures_.any() && run_on_cells(flow);
         if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
             (takes_pictures_ || !plan_.reports.empty()) && fetch({}, "the inspection at the end", flow))
@@ -152,20 +153,38 @@ class Runner {
         if (keeps_loaded_ && !failures_.guarded({}, "the plan", [] { refuse_reference(); })) return false;
         CellFlow cells;
         cells.means = {settings_.cells.scratch, settings_.cells.memory};
+        cells.means.job = settings_.cells.job;
         if (cells.means.memory == 0) cells.means.memory = memory_there() / 4 * 3;
         if (!failures_.guarded({}, "kept cells", [&] { open_kept(cells.means); })) return false;
-        for (std::size_t i = 0; i < on_cells_.steps; ++i)
-            if (!run_stage_on_cells(plan_.steps[i], cells)) return false;
+        for (std::size_t i = 0; i < on_cells_.steps; ++i) {
+            const Step& step = plan_.steps[i];
+            if (cells.means.job && (step.stage->checks || step.stage->tells)) { // for the last run
+                cells.means.key = key_after(cells.means.key, step);
+                continue;
+            }
+            if (!run_stage_on_cells(step, cells)) return false;
+            if (cells.means.job && cells.means.job->makes_cells()) return false;
+        }
         if (!cells.scene) return false;
         flow.scene = std::move(*cells.scene);
         flow.replaced();
         return true;
     }
 
+    /// A part of a run that several processes do: without outputs and reports.
+    report::RunRecord run_job() {
+        Flow ignored;
+        if (!failures_.any()) run_on_cells(ignored);
+        if (settings_.progress) settings_.progress->done();
+        return std::move(record());
+    }
+
     void open_kept(cells::Means& means) const {
         if (settings_.cells.kept.empty()) return;
-        means.kept = std::make_shared<cells::CellFolder>(cells::CellFolder::Settings{
-            settings_.cells.kept, settings_.commit.sync, settings_.on_kept_cells});
+        const bool beside = means.job && !means.job->makes_cells();
+        means.kept = std::make_shared<cells::CellFolder>(
+            cells::CellFolder::Settings{settings_.cells.kept, settings_.commit.sync, settings_.on_kept_cells,
+                                        beside ? name_of(*means.job) : std::string{}});
     }
 
     [[noreturn]] static void refuse_reference() {
@@ -204,6 +223,11 @@ class Runner {
             if (step.stage->loads) state_.load_diagonal = diagonal(cells.bounds());
             if (step.stage->loads) cells.means.key = key_with_inputs(cells);
             if (cells.scene) require_finite(*cells.scene);
+            if (cells.surface)
+                warn_of_lost_surface({*cells.surface}, surfaces_of_parts(*cells.scene),
+                                     step.stage->may_lose_with ? step.stage->may_lose_with(step.options.get())
+                                                               : step.stage->may_lose,
+                                     context);
             if (settings_.check_invariants && cells.scene) check_invariants(step, *cells.scene);
         });
         stage.seconds = watch.seconds();

@@ -4,6 +4,7 @@
 
 #include "cells/partition.hpp"
 #include "mesh/scene.hpp"
+#include "stage/surface_loss.hpp"
 
 namespace facetmill {
 
@@ -16,6 +17,8 @@ struct CellFlow {
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
     std::optional<Scene> scene; ///< in memory again
+    /// Of a stage that made the scene, and is to keep the surface: what it was given.
+    std::optional<PartSurface> surface;
 
     Box bounds() const { return scene ? scene->bounds() : box; }
 

@@ -1,6 +1,8 @@
 #include "cells/kept_partition.hpp"
 
 #include "cells/hierarchy.hpp"
+#include "cells/stations.hpp"
+#include "geometry/edit/moved.hpp"
 #include "io/outputs.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
@@ -70,4 +72,61 @@ TEST_CASE("a kept partition gives what a new one gives", "[cells]") {
         CHECK(other.told[1].find("of other inputs or options removed") != std::string::npos);
         CHECK(is_same(other.result, without.result));
     }
+}
+
+TEST_CASE("jobs that simplify share out the stations", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    scene.parts.emplace_back().mesh = test::noisy_icosphere(5, 0.01, 7);
+    const auto path = folder / "m.ply";
+    io::write_now(path, io::codec_for(path)->write(scene, {}).files.front().bytes);
+    const Means means{folder.path(), std::uint64_t{1} << 30};
+    const Partition partition(open_faces({path}, {}, folder.path()), means, 300);
+    const auto stations = stations_of(partition);
+    for (const std::size_t jobs : {1, 2, 3, 7, 500}) {
+        CAPTURE(jobs);
+        std::vector<std::size_t> times(stations.size());
+        std::uint64_t most = 0;
+        for (std::size_t number = 1; number <= jobs; ++number) {
+            const auto own = stations_of_job(stations, {number, jobs});
+            std::uint64_t faces = 0;
+            for (std::size_t s = 0; s < stations.size(); ++s) {
+                times[s] += own[s];
+                if (own[s] && stations[s].is_leaf()) faces += stations[s].faces;
+                for (const std::size_t child : stations[s].children) CHECK(own[child] >= own[s]);
+            }
+            most = std::max(most, faces);
+        }
+        CHECK(times.back() == 0); // the root is the result
+        for (std::size_t s = 0; s < stations.size(); ++s)
+            CHECK((stations[s].is_leaf() ? times[s] == 1 : times[s] <= 1));
+        if (jobs < 10) CHECK(most <= 2 * partition.faces() / jobs);
+    }
+}
+
+TEST_CASE("jobs leave what a single run makes", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    scene.parts.emplace_back().mesh = test::noisy_icosphere(5, 0.01, 7);
+    const auto path = folder / "m.ply", kept = folder / "kept";
+    io::write_now(path, io::codec_for(path)->write(scene, {}).files.front().bytes);
+    const auto expected = run_kept(path, {}).result;
+    CHECK(expected.area_before == Approx(surface_size(scene.parts.front().mesh).area).epsilon(1e-6));
+    SimplifySettings settings;
+    settings.faces = 900;
+    for (const CellJob job : {CellJob{}, CellJob{2, 2}, CellJob{1, 2}}) {
+        Means means{path.parent_path(), std::uint64_t{1} << 30};
+        means.key = std::string(64, 'a');
+        means.job = job;
+        means.kept = std::make_shared<CellFolder>(
+            CellFolder::Settings{kept, false, {}, job.makes_cells() ? "" : name_of(job)});
+        const auto partition = kept_partition(open_faces({path}, {}, path.parent_path()), means, 700);
+        if (!job.makes_cells()) simplify_job(*partition, settings, means, {});
+        CHECK(std::filesystem::exists(kept / stamp_of(job)) == !job.makes_cells());
+    }
+    const KeptRun last = run_kept(path, kept);
+    CHECK(is_same(last.result, expected));
+    CHECK(last.result.area_before == expected.area_before);
+    REQUIRE(last.told.size() == 2);
+    CHECK(last.told.back().find("simplified cells reused") != std::string::npos);
 }

@@ -41,7 +41,41 @@ def soup(path):
     return apart
 
 
+def spikes(path, side):
+    """A square of so many points a side, each second one of them far above the others: most of the area is theirs."""
+    points = [struct.pack("<3f", x, y, 4 * ((x * 7 + y * 13) % 5)) for y in range(side) for x in range(side)]
+    faces = []
+    for y in range(side - 1):
+        for x in range(side - 1):
+            v = y * side + x
+            faces += [(v, v + 1, v + side), (v + 1, v + side + 1, v + side)]
+    head = "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n" \
+           "element face {}\nproperty list uchar int vertex_indices\nend_header\n".format(len(points), len(faces))
+    path.write_bytes(head.encode() + b"".join(points) + b"".join(struct.pack("<B3i", 3, *face) for face in faces))
+
+
 class StagesInCells(LargeCase):
+    def test_simplify_tells_of_lost_surface_as_in_memory(self):
+        spikes(self.dir / "spikes.ply", 200)  # two cells
+        tell = {}
+        for way in ("never", "always"):
+            for keep in ("", "kept", "kept") if way == "always" else ("",):
+                run = self.mill("pipe", "--memory", "128M", "--partition", way, *(("--keep-cells", keep) if keep else ()), "load",
+                                "spikes.ply", "--unit", "m", "--up", "z", "!", "transform", "--scale", "1,1,2", "!", "simplify",
+                                "--faces", 400, "!", "write", "o.ply")
+                lost = [line for line in run.stderr.splitlines() if "warning[W-SURFACE-LOST]" in line]
+                self.assertEqual(len(lost), 1, run.stderr)
+                before = lost[0].split(" of ")[-1].split()[0]
+                tell.setdefault((before, "lost surface of part 'spikes'" in lost[0]), []).append(lost[0])
+            self.mill("pipe", "--memory", "128M", "--partition", way, "--strict=W-SURFACE-LOST", "load", "spikes.ply", "--unit", "m",
+                      "--up", "z", "!", "simplify", "--faces", 400, "!", "write", "strict.ply", expect=1)
+            self.assertFalse((self.dir / "strict.ply").exists())
+            run = self.mill("pipe", "--memory", "128M", "--partition", way, "load", "spikes.ply", "--unit", "m", "--up", "z", "!",
+                            "simplify", "--faces", 79000, "!", "write", "o.ply")
+            self.assertNotIn("W-SURFACE-LOST", run.stderr)
+        self.assertEqual(list(map(len, tell.values())), [4])  # the area before is the same
+        self.assertTrue(next(iter(tell))[1])
+
     def test_a_large_mesh_is_measured_in_cells(self):
         self.large()
         results = set()

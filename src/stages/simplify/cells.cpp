@@ -56,7 +56,12 @@ std::optional<std::string> why_not_on_cells(const SimplifyOptions& o) {
 
 void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& context) {
     const SimplifySettings settings = settings_in_cells(o, flow, context);
-    cells::HierarchyResult done = cells::simplify_cells(*flow.partition, settings, flow.means);
+    if (flow.means.job) {
+        cells::simplify_job(*flow.partition, settings, flow.means, flow.transform);
+        return;
+    }
+    cells::HierarchyResult done =
+        cells::simplify_cells(*flow.partition, settings, flow.means, flow.transform);
     Scene scene = flow.outline();
     Part& part = scene.parts.front();
     part.changed = true;
@@ -74,6 +79,7 @@ void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& contex
     context.report(fields_of<SimplifyReport>(declare_simplify_report), &report);
     context.say(fmt::format("{} simplified in {}; the deviation is not measured", counted(done.cells, "cell"),
                             counted(done.levels, "level")));
+    flow.surface = PartSurface{part.name, done.faces_before, done.area_before};
     flow.partition.reset();
     flow.scene = std::move(scene);
 }

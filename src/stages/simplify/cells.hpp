@@ -10,7 +10,7 @@ namespace facetmill::simplify_stage {
 std::optional<std::string> why_not_on_cells(const SimplifyOptions& o);
 
 /// Simplifies the cells and reports as simplify_parts does, without a measured deviation. The result is in
-/// memory.
+/// memory. Of a job of several (means.job) no more is done than that, and there is no result.
 void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& context);
 
 } // namespace facetmill::simplify_stage
