@@ -1,8 +1,8 @@
 #include "diff/lines.hpp"
 
+#include "diff/line_shape.hpp"
 #include "diff/sides.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "mesh/lines.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -85,37 +85,11 @@ void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, con
     distances.line("isolated vertices maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
 }
 
-/// The lines of a scene: as triangles without area, and their ends and middles.
-struct LineShape {
-    Surface lines, points;
-    explicit LineShape(const Scene& scene) {
-        for (const Part& part : scene.parts) {
-            const Lines own = lines_of(part);
-            for (const auto& segment : own.segments) {
-                const Vec3 &a = own.points[segment.from], &b = own.points[segment.to];
-                add(lines, a, b);
-                for (const Vec3& p : {a, (a + b) * 0.5, b}) add(points, p, p);
-            }
-        }
-    }
-
-  private:
-    static void add(Surface& to, const Vec3& a, const Vec3& b) {
-        const auto first = static_cast<Index>(to.positions.size());
-        to.positions.insert(to.positions.end(), {a, b});
-        to.corners.insert(to.corners.end(), {first, first + 1, first + 1});
-    }
-};
-
-/// From the ends and the middle of each line to the nearest line of the other scene.
+/// The lines of both scenes, how far they are apart.
 void compare_lines(const Comparing& with, const Distances& distances) {
     const LineShape a(with.a), b(with.b);
     if (a.lines.size() + b.lines.size() == 0) return;
-    const auto farthest = [](const LineShape& from, const LineShape& to) {
-        return from.lines.size() == 0 ? DirectedDeviation{} : deviation_to(from.points, FaceTree(to.lines));
-    };
-    const DirectedDeviation f = farthest(a, b), g = farthest(b, a);
-    distances.line("lines maximum", f.maximum, g.maximum, maximum_of(with.settings));
+    distances.line("lines maximum", a.distance_to(b), b.distance_to(a), maximum_of(with.settings));
 }
 
 } // namespace

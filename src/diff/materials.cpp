@@ -1,7 +1,9 @@
 #include "base/progress.hpp"
+#include "diff/line_shape.hpp"
 #include "diff/lines.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/gltf.hpp"
+#include "mesh/lines.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -94,6 +96,14 @@ Surface of_material(const Surface& surface, const std::vector<Index>& materials,
     return out;
 }
 
+/// How far the places of a material may be apart, in the scene with this surface.
+double farthest_allowed(const Comparing& with, const Surface& surface) {
+    const auto limit = maximum_of(with.settings);
+    return !limit           ? std::numeric_limits<double>::max()
+           : limit->percent ? limit->amount / 100 * surface.bounds().diagonal()
+                            : limit->amount;
+}
+
 /// Which faces each material is on: by number where the faces are the same ones, else by where they are.
 void compare_places(const Comparing& with) {
     const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
@@ -102,10 +112,7 @@ void compare_places(const Comparing& with) {
     all.insert(b.begin(), b.end());
     if (all.size() < 2 || a.empty() || b.empty()) return;
     const Surface x = surface_of(with.a, filled_surface), y = surface_of(with.b, filled_surface);
-    const auto limit = maximum_of(with.settings);
-    const double most = !limit           ? std::numeric_limits<double>::max()
-                        : limit->percent ? limit->amount / 100 * x.bounds().diagonal()
-                                         : limit->amount;
+    const double most = farthest_allowed(with, x);
     DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
     settings.samples = settings.samples / all.size() + 1;
     settings.certify = false;
@@ -116,6 +123,31 @@ void compare_places(const Comparing& with) {
                  finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
                  "how far its faces are from those of the other file");
         steps.next();
+    }
+}
+
+/// The material of every line, in the order of parts and lines.
+std::vector<Index> materials_of_lines(const Scene& scene) {
+    std::vector<Index> all;
+    for (const Part& part : scene.parts)
+        for (const auto& segment : lines_of(part).segments) all.push_back(segment.material);
+    return all;
+}
+
+/// Which lines each material is on: as for faces.
+void compare_places_of_lines(const Comparing& with) {
+    const auto a = materials_of_lines(with.a), b = materials_of_lines(with.b);
+    if (a == b) return;
+    std::set<Index> all(a.begin(), a.end());
+    all.insert(b.begin(), b.end());
+    if (all.size() < 2 || a.empty() || b.empty()) return;
+    const double most = farthest_allowed(with, LineShape(with.a).lines);
+    for (const Index material : all) {
+        const LineShape x(with.a, material), y(with.b, material);
+        const double forward = x.distance_to(y), backward = y.distance_to(x);
+        with.add("materials", material == none ? "lines of none" : fmt::format("{} lines", material),
+                 finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
+                 "how far its lines are from those of the other file");
     }
 }
 
@@ -130,7 +162,9 @@ void compare_materials(const Comparing& with) {
         with.add("materials", name + " double_sided", a[i].double_sided, b[i].double_sided);
         compare_contents(with, i);
     }
-    if (!with.settings.ignored.contains("materials")) compare_places(with);
+    if (with.settings.ignored.contains("materials")) return;
+    compare_places(with);
+    compare_places_of_lines(with);
 }
 
 void compare_documents(const Comparing& with) {

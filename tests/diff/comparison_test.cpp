@@ -357,3 +357,27 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     CHECK(text.find("| noted | deviation rms |") != std::string::npos); // it has no limit
     CHECK(text.find("| same | reversed |") != std::string::npos);
 }
+
+TEST_CASE("lines of other materials differ", "[report]") {
+    Mesh wire;
+    wire.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+    wire.lines = {0, 1, 1, 2};
+    wire.line_primitive = {0, 1};
+    wire.primitives.resize(2);
+    wire.primitives[0].material = 0;
+    Scene a = scene_called(wire);
+    a.materials.resize(1);
+    Scene b = a;
+    CHECK_FALSE(report::compare(a, b).differs());
+    std::swap(b.parts[0].mesh.line_primitive[0], b.parts[0].mesh.line_primitive[1]);
+    const Comparison swapped = report::compare(a, b);
+    CHECK(different(swapped) == "materials: 0 lines, materials: lines of none");
+    CHECK(line(swapped, "0 lines")->a == 1);
+    b.parts[0].mesh.line_primitive = {0, 0};
+    CHECK(different(report::compare(a, b)).find("materials: 0 lines") != std::string::npos);
+    // The same lines, listed the other way round, are no difference.
+    b = a;
+    b.parts[0].mesh.lines = {1, 2, 0, 1};
+    b.parts[0].mesh.line_primitive = {1, 0};
+    CHECK_FALSE(report::compare(a, b).differs());
+}
