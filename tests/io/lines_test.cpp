@@ -93,6 +93,15 @@ TEST_CASE("lines of an OBJ are parts, by object, with the colours of their verti
     CHECK(b.mesh.primitives[1].material == none);
 }
 
+TEST_CASE("several groups of OBJ lines are named as lost, one is not", "[io]") {
+    const std::string points = "v 0 0 0\nv 1 0 0\n";
+    const Loaded several = load("a.obj", points + "g left\nl 1 2\ng right\nl 2 1\n", false);
+    REQUIRE(several.log.warnings.size() == 1);
+    CHECK(several.log.warnings[0].id == "W-SKIPPED");
+    CHECK(several.log.warnings[0].message.find("'groups of l' (2)") != std::string::npos);
+    CHECK(load("a.obj", points + "g left\nl 1 2\nl 2 1\ng empty\n", false).log.warnings.empty());
+}
+
 TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
     const std::string
         head = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float "

@@ -271,6 +271,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         expand_instances(json, document->buffers, log);
         document->json = to_string(json);
     }
+    if (!settings.lines && part_lines(json)) document->json = to_string(json);
 
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::m);
@@ -320,8 +321,9 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
 
 void peek(const Input& input, FileHeader& header) {
     in_file(input, [&] {
-        const Json json = parse_document(chunks_of(input).json);
+        Json json = parse_document(chunks_of(input).json);
         check_asset(json);
+        part_lines(json);
         for (const auto& placement : placements(json, node_frames(json)))
             header.parts.push_back(placement.name);
         if (json.contains("materials") && !json["materials"].empty())

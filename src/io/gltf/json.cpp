@@ -190,6 +190,11 @@ std::vector<std::string> keep_materials_only(Json& document) {
         if (document.contains(list) && !document[list].empty()) lost.emplace_back(list);
         document.erase(list);
     }
+    const auto weighs = [&](const char* list) {
+        return document.contains(list) && std::any_of(document[list].begin(), document[list].end(),
+                                                      [](const Json& of) { return of.contains("weights"); });
+    };
+    if (weighs("nodes") || weighs("meshes")) lost.emplace_back("morph weights");
     for (const char* list : {"scenes", "scene", "nodes", "meshes"}) document.erase(list);
     return lost;
 }

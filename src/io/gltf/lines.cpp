@@ -1,10 +1,15 @@
 #include "io/gltf/lines.hpp"
 
+#include "io/gltf/instances.hpp"
+
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill::io::gltf {
 
 namespace {
+
+constexpr const char* suffix_of_lines = "_lines";
 
 /// Appends the lines of one primitive, in the space of the world.
 void add_lines(Source& source, const Place& primitive, const Transform& world, std::size_t max_vertices,
@@ -36,7 +41,82 @@ void add_lines(Source& source, const Place& primitive, const Transform& world, s
         lines.segments.push_back({base + ends[i], base + ends[i + 1], material});
 }
 
+/// Takes the lines from a mesh that has triangles, too: a mesh of them, or null.
+Json lines_taken_from(Json& mesh, const std::string& path) {
+    const Place before(mesh, path);
+    if (!has_triangles(before)) return nullptr;
+    Json kept = Json::array(), lines = Json::array();
+    const Place primitives = before.at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        (makes_lines(primitives.at(i)) ? lines : kept).push_back(primitives.at(i).json());
+    if (lines.empty()) return nullptr;
+    Json taken = Json::object();
+    const std::string name = before.text_or("name", "");
+    if (!name.empty()) taken["name"] = name + suffix_of_lines;
+    taken["primitives"] = std::move(lines);
+    if (mesh.contains("weights")) taken["weights"] = mesh["weights"];
+    mesh["primitives"] = std::move(kept);
+    return taken;
+}
+
+/// A node that stands where this one does, with another mesh.
+Json beside_node(const Json& node, std::size_t mesh, const std::string& path) {
+    Json beside = Json::object();
+    const std::string name = Place(node, path).text_or("name", "");
+    if (!name.empty()) beside["name"] = name + suffix_of_lines;
+    beside["mesh"] = mesh;
+    for (const char* key : {"skin", "weights"})
+        if (node.contains(key)) beside[key] = node[key];
+    if (const auto extensions = Place(node, path).find("extensions"))
+        if (const auto instances = extensions->find(instancing_extension))
+            beside["extensions"][instancing_extension] = instances->json();
+    return beside;
+}
+
+/// What moves the morph weights of a node moves those of the one beside it.
+void animate_beside(Json& document, const std::map<std::size_t, std::size_t>& beside) {
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const Place channels = item(document, "animations", a).at("channels");
+        Json more = Json::array();
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const Place target = channels.at(c).at("target");
+            const auto node = target.find("node");
+            if (!node || target.text_or("path", "") != "weights") continue;
+            const auto known = beside.find(node->index(count_of(document, "nodes"), "node"));
+            if (known == beside.end()) continue;
+            more.push_back(channels.at(c).json());
+            more.back()["target"]["node"] = known->second;
+        }
+        for (Json& channel : more) document["animations"][a]["channels"].push_back(std::move(channel));
+    }
+}
+
 } // namespace
+
+bool part_lines(Json& document) {
+    std::map<int, std::size_t> mesh_of_lines;
+    const std::size_t meshes = count_of(document, "meshes");
+    for (std::size_t m = 0; m < meshes; ++m) {
+        const std::string path = item(document, "meshes", m).path();
+        Json lines = lines_taken_from(document["meshes"][m], path);
+        if (lines.is_null()) continue;
+        mesh_of_lines[static_cast<int>(m)] = document["meshes"].size();
+        document["meshes"].push_back(std::move(lines));
+    }
+    if (mesh_of_lines.empty()) return false;
+    const auto frames = node_frames(document);
+    std::map<std::size_t, std::size_t> beside;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+        const auto lines = mesh_of_lines.find(frames[n].mesh);
+        if (lines == mesh_of_lines.end()) continue;
+        Json node = beside_node(document["nodes"][n], lines->second, item(document, "nodes", n).path());
+        beside[n] = document["nodes"].size();
+        document["nodes"][n]["children"].push_back(beside[n]);
+        document["nodes"].push_back(std::move(node));
+    }
+    animate_beside(document, beside);
+    return true;
+}
 
 std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode) {
     enum Mode : std::uint64_t { list = 1, loop = 2 };

@@ -377,7 +377,6 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
                 0};
     const Place primitives = merge.mesh_place.at("primitives");
     std::size_t skipped = 0;
-    bool lines = false;
     const bool of_lines = is_of_lines(merge.mesh_place);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (makes_triangles(primitives.at(i))) {
@@ -387,17 +386,14 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
         } else if (!(elsewhere.lines && makes_lines(primitives.at(i))) &&
                    !(elsewhere.points && makes_points(primitives.at(i)))) {
             ++skipped;
-            lines |= makes_lines(primitives.at(i));
         }
     }
     if (skipped > 0)
         merge.warn(
             "W-SKIPPED",
-            fmt::format(
-                "{}: {} of points, lines or without positions kept in the document as written, not read",
-                merge.mesh_place.path(),
-                skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)),
-            lines ? hint_for_lines : "");
+            fmt::format("{}: {} of points or without positions kept in the document as written, not read",
+                        merge.mesh_place.path(),
+                        skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)));
     join_blocks(merge);
     Mesh& mesh = merge.out.mesh;
     if (mesh.primitives.size() == 1) mesh.line_primitive.clear();

@@ -19,7 +19,7 @@ struct DecodedMesh {
 
 /// Decodes the triangles of mesh `index`, or the lines of one that has no triangles: triangles are welded by
 /// exact position into vertices, or as EXT_mesh_manifold says; glTF's vertices become wedges, equal ones at a
-/// vertex one wedge. Points, and lines beside triangles, are left to the document, with a warning
+/// vertex one wedge. Points beside them are left to the document, with a warning
 /// (W-SKIPPED). Primitive::material is the document's material index. The same bytes give the same Mesh, so
 /// the writer decodes again to see whether a part is untouched. Throws malformed and limit.
 DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,

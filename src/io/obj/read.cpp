@@ -426,6 +426,9 @@ void drop_ends(Scene& scene) {
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     Statements s = parse(input, settings);
+    if (const std::size_t groups = naming(s, Event::Kind::group, "", s.lines(), &Event::line).names.size();
+        groups > 1)
+        s.skipped["groups of l"] = groups;
     report_skipped(s, input.name(), log);
     Scene scene;
     Mesh mesh;

@@ -342,20 +342,18 @@ TEST_CASE("Draco takes meshes and attributes smaller than a millionth", "[io]") 
 }
 
 TEST_CASE("lines beside points are parts, and both keep their materials", "[io]") {
-    const auto read = [](const char* more, io::ReadLog& log) {
-        return test::read_text(
-            fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],{}
+    const auto text = [](const char* more) {
+        return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],{}
  "nodes":[{{"mesh":0}},{{"mesh":1}}],"materials":[{{"name":"red","pbrMetallicRoughness":{{"baseColorFactor":[1,0,0,1]}}}},
  {{"name":"plain"}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":0,"material":0,"extras":{{"a":1}}}}]}},
  {{"primitives":[{{"attributes":{{"POSITION":0}},"mode":3,"material":1}},{{"attributes":{{"POSITION":0}},"mode":0}}]}}],
  "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
  "bufferViews":[{{"buffer":0,"byteLength":36}}],
  "buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
-                        more),
-            &log);
+                           more);
     };
     io::ReadLog log;
-    const Scene scene = read("", log);
+    const Scene scene = test::read_text(text(""), &log);
     CHECK(log.warnings.empty());
     REQUIRE(scene.parts.size() == 3);
     CHECK(broken_invariants(scene).empty());
@@ -375,9 +373,67 @@ TEST_CASE("lines beside points are parts, and both keep their materials", "[io]"
     CHECK(points.mesh.line_count() == 0);
     CHECK(again.materials.at(points.mesh.primitives.at(0).material).base_colour[1] == 0);
 
-    read(R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)", log);
+    test::read_text(text(R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)"), &log);
     REQUIRE(log.warnings.size() == 1);
     CHECK(log.warnings[0].message == "cameras of a document of points cannot be kept: skipped");
+    log.warnings.clear();
+    std::string weights = text("");
+    weights.replace(weights.find("{\"mesh\":1}"), 10, "{\"mesh\":1,\"weights\":[1]}");
+    test::read_text(weights, &log);
+    REQUIRE(log.warnings.size() == 1);
+    CHECK(log.warnings[0].message == "morph weights of a document of points cannot be kept: skipped");
+}
+
+TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own", "[io]") {
+    const std::string text =
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"materials":[{"name":"red"},{"name":"blue"}],
+ "nodes":[{"name":"a","mesh":0,"translation":[5,0,0],"weights":[0.5]},{"mesh":0}],
+ "meshes":[{"name":"m","weights":[0.25],"primitives":[
+ {"attributes":{"POSITION":0},"targets":[{"POSITION":0}],"mode":3,"material":1},
+ {"attributes":{"POSITION":0},"targets":[{"POSITION":0}],"material":0},
+ {"attributes":{"POSITION":0},"targets":[{"POSITION":0}],"mode":0}]}],
+ "animations":[{"samplers":[{"input":1,"output":1}],"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}},
+ {"sampler":0,"target":{"node":0,"path":"translation"}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+ {"bufferView":1,"componentType":5126,"count":1,"type":"SCALAR","min":[0],"max":[0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteLength":4}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    io::ReadLog log;
+    const Scene scene = test::read_text(text, &log);
+    REQUIRE(log.warnings.size() == 1); // of the points, which stay
+    CHECK(log.warnings[0].message.find("a primitive of points or without positions kept") !=
+          std::string::npos);
+    REQUIRE(scene.parts.size() == 4);
+    CHECK(broken_invariants(scene).empty());
+    const Part &faces = scene.parts[0], &lines = scene.parts[2], &second = scene.parts[3];
+    CHECK((faces.name == "a" && faces.mesh.face_count() == 1 && faces.mesh.line_count() == 0));
+    CHECK((lines.name == "a_lines" && lines.mesh.face_count() == 0 && lines.mesh.line_count() == 2));
+    CHECK(second.name == "m_lines");
+    CHECK(lines.transform.point({}) == Vec3{5, 0, 0});
+    CHECK(second.transform.point({}) == Vec3{});
+    CHECK(scene.materials.at(lines.mesh.primitives.at(0).material).name == "blue");
+    CHECK(scene.materials.at(faces.mesh.primitives.at(0).material).name == "red");
+
+    const Json json = Json::parse(test::json_of(test::written(scene, "glb").files[0].bytes));
+    CHECK(json["meshes"].size() == 2);
+    CHECK(json["meshes"][1]["weights"] == Json{0.25});
+    CHECK(json["nodes"][0]["children"] == Json{2});
+    CHECK(json["nodes"][2] == Json{{"name", "a_lines"}, {"mesh", 1}, {"weights", {0.5}}});
+    CHECK(json["nodes"][3] == Json{{"mesh", 1}});
+    const Json& channels = json["animations"][0]["channels"];
+    REQUIRE(channels.size() == 3);
+    CHECK(channels[2]["target"] == Json{{"node", 2}, {"path", "weights"}});
+    Scene moved = scene;
+    for (Vec3& p : moved.parts[2].mesh.positions) p.z += 1;
+    moved.parts[2].changed = true;
+    const Scene again = test::again(moved, {});
+    REQUIRE(again.parts.size() == 4);
+    CHECK(again.parts[2].mesh.positions.at(0).z == 1);
+    CHECK(again.parts[3].mesh.positions.at(0).z == 0);
+
+    const auto bytes = std::as_bytes(std::span(text));
+    CHECK(io::file_header(io::Input::of("a.gltf", {bytes.begin(), bytes.end()}), {}).parts ==
+          std::vector<std::string>{"a", "m", "a_lines", "m_lines"});
 }
 
 TEST_CASE("nodes of lines beside triangles are parts, and those of points are named", "[io]") {
