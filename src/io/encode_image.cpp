@@ -59,7 +59,7 @@ std::vector<std::uint8_t> packed_channels(const Pixels& image, int colour_type) 
 }
 
 /// Nothing here may need a destructor when the library jumps.
-bool write_png(PngWriter& writer, const Pixels& image, int colour_type,
+bool write_png(PngWriter& writer, const Pixels& image, int colour_type, int level,
                const std::vector<std::uint8_t>& channels) {
     if (setjmp(png_jmpbuf(writer.state)) != 0) return false;
     ::png_set_write_fn(writer.state, &writer, PngWriter::append, PngWriter::flush);
@@ -67,7 +67,7 @@ bool write_png(PngWriter& writer, const Pixels& image, int colour_type,
                    static_cast<png_uint_32>(image.height), 8, colour_type, PNG_INTERLACE_NONE,
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     ::png_set_filter(writer.state, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
-    ::png_set_compression_level(writer.state, 9);
+    ::png_set_compression_level(writer.state, level);
     ::png_write_info(writer.state, writer.info);
     const std::size_t row = channels.size() / image.height;
     for (std::size_t y = 0; y < image.height; ++y) ::png_write_row(writer.state, &channels[y * row]);
@@ -244,23 +244,35 @@ bool is_opaque(const Pixels& image) {
 
 namespace {
 
-Bytes png_of_type(const Pixels& image, int colour_type) {
+constexpr int smallest = 9, fastest = 1; // levels of zlib
+
+Bytes png_of_type(const Pixels& image, int colour_type, int level) {
     PngWriter writer;
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
-    if (!writer.info || !write_png(writer, image, colour_type, channels)) no_memory_for("PNG");
+    if (!writer.info || !write_png(writer, image, colour_type, level, channels)) no_memory_for("PNG");
     return std::move(writer.out);
 }
 
 int alpha_type(const Pixels& image) { return is_opaque(image) ? 0 : PNG_COLOR_MASK_ALPHA; }
 
-} // namespace
+int type_of(const Pixels& image) { return (is_grey(image) ? 0 : PNG_COLOR_MASK_COLOR) | alpha_type(image); }
 
-Bytes encoded_png(const Pixels& image) {
-    return png_of_type(image, (is_grey(image) ? 0 : PNG_COLOR_MASK_COLOR) | alpha_type(image));
+/// The PNG, unless it will hardly be smaller than the given one: where a large image takes half as much again
+/// at the fastest level, as the colours of a palette do, the slowest seldom makes up for it. Else nothing.
+Bytes repacked_png(const Pixels& image, std::size_t given) {
+    constexpr std::size_t large = std::size_t{1} << 20; // pixels
+    const int type = type_of(image);
+    if (image.width * image.height >= large && png_of_type(image, type, fastest).size() > given + given / 2)
+        return {};
+    return png_of_type(image, type, smallest);
 }
 
+} // namespace
+
+Bytes encoded_png(const Pixels& image) { return png_of_type(image, type_of(image), smallest); }
+
 Bytes encoded_png_in_colour(const Pixels& image) {
-    return png_of_type(image, PNG_COLOR_MASK_COLOR | alpha_type(image));
+    return png_of_type(image, PNG_COLOR_MASK_COLOR | alpha_type(image), smallest);
 }
 
 Bytes repacked_image(Span bytes) {
@@ -271,7 +283,7 @@ Bytes repacked_image(Span bytes) {
     if (png && bytes[depth_at] == std::byte{16}) return {};
     const std::optional<Pixels> image = decoded_image(bytes);
     if (!image || image->damaged) return {};
-    Bytes out = jpeg ? repacked_jpeg(bytes) : encoded_png(*image);
+    Bytes out = jpeg ? repacked_jpeg(bytes) : repacked_png(*image, bytes.size());
     if (out.empty() || out.size() >= bytes.size()) return {};
     const std::optional<Pixels> again = decoded_image(out);
     if (!again || again->rgba != image->rgba) return {}; // whatever the library did: pixels do not change

@@ -1,8 +1,12 @@
 #include "io/encode_image.hpp"
+
+#include "base/random.hpp"
 #include "io/image_files.hpp"
 #include "support/catch.hpp"
+#include "support/images.hpp"
 
 #include <cstdlib>
+#include <span>
 
 using namespace facetmill;
 
@@ -69,6 +73,22 @@ io::Bytes from_base64(std::string_view text) {
     return out;
 }
 
+/// A PNG of two colours with a bit of a palette for each of 1024 x 1024 pixels.
+io::Bytes palette_png(bool (*second)(std::size_t pixel), int level) {
+    constexpr std::uint32_t side = 1024;
+    std::string rows;
+    for (std::size_t pixel = 0; pixel < std::size_t{side} * side; pixel += 8) {
+        if (pixel % side == 0) rows += '\0'; // no filter
+        int bits = 0;
+        for (std::size_t i = 0; i < 8; ++i) bits = bits << 1 | int(second(pixel + i));
+        rows += static_cast<char>(bits);
+    }
+    const std::string palette = test::png_chunk("PLTE", std::string("\x0a\x1e\x5a\xc8\x1e\x07", 6));
+    const std::string text = test::png_of_rows(side, side, 1, 3, rows, level, palette);
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
 } // namespace
 
 TEST_CASE("a PNG and a lossless WebP have the pixels that they are made of", "[io]") {
@@ -126,4 +146,14 @@ TEST_CASE("images are packed anew with the same pixels, or not at all", "[io]") 
     io::Bytes deep = from_base64(wasteful_png);
     deep[24] = std::byte{16}; // bits a channel
     CHECK(io::repacked_image(deep).empty());
+}
+
+TEST_CASE("a large PNG of a palette is packed anew as colours only where it is wasteful", "[io]") {
+    const io::Bytes noise = palette_png([](std::size_t pixel) { return (hashed(5, pixel) & 1) != 0; }, 9);
+    REQUIRE(io::decoded_image(noise));
+    CHECK(io::repacked_image(noise).empty());
+    const io::Bytes stored = palette_png([](std::size_t pixel) { return pixel % 1024 > 300; }, 0);
+    const io::Bytes packed = io::repacked_image(stored);
+    CHECK(packed == io::encoded_png(*io::decoded_image(stored)));
+    CHECK(packed.size() < stored.size() / 2);
 }

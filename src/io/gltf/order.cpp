@@ -197,6 +197,16 @@ std::vector<Index> corners_along(const Table& table, const std::vector<Placed>& 
     return corners;
 }
 
+/// Triangles as strips, begun in the order that is given.
+void order_in_strips(std::vector<Index>& corners, std::size_t vertices) {
+    meshopt_optimizeVertexCacheStrip(corners.data(), corners.data(), corners.size(), vertices);
+}
+
+/// The order for caches.
+void order_for_cache(std::vector<Index>& corners, std::size_t vertices) {
+    meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(), vertices);
+}
+
 /// The order for caches; strips begun in it, in the given one, and in those strips; for meshes that are not
 /// large, of which a percent is to be had, also strips begun along the axes, there and back: the one of the
 /// fewest bytes.
@@ -205,12 +215,9 @@ void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
     const std::size_t vertices = table.wedges.size(), corners = table.indices.size();
     std::vector<std::vector<Index>> orders(4, table.indices);
     if (corners / 3 <= large) orders.resize(10);
-    const auto strips = [&](std::vector<Index>& order) {
-        meshopt_optimizeVertexCacheStrip(order.data(), order.data(), corners, vertices);
-    };
-    meshopt_optimizeVertexCache(orders[0].data(), table.indices.data(), corners, vertices);
+    order_for_cache(orders[0], vertices);
     orders[1] = orders[0];
-    strips(orders[1]);
+    order_in_strips(orders[1], vertices);
     orders[2] = orders[1];
     std::vector<Placed> along[3];
     if (orders.size() > 4)
@@ -221,7 +228,7 @@ void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
         orders.size(),
         [&](std::size_t i) {
             if (i >= 4) orders[i] = corners_along(table, along[(i - 4) % 3], i >= 7);
-            if (i >= 2) strips(orders[i]);
+            if (i >= 2) order_in_strips(orders[i], vertices);
             bytes[i] = stream_bytes(mesh, table, orders[i], box);
         },
         1);
@@ -240,9 +247,10 @@ void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder
         if (order == TriangleOrder::size) {
             order_for_size(mesh, table, box);
         } else {
-            meshopt_optimizeVertexCache(table.indices.data(), table.indices.data(), table.indices.size(),
-                                        table.wedges.size());
-            order_groups(mesh, table);
+            order_for_cache(table.indices, table.wedges.size());
+            if (order == TriangleOrder::draw) order_groups(mesh, table);
+            for (int i = 0; order == TriangleOrder::strips && i < 2; ++i) // strips of strips, the best alone
+                order_in_strips(table.indices, table.wedges.size());
         }
         together.push_back(&table);
         if (shared) continue;

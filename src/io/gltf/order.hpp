@@ -10,9 +10,9 @@ namespace facetmill::io::gltf {
 /// and Reduced Overdraw", 2007, and T. Forsyth, "Linear-Speed Vertex Cache Optimisation", 2006, as
 /// meshoptimizer has them), with groups that face outwards first; `size` tries several orders, mostly strips
 /// (meshoptimizer's scores for strips), which have more neighbours behind each other, and takes the one of
-/// which meshopt makes the fewest bytes. shared: the tables have the same wedges, and go on so. The faces,
-/// their corners' order and all attributes stay what they are. Adds to `use` how often vertices are
-/// transformed before and after.
+/// which meshopt makes the fewest bytes; `strips` is one of these orders. shared: the tables have the same
+/// wedges, and go on so. The faces, their corners' order and all attributes stay what they are. Adds to `use`
+/// how often vertices are transformed before and after.
 void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder order, bool shared,
                      VertexCacheUse& use);
 

@@ -48,9 +48,10 @@ bool ready_for_meshopt(const Json& document, const Json& primitive) {
 /// True when the primitives as they are in the document are what the settings ask for.
 bool stored_as_wanted(const Patch& patch, const Json& mesh) {
     const TriangleOrder order = patch.settings.order;
+    const bool stays = order == TriangleOrder::automatic || order == TriangleOrder::keep;
     for (const auto& primitive : mesh["primitives"]) {
         const bool triangles = makes_triangles(Place(primitive, ""));
-        if (triangles && (order == TriangleOrder::draw || order == TriangleOrder::size)) return false;
+        if (triangles && !stays) return false;
         if (triangles && has_draco(primitive) != patch.settings.draco.on) return false;
         if (triangles && patch.settings.meshopt.on && !ready_for_meshopt(patch.builder.json(), primitive))
             return false;
@@ -133,7 +134,7 @@ Json encoded_object(Patch& patch, Json mesh, Variant& variant) {
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
     patch.written.cache.add(encoded.cache);
-    Json untouched = Json::array(); // points, and lines beside triangles
+    Json untouched = Json::array(); // points, and lines of which tubes were made
     if (mesh.contains("primitives")) {
         const bool lines = is_of_lines(Place(mesh, ""));
         for (auto& primitive : mesh["primitives"])

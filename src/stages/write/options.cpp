@@ -252,8 +252,9 @@ void declare_write(Declare<WriteOptions>& d) {
          {"keep", io::TriangleOrder::keep, "as the scene has them"},
          {"draw", io::TriangleOrder::draw,
           "triangles that share vertices behind each other, those that hide others first"},
-         {"size", io::TriangleOrder::size,
-          "the one of several, mostly strips, that meshopt compresses best"}},
+         {"size", io::TriangleOrder::size, "the one of several, mostly strips, that meshopt compresses best"},
+         {"strips", io::TriangleOrder::strips,
+          "one order of strips, found in a fifth of the time; under meshopt about 1 % larger"}},
         "The order of triangles and vertices in glTF.");
     d.option("interleave", &WriteOptions::interleave,
              "Puts the attributes of a vertex side by side in glTF, in one buffer view with a stride, which "

@@ -53,6 +53,24 @@ TEST_CASE("an order for caches transforms fewer vertices", "[io]") {
     }
 }
 
+TEST_CASE("one order of strips is nearly as small under meshopt as the best of several", "[io]") {
+    const Scene scene = test::scene_in_metres(shuffled_sphere());
+    const auto bytes = [&](io::TriangleOrder order) {
+        io::WriteSettings settings;
+        settings.quantize.on = settings.meshopt.on = true;
+        settings.order = order;
+        return test::written(scene, "glb", settings).files[0].bytes;
+    };
+    const auto size = bytes(io::TriangleOrder::size), strips = bytes(io::TriangleOrder::strips),
+               draw = bytes(io::TriangleOrder::draw);
+    CHECK(size.size() <= strips.size());
+    CHECK(strips.size() < size.size() * 1.04);
+    CHECK(strips.size() < draw.size());
+    CHECK(strips == bytes(io::TriangleOrder::strips));
+    CHECK(test::drawn(test::read_bytes(strips, "glb").parts.at(0).mesh) ==
+          test::drawn(test::read_bytes(size, "glb").parts.at(0).mesh));
+}
+
 TEST_CASE("an order for caches keeps faces and attributes", "[io]") {
     const Scene scene = test::scene_in_metres(shuffled_sphere());
     for (const bool manifold : {false, true}) {
