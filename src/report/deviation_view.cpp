@@ -9,18 +9,21 @@
 
 namespace facetmill::report {
 
-namespace {
-
-/// Half the width of the scale: all of it, or, where few points are far off, what holds all but a hundredth.
-double colour_limit(const SignedDeviation& d) {
-    const double most = std::max(-d.low, d.high);
-    std::vector<float> amounts;
-    for (const float x : d.samples) amounts.push_back(std::abs(x));
-    if (amounts.empty()) return most;
-    const auto at = amounts.begin() + static_cast<std::ptrdiff_t>((amounts.size() - 1) * 99 / 100);
-    std::nth_element(amounts.begin(), at, amounts.end());
-    return *at > 0 && *at < most / 4 ? static_cast<double>(*at) : most;
+double colour_limit(const std::vector<float>& distances, double most) {
+    std::vector<float> sizes(distances.size());
+    std::transform(distances.begin(), distances.end(), sizes.begin(), [](float x) { return std::abs(x); });
+    if (sizes.empty()) return most;
+    std::sort(sizes.begin(), sizes.end());
+    const auto within = [&](std::size_t percent) {
+        return static_cast<double>(sizes[(sizes.size() - 1) * percent / 100]);
+    };
+    // What goes far beyond most of the surface, such as a cut that was closed, may be some of it.
+    for (const double limit : {within(99), 4 * within(90)})
+        if (limit > 0 && limit < most / 4) return limit;
+    return most;
 }
+
+namespace {
 
 std::vector<std::uint64_t> counted_in_bins(const std::vector<float>& distances, double limit) {
     constexpr std::size_t bins = 41; // an odd number: one around 0
@@ -67,7 +70,7 @@ DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
     view.rms = d.rms;
     view.worst = d.worst;
     view.worst_distance = d.worst_distance;
-    view.limit = colour_limit(d);
+    view.limit = colour_limit(d.samples, std::max(-d.low, d.high));
     constexpr double lost_by_floats = 1e-6; // of the diagonal: has no colours
     if (std::isfinite(view.diagonal)) view.limit = std::max(view.limit, lost_by_floats * view.diagonal);
     view.counts = counted_in_bins(d.samples, view.limit);

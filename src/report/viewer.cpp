@@ -7,6 +7,7 @@
 #include "io/encode_image.hpp"
 #include "io/gltf/pose.hpp"
 #include "io/png.hpp"
+#include "report/deviation_view.hpp"
 #include "report/viewer_data.hpp"
 #include "report/viewer_script.hpp"
 
@@ -23,13 +24,11 @@ constexpr std::size_t most_scenes = 6;                        ///< that have the
 constexpr std::size_t most_bytes = 1200000, most_texture_bytes = 500000;
 constexpr int largest_texture = 512; ///< pixels a side
 
-/// The 99th percentile of the sizes, and the largest: what colours span, and what is told beside it.
-std::pair<double, double> spans(const std::vector<float>& distances) {
-    std::vector<float> sizes(distances.size());
-    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(distances[i]);
-    std::sort(sizes.begin(), sizes.end());
-    if (sizes.empty()) return {0, 0};
-    return {sizes[(sizes.size() - 1) * 99 / 100], sizes.back()};
+/// The largest of the sizes.
+double largest_of(const std::vector<float>& distances) {
+    float largest = 0;
+    for (const float x : distances) largest = std::max(largest, std::abs(x));
+    return static_cast<double>(largest);
 }
 
 /// The image of the first level that is not too large.
@@ -105,7 +104,7 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     std::vector<float> distances;
     if (from && !from->empty() && preview.mesh.face_count() > 0)
         distances = signed_distances(*from, of_surface(preview));
-    const auto [most, largest] = spans(distances);
+    const double largest = largest_of(distances), most = colour_limit(distances, largest);
     if (!distances.empty()) distances.resize(preview.mesh.vertex_count()); // lines and points have none
     PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
     PictureSettings as_first; // a scene that does not say what is up keeps that of the first
