@@ -30,9 +30,8 @@ struct Buckets {
 
 /// visit(f, emit) calls emit(vertex, item) for what face f contributes.
 template <class Item, class Visit>
-Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
+Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visit) {
     constexpr std::size_t chunk = std::size_t{1} << 15;
-    const std::size_t faces = mesh.face_count(), vertices = mesh.vertex_count();
     Buckets<Item> result;
     const int bits = std::bit_width(vertices > 0 ? vertices - 1 : 0);
     result.shift = std::max(0, bits - 11);
@@ -61,6 +60,10 @@ Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
     resize_large(result.items, sum);
     for_faces([&](std::size_t& at, const Item& item) { result.items[at++] = item; });
     return result;
+}
+template <class Item, class Visit>
+Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
+    return fill_buckets<Item>(mesh.face_count(), mesh.vertex_count(), std::forward<Visit>(visit));
 }
 
 } // namespace facetmill

@@ -241,7 +241,8 @@ struct Arrangement::Own {
     std::vector<Piece> pieces;
     SidesOfNodes sides;
     std::optional<Index> overfull;
-    std::optional<BoxTree> tree;
+    static constexpr std::size_t run = 16;
+    std::vector<Box> runs; ///< of so many triangles in a row
     Box bounds;
 
     void cut() {
@@ -274,19 +275,56 @@ struct Arrangement::Own {
         return static_cast<Index>(std::max_element(count.begin(), count.end()) - count.begin());
     }
 
-    void plant() {
-        std::vector<Box> boxes(soup.triangles.size());
-        parallel_for(boxes.size(), [&](std::size_t t) {
-            for (const Index p : soup.triangles[t]) boxes[t].add(soup.points[p]);
-        });
-        bounds = box_of_all(boxes);
-        tree.emplace(std::move(boxes));
+    Box box_of(Index t) const {
+        Box box;
+        for (const Index p : soup.triangles[t]) box.add(soup.points[p]);
+        return box;
+    }
+
+    /// The boxes of runs of triangles, which mostly are near each other.
+    void find_runs() {
+        runs.resize((soup.triangles.size() + run - 1) / run);
+        parallel_for(
+            runs.size(),
+            [&](std::size_t i) {
+                for (std::size_t t = i * run; t < std::min(soup.triangles.size(), (i + 1) * run); ++t)
+                    runs[i].add(box_of(static_cast<Index>(t)));
+            },
+            512);
+        bounds = box_of_all(runs);
+    }
+
+    /// The triangles whose boxes meet any of these, each with its place; those of one place ascend.
+    std::vector<std::pair<Index, Index>> meetings(const std::vector<Box>& boxes) const {
+        using Pairs = std::vector<std::pair<Index, Index>>; // (triangle, box)
+        const BoxTree tree(boxes);
+        const auto meet = [](const Box& a, const Box& b) {
+            return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+                   a.min.z <= b.max.z && b.min.z <= a.max.z;
+        };
+        const auto among = [&](std::size_t first, std::size_t last) {
+            Pairs pairs;
+            for (std::size_t i = first; i < last; ++i)
+                tree.visit(runs[i], [&](Index at) {
+                    const std::size_t end = std::min(soup.triangles.size(), (i + 1) * run);
+                    for (auto t = static_cast<Index>(i * run); t < end; ++t)
+                        if (meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
+                });
+            return pairs;
+        };
+        return parallel_reduce(
+            runs.size(), Pairs{}, among,
+            [](Pairs all, const Pairs& more) {
+                all.insert(all.end(), more.begin(), more.end());
+                return all;
+            },
+            512);
     }
 };
 
 Arrangement::Arrangement(TriangleSoup soup) : own_(std::make_unique<Own>(std::move(soup))) {
     own_->cut();
-    if (!own_->overfull) own_->plant();
+    if (!own_->overfull) own_->find_runs();
 }
 Arrangement::~Arrangement() = default;
 
@@ -333,35 +371,60 @@ struct Ray {
     }
 };
 
+/// From the centre of three nodes along an axis that is not in their plane, out of the box.
+struct Sight {
+    Ray ray;
+    Box along; ///< holds the ray as far as the triangles reach
+    int way;   ///< as Arrangement::Seen
+
+    Sight(const ExactNodes& nodes, const std::array<Index, 3>& from, const Box& bounds) {
+        const auto p = nodes.at(from[0]), q = nodes.at(from[1]), r = nodes.at(from[2]);
+        const auto normal = CGAL::cross_product(q - p, r - p);
+        const Vec3 a = nodes.rounded(from[0]),
+                   rough = cross(nodes.rounded(from[1]) - a, nodes.rounded(from[2]) - a);
+        std::array<int, 3> axes{0, 1, 2};
+        std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+            return std::abs(rough[static_cast<std::size_t>(i)]) >
+                   std::abs(rough[static_cast<std::size_t>(j)]);
+        });
+        const int axis =
+            *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal[i]); });
+        const auto k = static_cast<std::size_t>(axis);
+        ray = {CGAL::centroid(p, q, r), axis, a[k] > bounds.centre()[k]};
+        for (int i = 0; i < 3; ++i) {
+            const auto [low, high] = CGAL::to_interval(ray.from[i]);
+            along.min[static_cast<std::size_t>(i)] = low;
+            along.max[static_cast<std::size_t>(i)] = high;
+        }
+        if (ray.forward)
+            along.max[k] = std::max(along.max[k], bounds.max[k]);
+        else
+            along.min[k] = std::min(along.min[k], bounds.min[k]);
+        way = CGAL::is_positive(normal[axis]) == ray.forward ? 1 : -1;
+    }
+};
+
 } // namespace
 
-int Arrangement::look_ahead(const std::array<Index, 3>& nodes, std::span<const Index> but,
-                            const std::function<void(Index, int)>& hit) const {
-    const auto p = own_->nodes.at(nodes[0]), q = own_->nodes.at(nodes[1]), r = own_->nodes.at(nodes[2]);
-    const auto normal = CGAL::cross_product(q - p, r - p);
-    const Vec3 &a = position(nodes[0]), rough = cross(position(nodes[1]) - a, position(nodes[2]) - a);
-    std::array<int, 3> axes{0, 1, 2};
-    std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
-        return std::abs(rough[static_cast<std::size_t>(i)]) > std::abs(rough[static_cast<std::size_t>(j)]);
-    });
-    const int axis =
-        *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal[i]); });
-    const auto k = static_cast<std::size_t>(axis);
-    const Ray ray{CGAL::centroid(p, q, r), axis, a[k] > own_->bounds.centre()[k]};
-    Box along;
-    for (int i = 0; i < 3; ++i) {
-        const auto [low, high] = CGAL::to_interval(ray.from[i]);
-        along.min[static_cast<std::size_t>(i)] = low;
-        along.max[static_cast<std::size_t>(i)] = high;
+std::vector<Arrangement::Seen> Arrangement::look_ahead(const std::vector<Look>& looks) const {
+    std::vector<Seen> seen(looks.size());
+    std::vector<Sight> sights;
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        sights.emplace_back(own_->nodes, looks[i].nodes, own_->bounds);
+        boxes.push_back(sights.back().along);
+        seen[i].way = sights.back().way;
     }
-    (ray.forward ? along.max : along.min)[k] = ray.forward ? HUGE_VAL : -HUGE_VAL;
+    if (looks.empty()) return seen;
     const auto& soup = own_->soup;
-    own_->tree->visit(along, [&](Index t) {
-        if (std::find(but.begin(), but.end(), t) != but.end()) return;
-        const auto& [i, j, l] = soup.triangles[t];
-        if (const int way = ray.passes(soup.points[i], soup.points[j], soup.points[l])) hit(t, way);
-    });
-    return CGAL::is_positive(normal[axis]) == ray.forward ? 1 : -1;
+    for (const auto& [t, i] : own_->meetings(boxes)) {
+        const auto& but = looks[i].but;
+        if (std::find(but.begin(), but.end(), t) != but.end()) continue;
+        const auto& [a, b, c] = soup.triangles[t];
+        if (const int way = sights[i].ray.passes(soup.points[a], soup.points[b], soup.points[c]))
+            seen[i].hits.push_back({t, way});
+    }
+    return seen;
 }
 
 } // namespace facetmill

@@ -5,10 +5,8 @@
 #include "mesh/mesh.hpp"
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -54,13 +52,21 @@ class Arrangement {
     /// on; none for nodes inside.
     std::optional<int> side_of(Index triangle, Index node) const;
 
-    /// Calls hit(triangle, way) for the triangles, but those listed, that a ray from the centre of three
-    /// nodes along an axis passes through: way is 1 when it leaves through their front, -1 when it enters.
-    /// Edges and vertices count once (see `passes` of geometry/spatial/rays.hpp). Returns 1 when the ray
-    /// begins on the front of the three nodes, else -1. Exact, as long as no other triangle holds the centre.
-    /// Requires nodes that are not on one line.
-    int look_ahead(const std::array<Index, 3>& nodes, std::span<const Index> but,
-                   const std::function<void(Index triangle, int way)>& hit) const;
+    /// A ray from the centre of three nodes, which are not on one line, along an axis.
+    struct Look {
+        std::array<Index, 3> nodes;
+        std::vector<Index> but; ///< triangles that it does not see
+    };
+    struct Seen {
+        int way = 0; ///< 1 when the ray begins on the front of the three nodes, else -1
+        /// The triangles that it passes through, ascending: sign is 1 when it leaves through their front, -1
+        /// when it enters.
+        std::vector<Source> hits;
+    };
+    /// What each of the rays sees. Edges and vertices count once (see `passes` of geometry/spatial/rays.hpp).
+    /// Exact, as long as no other triangle holds the centre. All triangles are gone through once, so many
+    /// rays at a time cost little more than one.
+    std::vector<Seen> look_ahead(const std::vector<Look>& looks) const;
 
   private:
     struct Own;

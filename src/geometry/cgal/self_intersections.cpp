@@ -5,6 +5,7 @@
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/contacts.hpp"
 #include "geometry/intersect/disjoint_triangles.hpp"
+#include "geometry/intersect/plain_stars.hpp"
 #include "geometry/spatial/box_pairs.hpp"
 #include "mesh/surface.hpp"
 
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <iterator>
 #include <memory>
 
@@ -111,8 +113,12 @@ class SelfIntersectionSearch::Search {
 
     void choose(const std::vector<std::uint8_t>& among) { pairs_.choose(of_triangles(among)); }
 
+    /// Before all neighbours are looked at, as the vertices are now.
+    void find_plain_stars() { plain_ = plain_stars(surface_); }
+
     /// Whether that can be: not where polygons are cut into another number of triangles now.
     bool move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
+        plain_.clear();
         if (surface_.faces.empty()) {
             surface_.positions = mesh.positions;
             pairs_.move_to(with_boxes(moved), moved);
@@ -246,7 +252,7 @@ class SelfIntersectionSearch::Search {
     /// As if they did not meet when passes(), which is asked only where signs of doubles leave it open.
     template <class Passes>
     int facets_meet(const Facet& s, const Facet& t, Passes&& passes) const {
-        if (s.face == t.face) return -1;
+        if (s.face == t.face || share_plain_star(s, t)) return -1;
         auto u = s.vertices, v = t.vertices;
         const int shared = share(u, v);
         if (shared == 3) return passes() ? -1 : shared;
@@ -254,11 +260,25 @@ class SelfIntersectionSearch::Search {
         return !surely_disjoint(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
     }
 
+    /// Whether a vertex of both is one around which no two triangles meet elsewhere.
+    bool share_plain_star(const Facet& s, const Facet& t) const {
+        if (plain_.empty()) return false;
+        const auto& [a, b, c] = t.vertices;
+        const auto all = [](Index v) { return Int4{} + static_cast<std::int32_t>(v); };
+        const Int4 own{static_cast<std::int32_t>(s.vertices[0]), static_cast<std::int32_t>(s.vertices[1]),
+                       static_cast<std::int32_t>(s.vertices[2]), -1};
+        unsigned shared = bits_of((own == all(a)) | (own == all(b)) | (own == all(c))) & 7u;
+        for (; shared != 0; shared &= shared - 1)
+            if (plain_[s.vertices[static_cast<std::size_t>(std::countr_zero(shared))]]) return true;
+        return false;
+    }
+
     std::size_t face_count_;
     Surface surface_;
     std::vector<Box> boxes_; ///< [triangles]
     BoxPairs pairs_;
-    std::vector<Facet> facets_; ///< along the curve
+    std::vector<Facet> facets_;       ///< along the curve
+    std::vector<std::uint8_t> plain_; ///< [vertices] of plain_stars, or nothing
 };
 
 SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh) : search_(std::make_unique<Search>(mesh)) {}
@@ -272,6 +292,7 @@ void SelfIntersectionSearch::move_to(const Mesh& mesh, const std::vector<std::ui
 
 SelfIntersections SelfIntersectionSearch::pairs(const SelfIntersectionSettings& settings) {
     search_->choose(settings.among);
+    if (settings.among.empty()) search_->find_plain_stars();
     return search_->run(settings);
 }
 

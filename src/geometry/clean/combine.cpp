@@ -94,7 +94,10 @@ class Combining {
         found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
         make_one_cluster(solids);
         const Operands operands = operands_of(solids);
-        turn_what_is_taken();
+        if (settings_.operation == CombineOperation::subtract) {
+            turn_what_is_taken();
+            solids.edges = build_edges(work_.mesh); // other corners run along them now
+        }
         return combine(solids, found, operands);
     }
 
@@ -114,7 +117,6 @@ class Combining {
     }
 
     void turn_what_is_taken() {
-        if (settings_.operation != CombineOperation::subtract) return;
         const auto meshes = mesh_of_faces(work_.mesh);
         std::vector<std::uint8_t> flags(meshes.size());
         for (Index f = 0; f < meshes.size(); ++f) flags[f] = meshes[f] >= settings_.second;
@@ -123,14 +125,15 @@ class Combining {
 
     CombineResult combine(const Solids& solids, const SelfIntersections& found, const Operands& operands) {
         const CleanSettings settings;
-        Trial trial(work_, solids, settings);
+        const Vec3 at =
+            found.pairs.empty() ? Vec3{} : corner_mean(work_.mesh, found.pairs[0].first); // of a failure
+        Trial trial(std::move(work_), solids, settings);
         Failures failures = trial.run(found, &operands);
         std::size_t crowded = 0;
         if (failures.empty()) failures = trial.open_clusters(crowded);
         if (failures.empty() && crowded > 0)
             failures.emplace(0, "the result, rounded, would not be edge-manifold");
         if (!failures.empty()) {
-            const Vec3 at = found.pairs.empty() ? Vec3{} : corner_mean(work_.mesh, found.pairs[0].first);
             CombineResult result = failed({failures.begin()->second, none, at});
             result.short_of_memory = trial.is_short_of_memory();
             return result;

@@ -42,9 +42,13 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const EdgeTable& edges, const 
         if (edges.corners_of(e).size() % 2 == 1) f = Fitness::open;
         if (f == Fitness::fit) f = Fitness::disagreeing;
     }
+    std::vector<std::uint8_t> flat(mesh.face_count());
+    parallel_for(flat.size(), [&](std::size_t i) {
+        const auto f = static_cast<Index>(i);
+        flat[f] = is_degenerate(mesh, f) || !is_finite(corner_mean(mesh, f));
+    });
     for (Index f = 0; f < mesh.face_count(); ++f)
-        if (is_degenerate(mesh, f) || !is_finite(corner_mean(mesh, f)))
-            fitness[components.of_face[f]] = Fitness::flat;
+        if (flat[f]) fitness[components.of_face[f]] = Fitness::flat;
     return fitness;
 }
 
@@ -78,11 +82,11 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, std::size_t max_box_pairs) {
     Mesh plain;
     plain.positions = mesh.positions;
-    plain.corners = mesh.corners;
     plain.face_offsets = mesh.face_offsets;
+    plain.corners.resize(mesh.corner_count());
     const auto place = lowest_at_place(mesh);
-    for (Index w = 0; w < mesh.wedge_count(); ++w)
-        plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
+    parallel_for(plain.corners.size(),
+                 [&](std::size_t c) { plain.corners[c] = place[mesh.vertex(static_cast<Index>(c))]; });
     return find_self_intersections(
         plain, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs});
 }
@@ -108,6 +112,50 @@ Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
 
 namespace {
 
+/// The cells of a grid that some boxes touch: tells quickly of most other boxes that they meet none of them.
+class TouchedCells {
+  public:
+    explicit TouchedCells(std::span<const Box> boxes) : bounds_(box_of_all(boxes)) {
+        const Vec3 extent = bounds_.max - bounds_.min;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            scale_[axis] = extent[axis] > 0 ? cells / extent[axis] : 0;
+        for (const Box& box : boxes)
+            rows_of(box, [&](std::uint64_t& row, std::uint64_t mask) {
+                row |= mask;
+                return false;
+            });
+    }
+
+    /// False: the box meets none.
+    bool may_meet(const Box& box) {
+        return rows_of(box, [](std::uint64_t row, std::uint64_t mask) { return (row & mask) != 0; });
+    }
+
+  private:
+    static constexpr std::size_t cells = 64; ///< along each axis; those of one row are the bits of a number
+
+    /// Never lower for what is higher, so that boxes that meet have a cell in common.
+    std::size_t cell(double x, std::size_t axis) const {
+        const double at = (x - bounds_.min[axis]) * scale_[axis];
+        return !(at > 0) ? 0 : at >= cells - 1 ? cells - 1 : static_cast<std::size_t>(at);
+    }
+    /// stop(row, bits of the box) for the rows that a box touches, until it is true. Whether it was.
+    template <class Stop>
+    bool rows_of(const Box& box, Stop&& stop) {
+        const auto low = [&](std::size_t axis) { return cell(box.min[axis], axis); };
+        const auto high = [&](std::size_t axis) { return cell(box.max[axis], axis); };
+        const std::uint64_t mask = ~std::uint64_t{0} >> (63 - high(2)) & ~std::uint64_t{0} << low(2);
+        for (std::size_t x = low(0); x <= high(0); ++x)
+            for (std::size_t y = low(1); y <= high(1); ++y)
+                if (stop(rows_[x * cells + y], mask)) return true;
+        return false;
+    }
+
+    Box bounds_;
+    Vec3 scale_;
+    std::vector<std::uint64_t> rows_ = std::vector<std::uint64_t>(cells * cells, 0);
+};
+
 /// Those whose boxes meet the box of a flagged face, ascending.
 std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     const auto box_of = [&](Index f) {
@@ -118,10 +166,13 @@ std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>&
     std::vector<Box> boxes;
     for (Index f = 0; f < flags.size(); ++f)
         if (flags[f]) boxes.push_back(box_of(f));
+    TouchedCells touched(boxes);
     const BoxTree tree(std::move(boxes));
     std::vector<std::uint8_t> near(flags);
     parallel_for(near.size(), [&](std::size_t f) {
-        if (!near[f]) tree.visit(box_of(static_cast<Index>(f)), [&](Index) { near[f] = 1; });
+        if (near[f]) return;
+        if (const Box box = box_of(static_cast<Index>(f)); touched.may_meet(box))
+            tree.visit(box, [&](Index) { near[f] = 1; });
     });
     std::vector<Index> faces;
     for (Index f = 0; f < near.size(); ++f)

@@ -56,8 +56,9 @@ bool remove_duplicates(Work& work);
 /// along that one, is put on it.
 bool resolve_t_junctions(Work& work, double tolerance);
 /// See part_fans and divide_crowded_edges. An edge whose middle cannot be put exactly on it stays as it is
-/// where faces would intersect others for that, or lose their area, and is told.
-bool take_apart_non_manifold(Work& work, const EdgeDivision& how);
+/// where faces would intersect others for that, or lose their area, and is told. `left` becomes the edges of
+/// the mesh afterwards, where they are known.
+bool take_apart_non_manifold(Work& work, const EdgeDivision& how, std::optional<EdgeTable>* left = nullptr);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of boundary edges as the settings say; holes that touch at a vertex each for itself. Loops

@@ -87,13 +87,16 @@ DividedEdges divide_soundly(Work& work, const EdgeTable& edges, EdgeDivision how
 
 } // namespace
 
-bool take_apart_non_manifold(Work& work, const EdgeDivision& how) {
+bool take_apart_non_manifold(Work& work, const EdgeDivision& how, std::optional<EdgeTable>* left) {
     std::size_t parted = 0;
-    const EdgeTable edges = part_fans(work.mesh, parted);
+    EdgeTable edges = part_fans(work.mesh, parted);
     DividedEdges divided = divide_soundly(work, edges, how);
     work.counts.split_vertices += parted;
     work.counts.split_edges += divided.edges.size();
-    if (divided.edges.empty()) return parted > 0;
+    if (divided.edges.empty()) {
+        if (left) *left = std::move(edges);
+        return parted > 0;
+    }
     work.mesh = std::move(divided.mesh);
     work.changes = std::move(divided.changes);
     return true;

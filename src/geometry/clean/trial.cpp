@@ -33,11 +33,11 @@ std::span<const std::uint32_t> marks_of(const Mesh& mesh) {
 
 } // namespace
 
-Trial::Trial(const Work& work, const Solids& solids, const CleanSettings& settings)
+Trial::Trial(Work work, const Solids& solids, const CleanSettings& settings)
     : settings_(settings), solids_(solids) {
-    work_.mesh = work.mesh;
+    work_.mesh = std::move(work.mesh);
     work_.counts = work.counts;
-    work_.changes = work.changes;
+    work_.changes = std::move(work.changes);
     put_marks(work_.mesh, solids);
 }
 
@@ -99,13 +99,15 @@ bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, doubl
 /// What rounding left: equal points, faces without area or twice, and edges that four faces share.
 void Trial::tidy() {
     const CleanCounts before = work_.counts;
+    edges_.reset();
     if (settings_.weld != Nearness::off) weld_equal(work_, settings_.non_manifold);
     if (settings_.degenerate) {
         take_out_flat(work_);
         remove_degenerate(work_);
     }
     if (settings_.duplicates) remove_duplicates(work_);
-    if (settings_.non_manifold) take_apart_non_manifold(work_, {.all = true, .single = settings_.single});
+    if (settings_.non_manifold)
+        take_apart_non_manifold(work_, {.all = true, .single = settings_.single}, &edges_);
     work_.counts = before; // a part of the union
 }
 
@@ -138,7 +140,8 @@ Failures Trial::open_clusters(std::size_t& crowded) const {
     Failures failures;
     crowded = 0;
     const auto marks = marks_of(mesh);
-    const auto edges = build_edges(mesh);
+    const EdgeTable built = edges_ ? EdgeTable{} : build_edges(mesh);
+    const EdgeTable& edges = edges_ ? *edges_ : built;
     const auto faces = corner_faces(mesh);
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;

@@ -13,7 +13,7 @@ using Failures = std::map<Index, std::string>; ///< cluster -> why
 /// The work on clusters that are tried together.
 class Trial {
   public:
-    Trial(const Work& work, const Solids& solids, const CleanSettings& settings);
+    Trial(Work work, const Solids& solids, const CleanSettings& settings);
 
     /// The clusters that cannot be united, if any. With operands, the first pass combines them.
     Failures run(const SelfIntersections& first, const Operands* operands = nullptr);
@@ -34,6 +34,7 @@ class Trial {
     const CleanSettings& settings_;
     const Solids& solids_;
     Work work_;
+    std::optional<EdgeTable> edges_; ///< of the mesh, where they are known
     Failures failures_;
     bool short_of_memory_ = false;
 };

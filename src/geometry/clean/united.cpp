@@ -58,20 +58,18 @@ bool encloses(const Sides& sides, const Operands* operands) {
 /// A face that was not cut, or a piece of cut ones; more of its sources turn as it does than the other way.
 struct Leaf {
     std::array<Index, 3> nodes;
-    Index first_source = 0, sources = 0; ///< the first of them turns as it does, unless they cancel
-    Index face = none;                   ///< not cut
-    Index against = none;                ///< the first of its sources that turns the other way
+    Index first = none;   ///< a source that turns as it does, unless they cancel
+    Index against = none; ///< the first of its sources that turns the other way
     Index cluster = none;
     Sides turns; ///< how many of the sources turn as it does, less those that turn the other way
     std::array<bool, 2> of_inward{};
-    Index patch = 0; ///< the lowest leaf of its patch
 };
 
 enum class Fate : std::uint8_t { goes, stays, stays_turned };
 
 class Uniting {
   public:
-    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
+    Uniting(Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
             const Operands* operands)
         : mesh_(mesh), solids_(solids), found_(found), rounding_(rounding), operands_(operands) {}
 
@@ -143,21 +141,32 @@ class Uniting {
 
     /// The triangles of all closed components.
     void gather() {
-        surface_ = surface_of(mesh_);
+        const bool plain = mesh_.all_triangles();
+        const Surface surface = plain ? Surface{} : surface_of(mesh_);
+        const std::size_t count = plain ? mesh_.face_count() : surface.size();
+        const auto face_of = [&](std::size_t t) { return plain ? static_cast<Index>(t) : surface.face(t); };
         first_.assign(mesh_.face_count() + 1, 0);
-        std::vector<std::array<Index, 3>> unused;
-        for (std::size_t t = 0; t < surface_.size(); ++t) {
-            const Index f = surface_.face(t);
+        std::vector<Index> chosen;
+        chosen.reserve(count);
+        for (std::size_t t = 0; t < count; ++t) {
+            const Index f = face_of(t);
             if (!solids_.closed[solids_.components.of_face[f]]) continue;
             ++first_[f + 1];
-            std::array<Index, 3> corners{};
-            for (std::size_t i = 0; i < 3; ++i)
-                for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
-                    if (mesh_.vertex(c) == surface_.corners[3 * t + i]) corners[i] = c;
-            triangles_.face.push_back(f);
-            triangles_.corners.push_back(corners);
+            chosen.push_back(static_cast<Index>(t));
         }
         for (std::size_t f = 0; f < mesh_.face_count(); ++f) first_[f + 1] += first_[f];
+        triangles_.face.resize(chosen.size());
+        triangles_.corners.resize(chosen.size());
+        parallel_for(chosen.size(), [&](std::size_t i) {
+            const Index f = face_of(chosen[i]), begin = mesh_.face_begin(f);
+            triangles_.face[i] = f;
+            for (Index k = 0; k < 3; ++k) {
+                Index& corner = triangles_.corners[i][k];
+                corner = begin + k;
+                for (Index c = begin; !plain && c < mesh_.face_end(f); ++c)
+                    if (mesh_.vertex(c) == surface.corners[std::size_t{3} * chosen[i] + k]) corner = c;
+            }
+        });
     }
 
     std::array<Index, 3> nodes_of(Index t) const {
@@ -172,10 +181,11 @@ class Uniting {
     TriangleSoup triangle_soup() const {
         TriangleSoup soup;
         soup.points = mesh_.positions;
-        for (Index t = 0; t < triangles_.face.size(); ++t) {
-            soup.triangles.push_back(nodes_of(t));
-            if (cut_[triangles_.face[t]]) soup.cut.push_back(t);
-        }
+        soup.triangles.resize(triangles_.face.size());
+        parallel_for(soup.triangles.size(),
+                     [&](std::size_t t) { soup.triangles[t] = nodes_of(static_cast<Index>(t)); });
+        for (Index f = 0; f < cut_.size(); ++f)
+            for (Index t = first_[f]; cut_[f] && t < first_[f + 1]; ++t) soup.cut.push_back(t);
         const auto box = [&](Index t) {
             Box b;
             for (const Index v : soup.triangles[t]) b.add(mesh_.positions[v]);
@@ -196,18 +206,35 @@ class Uniting {
         return soup;
     }
 
+    // Leaves are numbered: the uncut faces, ascending, then the pieces.
+
     void make_leaves(const Arrangement& arrangement) {
-        for (Index f = 0; f < mesh_.face_count(); ++f) {
-            if (cut_[f] || solids_.cluster_of_face(f) == none) continue;
-            Index t = first_[f];
-            while (t + 1 < first_[f + 1] && !has_area(t)) ++t;
-            add_leaf(nodes_of(t), std::array{Arrangement::Source{t, 1}});
-            leaves_.back().face = f;
-        }
-        for (const auto& piece : arrangement.pieces()) add_leaf(piece.nodes, piece.sources);
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            if (!cut_[f] && solids_.cluster_of_face(f) != none) uncut_.push_back(f);
+        pieces_.reserve(arrangement.pieces().size());
+        for (const auto& piece : arrangement.pieces()) pieces_.push_back(leaf_of(piece.nodes, piece.sources));
+    }
+    std::size_t leaf_count() const { return uncut_.size() + pieces_.size(); }
+
+    /// That which stands for an uncut face: a triangle with area.
+    Index triangle_of(Index face) const {
+        Index t = first_[face];
+        while (t + 1 < first_[face + 1] && !has_area(t)) ++t;
+        return t;
+    }
+    Leaf leaf(Index i) const {
+        if (i >= uncut_.size()) return pieces_[i - uncut_.size()];
+        const Index t = triangle_of(uncut_[i]);
+        return leaf_of(nodes_of(t), std::array{Arrangement::Source{t, 1}});
+    }
+    std::vector<Index> sources_of(const Arrangement& arrangement, Index i) const {
+        if (i < uncut_.size()) return {triangle_of(uncut_[i])};
+        std::vector<Index> triangles;
+        for (const auto& s : arrangement.pieces()[i - uncut_.size()].sources) triangles.push_back(s.triangle);
+        return triangles;
     }
 
-    void add_leaf(std::array<Index, 3> nodes, std::span<const Arrangement::Source> sources) {
+    Leaf leaf_of(std::array<Index, 3> nodes, std::span<const Arrangement::Source> sources) const {
         int sum = 0;
         for (const auto& s : sources) sum += s.sign;
         const int flip = sum < 0 ? -1 : 1;
@@ -215,41 +242,35 @@ class Uniting {
         Leaf leaf;
         leaf.nodes = nodes;
         leaf.cluster = cluster_of(sources[0].triangle);
-        leaf.first_source = static_cast<Index>(sources_.size());
-        leaf.sources = static_cast<Index>(sources.size());
+        leaf.first = sources[0].triangle;
         for (const auto& [t, sign] : sources) {
             const Index p = component_of(t);
             leaf.of_inward[operand_of(p)] |= solids_.inward[p] != 0;
             count(leaf.turns, t, flip * sign);
-            sources_.push_back(t);
             if (flip * sign < 0 && leaf.against == none) leaf.against = t;
-            Index& first = sources_[leaf.first_source];
-            if (flip * sign > 0 && flip * sources[0].sign < 0 && first == sources[0].triangle)
-                std::swap(first, sources_.back());
+            if (flip * sign > 0 && flip * sources[0].sign < 0 && leaf.first == sources[0].triangle)
+                leaf.first = t;
         }
-        leaves_.push_back(leaf);
-    }
-    std::span<const Index> sources_of(const Leaf& leaf) const {
-        return {sources_.data() + leaf.first_source, leaf.sources};
+        return leaf;
     }
 
     /// Leaves that hang together where no other leaf does have the same on their sides.
     void find_patches(const Arrangement& arrangement) {
-        DisjointSets sets(leaves_.size());
+        DisjointSets sets(leaf_count());
         std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // may have been
         for (Index f = 0; f < mesh_.face_count(); ++f)
             for (Index c = mesh_.face_begin(f); cut_[f] && c < mesh_.face_end(f); ++c)
                 merged[mesh_.vertex(c)] = 1;
         join_uncut(merged, sets);
         join_rest(arrangement, merged, sets);
-        for (Index i = 0; i < leaves_.size(); ++i) leaves_[i].patch = sets.find(i);
+        patch_.resize(leaf_count());
+        parallel_for(patch_.size(), [&](std::size_t i) { patch_[i] = sets.find(static_cast<Index>(i)); });
     }
 
     /// Along edges that have no more faces than they had.
     void join_uncut(const std::vector<std::uint8_t>& merged, DisjointSets& sets) const {
         std::vector<Index> leaf_of_face(mesh_.face_count(), none);
-        for (Index i = 0; i < leaves_.size(); ++i)
-            if (leaves_[i].face != none) leaf_of_face[leaves_[i].face] = i;
+        for (Index i = 0; i < uncut_.size(); ++i) leaf_of_face[uncut_[i]] = i;
         const auto faces = corner_faces(mesh_);
         parallel_for(solids_.edges.size(), [&](std::size_t e) {
             const auto at = solids_.edges.corners_of(static_cast<Index>(e));
@@ -268,20 +289,21 @@ class Uniting {
         std::vector<Index> leaf_of_face;
         mesh.positions.resize(arrangement.node_count());
         mesh.face_offsets.push_back(0);
-        for (Index i = 0; i < leaves_.size(); ++i) {
-            const Leaf& leaf = leaves_[i];
-            if (leaf.face == none) {
-                mesh.corners.insert(mesh.corners.end(), leaf.nodes.begin(), leaf.nodes.end());
-            } else {
-                std::size_t count = 0;
-                for (Index c = mesh_.face_begin(leaf.face); c < mesh_.face_end(leaf.face); ++c)
-                    count += merged[mesh_.vertex(c)];
-                if (count < 2) continue;
-                for (Index c = mesh_.face_begin(leaf.face); c < mesh_.face_end(leaf.face); ++c)
-                    mesh.corners.push_back(mesh_.vertex(c));
-            }
+        const auto end_face = [&](std::size_t i) {
             mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
-            leaf_of_face.push_back(i);
+            leaf_of_face.push_back(static_cast<Index>(i));
+        };
+        for (std::size_t i = 0; i < uncut_.size(); ++i) {
+            std::size_t count = 0;
+            const Index begin = mesh_.face_begin(uncut_[i]), end = mesh_.face_end(uncut_[i]);
+            for (Index c = begin; c < end; ++c) count += merged[mesh_.vertex(c)];
+            if (count < 2) continue;
+            for (Index c = begin; c < end; ++c) mesh.corners.push_back(mesh_.vertex(c));
+            end_face(i);
+        }
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            mesh.corners.insert(mesh.corners.end(), pieces_[i].nodes.begin(), pieces_[i].nodes.end());
+            end_face(uncut_.size() + i);
         }
         const auto edges = build_edges(mesh);
         const auto faces = corner_faces(mesh);
@@ -291,23 +313,22 @@ class Uniting {
             if (at.size() != 2 || mesh.corners[at[0]] == mesh.corners[at[1]]) continue;
             if (!may_be_another(edges.edges[e].low) || !may_be_another(edges.edges[e].high)) continue;
             const Index i = leaf_of_face[faces[at[0]]], j = leaf_of_face[faces[at[1]]];
-            const Leaf &a = leaves_[i], &b = leaves_[j];
+            const Leaf a = leaf(i), b = leaf(j);
             if (a.turns == b.turns && a.of_inward == b.of_inward) sets.join(i, j);
         }
     }
 
     /// The winding number in front of a leaf; without the components that the cluster does not hold, unless
     /// there is a cavity in them.
-    Sides front_of(const Arrangement& arrangement, const Leaf& leaf) {
+    Sides front_of(const Leaf& leaf, const Arrangement::Seen& seen) const {
         Sides ahead;
         int around = 0;
-        const int way = arrangement.look_ahead(leaf.nodes, sources_of(leaf), [&](Index t, int turn) {
+        for (const auto& [t, turn] : seen.hits)
             if (cluster_of(t) != leaf.cluster)
                 around += turn;
             else
                 count(ahead, t, turn);
-        });
-        if (way < 0)
+        if (seen.way < 0)
             for (std::size_t k = 0; k < 2; ++k) {
                 ahead[k].outward -= leaf.turns[k].outward;
                 ahead[k].inward -= leaf.turns[k].inward;
@@ -327,19 +348,24 @@ class Uniting {
         has_cavity_.assign(solids_.clusters(), 0);
         for (Index p = 0; p < solids_.components.count; ++p)
             if (solids_.cluster[p] != none && solids_.inward[p]) has_cavity_[solids_.cluster[p]] = 1;
-        fate_.assign(leaves_.size(), Fate::goes);
-        for (Index i = 0; i < leaves_.size(); ++i) {
-            const Leaf& leaf = leaves_[i];
-            if (leaf.patch != i) {
-                fate_[i] = fate_[leaf.patch];
-                continue;
-            }
-            const Sides front = front_of(arrangement, leaf), back = sum(front, leaf.turns);
-            for (std::size_t k = 0; k < 2; ++k)
-                if (leaf.of_inward[k] && least_around(front, back, k) < 1) refuse(leaf.cluster, inside_out);
-            const bool before = encloses(front, operands_), behind = encloses(back, operands_);
-            if (before != behind) fate_[i] = behind ? Fate::stays : Fate::stays_turned;
+        std::vector<Index> firsts; // the lowest leaf of each patch
+        std::vector<Arrangement::Look> looks;
+        for (Index i = 0; i < leaf_count(); ++i) {
+            if (patch_[i] != i) continue;
+            firsts.push_back(i);
+            looks.push_back({leaf(i).nodes, sources_of(arrangement, i)});
         }
+        const auto seen = arrangement.look_ahead(looks);
+        fate_.assign(leaf_count(), Fate::goes);
+        for (std::size_t n = 0; n < firsts.size(); ++n) {
+            const Leaf first = leaf(firsts[n]);
+            const Sides front = front_of(first, seen[n]), back = sum(front, first.turns);
+            for (std::size_t k = 0; k < 2; ++k)
+                if (first.of_inward[k] && least_around(front, back, k) < 1) refuse(first.cluster, inside_out);
+            const bool before = encloses(front, operands_), behind = encloses(back, operands_);
+            if (before != behind) fate_[firsts[n]] = behind ? Fate::stays : Fate::stays_turned;
+        }
+        for (Index i = 0; i < leaf_count(); ++i) fate_[i] = fate_[patch_[i]];
         find_filled_cavities(arrangement);
     }
 
@@ -347,15 +373,19 @@ class Uniting {
     void find_filled_cavities(const Arrangement& arrangement) {
         filled_.assign(solids_.components.count, 0);
         std::vector<std::uint8_t> asked(solids_.components.count, 0);
+        std::vector<Arrangement::Look> looks;
         for (Index t = 0; t < triangles_.face.size(); ++t) {
             const Index p = component_of(t);
             if (asked[p] || solids_.cluster[p] != none || !solids_.inward[p] || !has_area(t)) continue;
             asked[p] = 1;
+            looks.push_back({nodes_of(t), {t}});
+        }
+        const auto seen = arrangement.look_ahead(looks);
+        for (std::size_t i = 0; i < looks.size(); ++i) {
             std::vector<int> winding(solids_.clusters(), 0);
-            arrangement.look_ahead(nodes_of(t), std::array{t}, [&](Index hit, int turn) {
+            for (const auto& [hit, turn] : seen[i].hits)
                 if (cluster_of(hit) != none) winding[cluster_of(hit)] += turn;
-            });
-            for (const int w : winding) filled_[p] |= w >= 2;
+            for (const int w : winding) filled_[component_of(looks[i].but[0])] |= w >= 2;
         }
     }
 
@@ -367,18 +397,17 @@ class Uniting {
                 ++result_.covered_faces;
             }
         std::vector<OuterPiece> pieces;
-        for (Index i = 0; i < leaves_.size(); ++i) {
-            const Leaf& leaf = leaves_[i];
-            if (leaf.face != none && fate_[i] == Fate::goes) {
-                goes[leaf.face] = 1;
-                ++result_.covered_faces;
-            }
-            if (leaf.face != none || fate_[i] == Fate::goes) continue;
+        for (std::size_t i = 0; i < uncut_.size(); ++i) {
+            if (fate_[i] != Fate::goes) continue;
+            goes[uncut_[i]] = 1;
+            ++result_.covered_faces;
+        }
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            const Leaf& leaf = pieces_[i];
+            const Fate fate = fate_[uncut_.size() + i];
             const auto& [a, b, c] = leaf.nodes;
-            if (fate_[i] == Fate::stays)
-                pieces.push_back({leaf.nodes, sources_[leaf.first_source]});
-            else
-                pieces.push_back({{a, c, b}, leaf.against});
+            if (fate == Fate::stays) pieces.push_back({leaf.nodes, leaf.first});
+            if (fate == Fate::stays_turned) pieces.push_back({{a, c, b}, leaf.against});
         }
         std::stable_sort(pieces.begin(), pieces.end(),
                          [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
@@ -388,27 +417,27 @@ class Uniting {
         result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, rounding_, result_.changes);
     }
 
-    Mesh mesh_; ///< vertices merged where faces are cut
+    Mesh& mesh_; ///< vertices are merged where faces are cut
     const Solids& solids_;
     const SelfIntersections& found_;
     Rounding rounding_;
     const Operands* operands_;                   ///< or nothing
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
-    Surface surface_;
-    TriangleFaces triangles_;  ///< of closed components
-    std::vector<Index> first_; ///< [faces + 1] into triangles_
-    std::vector<Leaf> leaves_;
-    std::vector<Index> sources_;           ///< triangles, of leaf after leaf
-    std::vector<std::uint8_t> has_cavity_; ///< [clusters] or an inward component at least
-    std::vector<Fate> fate_;               ///< [leaves]
-    std::vector<std::uint8_t> filled_;     ///< [components]
+    TriangleFaces triangles_;                    ///< of closed components
+    std::vector<Index> first_;                   ///< [faces + 1] into triangles_
+    std::vector<Index> uncut_;                   ///< faces
+    std::vector<Leaf> pieces_;                   ///< in the order of the arrangement
+    std::vector<Index> patch_;                   ///< [leaves] the lowest of the same patch
+    std::vector<std::uint8_t> has_cavity_;       ///< [clusters] or an inward component at least
+    std::vector<Fate> fate_;                     ///< [leaves]
+    std::vector<std::uint8_t> filled_;           ///< [components]
     United result_;
 };
 
 } // namespace
 
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
+United unite(Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
              const Operands* operands) {
     return Uniting(mesh, solids, found, rounding, operands).run();
 }

@@ -35,7 +35,9 @@ struct Operands {
 /// on an edge between its ends only, so that seams stay seams. Coordinates are rounded, and new vertices
 /// within the tolerance of others become them: the result may intersect again. With operands there is one
 /// cluster, of all components; solids are as before the second was turned inside out.
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
+///
+/// The mesh is as it was but for the vertices that became one.
+United unite(Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
              const Operands* operands = nullptr);
 
 /// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two

@@ -126,13 +126,18 @@ Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges) {
     const Joints joints(mesh, edges, faces);
     // Corners at a vertex are of one fan when a joint at that vertex links them.
     DisjointSets fans(mesh.corner_count());
-    parallel_for(edges.size(), [&](std::size_t e) {
-        for (const auto& [a, b] : joints.at(static_cast<Index>(e))) {
-            const Index a_end = next_corner(mesh, faces[a], a), b_end = next_corner(mesh, faces[b], b);
-            const bool same = mesh.vertex(a) == mesh.vertex(b);
-            fans.join(a, same ? b : b_end);
-            fans.join(a_end, same ? b_end : b);
-        }
+    const auto link = [&](Index a, Index b) {
+        const Index a_end = next_corner(mesh, faces[a], a), b_end = next_corner(mesh, faces[b], b);
+        const bool same = mesh.vertex(a) == mesh.vertex(b);
+        fans.join(a, same ? b : b_end);
+        fans.join(a_end, same ? b_end : b);
+    };
+    parallel_for(edges.size(), [&](std::size_t i) {
+        const auto e = static_cast<Index>(i);
+        if (const auto corners = edges.corners_of(e); corners.size() == 2)
+            link(corners[0], corners[1]); // as joints.at would say, which takes memory for it
+        else
+            for (const auto& [a, b] : joints.at(e)) link(a, b);
     });
     Fans result;
     result.vertex_of_corner.resize(mesh.corner_count());

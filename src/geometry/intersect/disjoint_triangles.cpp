@@ -4,21 +4,11 @@
 // generator for fast and certified geometric predicates" (2008).
 #include "geometry/intersect/disjoint_triangles.hpp"
 
-#include "base/predicates.hpp"
-
 #include <algorithm>
 
 namespace facetmill {
 
 namespace {
-
-/// The sign of the product of two differences of given numbers less another; 0 when unsure.
-int sure_sign(double left, double right) {
-    const double det = left - right, size = std::abs(det);
-    if (!(size > orientation_error * (std::abs(left) + std::abs(right)) && size > orientation_smallest))
-        return 0;
-    return det > 0 ? 1 : -1;
-}
 
 /// Two triangles seen along an axis.
 struct View {

@@ -3,6 +3,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "geometry/intersect/plain_stars.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "oracle/cgal_oracle.hpp"
 
@@ -146,6 +147,59 @@ TEST_CASE("the first of very many pairs are listed", "[geometry]") {
     const auto some = find_self_intersections(heap, {.limit = 100});
     CHECK(some.count == all.count);
     CHECK(some.pairs == Pairs(all.pairs.begin(), all.pairs.begin() + 100));
+}
+
+namespace {
+
+/// Triangles around a vertex that go round it so often in so many steps; rising, from a ring or open.
+Mesh fan_around(int laps, int steps, bool closed, double rise) {
+    Mesh mesh;
+    mesh.positions.push_back({0, 0, 1});
+    for (int i = 0; i < steps; ++i) {
+        const double a = 0.1 + 2 * M_PI * laps * i / steps;
+        mesh.positions.push_back({std::cos(a), std::sin(a), rise * i});
+    }
+    for (int i = 0; i + 1 < steps + closed; ++i) {
+        const Index corners[] = {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % steps)};
+        add_face(mesh, corners);
+    }
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("around plain vertices nothing needs to be looked at", "[geometry]") {
+    const auto is_plain = [](const Mesh& mesh) { return plain_stars(surface_of(mesh))[0] != 0; };
+    for (const bool turned : {false, true})
+        for (const bool closed : {false, true}) {
+            const auto fan = [&](int laps, int steps, double rise) {
+                Mesh mesh = fan_around(laps, steps, closed, rise);
+                for (Index f = 0; turned && f < mesh.face_count(); ++f)
+                    std::swap(mesh.corners[3 * f], mesh.corners[3 * f + 1]);
+                return mesh;
+            };
+            CHECK(is_plain(fan(1, 7, 0)));
+            CHECK(is_plain(fan(1, 24, 0.01)));
+            CHECK_FALSE(is_plain(fan(1, 26, 0.01))); // of so many triangles nothing is said
+            CHECK_FALSE(is_plain(fan(2, 15, 0.01)));
+            CHECK_FALSE(is_plain(fan(3, 17, -0.02)));
+        }
+    const auto sphere = shapes::icosphere(3);
+    const auto plain = plain_stars(surface_of(sphere));
+    CHECK(std::count(plain.begin(), plain.end(), 1) == static_cast<std::ptrdiff_t>(sphere.vertex_count()));
+    const Mesh folded = shapes::folded_quad();
+    for (const Index v : folded.face_wedges(0))
+        for (const Index w : folded.face_wedges(1))
+            if (v == w) CHECK(plain_stars(surface_of(folded))[v] == 0);
+}
+
+TEST_CASE("fans that go round their vertex twice run into themselves", "[geometry]") {
+    for (const int laps : {1, 2, 3})
+        for (const bool closed : {false, true})
+            for (const double rise : {0.0, 0.03, -0.02}) {
+                const Mesh mesh = fan_around(laps, 17, closed, rise);
+                CHECK(find_self_intersections(mesh, everything).pairs == oracle::self_intersections(mesh));
+            }
 }
 
 TEST_CASE("self-intersections agree with CGAL's", "[geometry]") {
