@@ -12,6 +12,7 @@
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace facetmill {
 
@@ -46,10 +47,12 @@ Vec3 sample_on(const Surface& surface, std::size_t triangle, double u, double v)
 /// of the farthest so far.
 constexpr double most_errors = 256, least_part = 1.0 / 16384;
 
-/// Which samples the means are of: every ninth, every third, or all. Each has those before it.
-enum class Portion { ninth, third, all };
-constexpr Portion first_portion(std::size_t sample) {
-    return sample % 9 == 4 ? Portion::ninth : sample % 3 == 1 ? Portion::third : Portion::all;
+/// The means are of so many ninths of the samples; more of them have all of fewer.
+constexpr std::size_t all_ninths = 9;
+constexpr std::size_t ninth_of(std::size_t sample) {
+    // Evenly, as far as they go.
+    constexpr std::array<std::uint8_t, all_ninths> turn{5, 2, 4, 7, 0, 6, 3, 8, 1};
+    return turn[sample % all_ninths];
 }
 constexpr double unmeasured = -1;
 
@@ -99,6 +102,24 @@ struct Samples {
     }
 };
 
+/// Whether to try again what may be in vain: then fewer and fewer of up to 32 are.
+class Attempts {
+  public:
+    bool next() {
+        if (left_out_ == 0) return true;
+        --left_out_;
+        return false;
+    }
+    void note(bool success) {
+        constexpr std::size_t most_often = 5;
+        in_vain_ = success ? 0 : std::min(in_vain_ + 1, most_often);
+        left_out_ = (std::size_t{1} << in_vain_) - 1;
+    }
+
+  private:
+    std::size_t in_vain_ = 0, left_out_ = 0;
+};
+
 /// Measures one way, the triangles in an order in which each is near the one before.
 class Walk {
   public:
@@ -135,16 +156,15 @@ class Walk {
         });
     }
 
-    /// Measures the samples of a portion, but for those that are; returns the farthest of them.
-    Farthest measure(Samples& samples, Portion portion) const {
+    /// Measures so many ninths of the samples, but for those that are; returns the farthest of them.
+    Farthest measure(Samples& samples, std::size_t ninths) const {
         Share::loop_tells();
         return parallel_reduce(
             order_.size(), Farthest{},
             [&](std::size_t begin, std::size_t end) {
                 Groups groups{*this, samples.points, samples.distances, GroupDistances(to_), {{}, {}, 0}};
                 for (std::size_t i = begin; i < end; ++i)
-                    groups.add(samples.firsts[order_[i]], samples.firsts[order_[i] + std::size_t{1}],
-                               portion);
+                    groups.add(samples.firsts[order_[i]], samples.firsts[order_[i] + std::size_t{1}], ninths);
                 groups.finish();
                 return groups.best;
             },
@@ -172,6 +192,7 @@ class Walk {
         std::vector<Vec3> points{};
         std::vector<std::size_t> samples{}; ///< their numbers, SIZE_MAX for vertices
         Index hint = none;
+        Attempts attempts{};
 
         void add(const Vec3& p, std::size_t sample) {
             points.push_back(p);
@@ -185,12 +206,22 @@ class Walk {
         }
 
         void finish() {
-            if (!points.empty() && !together.all_within(points, best.distance, hint))
+            if (!points.empty() && !all_within())
                 for (std::size_t i = 0; i < points.size(); ++i)
                     if (together.distance(i) + together.error() > best.distance)
                         walk.consider(points[i], samples[i], hint, best);
             points.clear();
             samples.clear();
+        }
+
+        bool all_within() {
+            if (!attempts.next()) {
+                together.forget();
+                return false;
+            }
+            const bool all = together.all_within(points, best.distance, hint);
+            attempts.note(!together.too_many());
+            return all;
         }
     };
 
@@ -219,10 +250,11 @@ class Walk {
         std::vector<Index> waiting{};
         std::vector<Vec3> points{};
         Index hint = none;
+        Attempts attempts{};
 
-        void add(std::size_t begin, std::size_t end, Portion portion) {
+        void add(std::size_t begin, std::size_t end, std::size_t ninths) {
             for (std::size_t i = begin; i < end; ++i)
-                if (first_portion(i) <= portion && distances[i] == unmeasured)
+                if (ninth_of(i) < ninths && distances[i] == unmeasured)
                     waiting.push_back(static_cast<Index>(i));
             if (waiting.size() >= GroupDistances::most / 2) finish();
         }
@@ -232,7 +264,7 @@ class Walk {
             waiting.clear();
         }
 
-        /// Halved across the longest side until they are few enough.
+        /// Halved across the middle of the longest side until they are few enough.
         void measure(std::span<Index> some) {
             if (some.size() <= GroupDistances::most) return measure_group(some);
             Box box;
@@ -241,20 +273,17 @@ class Walk {
             const std::size_t axis = sides.x >= sides.y && sides.x >= sides.z ? 0
                                      : sides.y >= sides.z                     ? 1
                                                                               : 2;
-            const std::size_t half = some.size() / 2;
-            std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(half), some.end(),
-                             [&](Index a, Index b) {
-                                 const double x = samples[a].point[axis], y = samples[b].point[axis];
-                                 return x != y ? x < y : a < b;
-                             });
+            const double middle = box.centre()[axis];
+            const auto upper = std::partition(some.begin(), some.end(),
+                                              [&](Index i) { return samples[i].point[axis] < middle; });
+            auto half = static_cast<std::size_t>(upper - some.begin());
+            if (half == 0 || half == some.size()) half = some.size() / 2; // all in one place
             measure(some.first(half));
             measure(some.subspan(half));
         }
 
         void measure_group(std::span<const Index> some) {
-            points.clear();
-            for (const Index i : some) points.push_back(samples[i].point);
-            if (!together.measure(points, hint)) {
+            if (!measures_together(some)) {
                 for (const Index i : some) measure_alone(i, hint);
                 return;
             }
@@ -269,6 +298,15 @@ class Walk {
                 if (distance + together.error() > best.distance)
                     walk.consider(points[k], some[k], near, best);
             }
+        }
+
+        bool measures_together(std::span<const Index> some) {
+            if (!attempts.next()) return false;
+            points.clear();
+            for (const Index i : some) points.push_back(samples[i].point);
+            const bool measured = together.measure(points, hint);
+            attempts.note(measured);
+            return measured;
         }
 
         /// Exactly.
@@ -350,6 +388,17 @@ void measure_vertices(DirectedDeviation& d, const std::vector<Vec3>& vertices, c
     set_means(d, sums_of(distances));
 }
 
+/// Of samples of which one ninth has so many times the error that is wanted: how many are enough. Errors fall
+/// with the root, or faster, as neighbours come closer: a third may do where that says four ninths.
+std::size_t ninths_for(double times) {
+    constexpr std::size_t third = all_ninths / 3;
+    if (times * times <= 2) return 2;
+    if (times <= 2) return third;
+    for (std::size_t ninths = third + 2; ninths < all_ninths; ++ninths)
+        if (times * times <= static_cast<double>(ninths)) return ninths;
+    return all_ninths;
+}
+
 /// The means are of as many samples as they need; the maximum is the farthest of all, and of the vertices.
 void measure_samples(DirectedDeviation& d, const Surface& from, const Walk& walk, Samples& samples,
                      const DeviationSettings& settings) {
@@ -357,20 +406,23 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const Walk& walk
         const bool of_face = farthest.sample != SIZE_MAX;
         set_maximum(d, farthest, of_face ? from.face(samples.points[farthest.sample].triangle) : none);
     };
-    ShareOfSteps steps({1, 2, 6, 2, 2});
+    ShareOfSteps steps({1, 2, 2, 6, 2, 2});
     DistanceSums sums;
-    const auto measure = [&](bool needed, Portion portion) {
+    bool will_do = false;
+    const auto measure = [&](bool needed, std::size_t ninths) {
         if (needed) {
-            raise(walk.measure(samples, portion));
+            raise(walk.measure(samples, ninths));
             sums = sums_of(samples.distances);
+            will_do = sums.error() <= settings.mean_error;
         }
         steps.next();
-        return sums.error() <= settings.mean_error;
     };
-    const bool ninth_will_do = measure(settings.mean_error > 0, Portion::ninth);
-    const bool third_may_do = sums.error() <= settings.mean_error * 2; // strata get finer, too
-    const bool third_will_do = measure(!ninth_will_do && third_may_do, Portion::third);
-    measure(!third_will_do, Portion::all);
+    measure(settings.mean_error > 0, 1);
+    constexpr std::size_t third = all_ninths / 3;
+    const std::size_t enough = ninths_for(sums.error() / settings.mean_error);
+    measure(!will_do && enough < all_ninths, enough);
+    measure(!will_do && enough < third, third);
+    measure(!will_do, all_ninths);
     raise(walk.farthest_vertex(d.maximum));
     steps.next();
     if (sums.count < samples.points.size()) raise(walk.farthest_sample(samples, d.maximum));
@@ -517,9 +569,9 @@ void unscale(DirectedDeviation& d, const PowerScale& scale) {
 } // namespace
 
 DeviationResult deviation(const Surface& first, const Surface& second, const DeviationSettings& settings) {
-    const Box of_first = first.bounds();
+    const Box of_first = first.bounds(), of_second = second.bounds();
     Box both = of_first;
-    both.add(second.bounds());
+    both.add(of_second);
     if (const PowerScale scale = even_scale(both); !scale.none()) {
         DeviationResult far = deviation(scaled(first, scale), scaled(second, scale), settings);
         unscale(far.forward, scale);
@@ -531,8 +583,8 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     result.seed = settings.seed;
     result.diagonal = diagonal(of_first);
     ShareOfSteps steps({1, 4, 4});
-    FaceTree first_tree(first, use_of_tree(first, second, settings)),
-        second_tree(second, use_of_tree(second, first, settings));
+    FaceTree first_tree = FaceTree::over(first, of_first, use_of_tree(first, second, settings)),
+             second_tree = FaceTree::over(second, of_second, use_of_tree(second, first, settings));
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
     steps.next();
     result.forward = deviation_between(first, first_order, second, second_tree, settings);

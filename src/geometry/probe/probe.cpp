@@ -90,7 +90,7 @@ HitLists hits_away(const FaceTree& tree, std::span<const Line> lines) {
     away.offsets.push_back(0);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const auto touches = [&](const Hit& hit) {
-            const auto& t = tree.triangles[hit.triangle];
+            const auto t = tree.triangle(hit.triangle);
             return t.a == lines[i].from || t.b == lines[i].from || t.c == lines[i].from;
         };
         const auto hits = all.of(i);

@@ -54,7 +54,7 @@ Vec3 closest_to_origin(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// From p to the closest point of a triangle, times the tree's scale.
 Vec3 offset_to(const FaceTree& tree, Index triangle, const Vec3& p) {
-    const auto& t = tree.triangles[triangle];
+    const auto t = tree.triangle(triangle);
     return closest_to_origin((t.a - p) * tree.scale, (t.b - p) * tree.scale, (t.c - p) * tree.scale);
 }
 
@@ -175,11 +175,11 @@ class Search {
     void test(Index triangle) {
         const Vec3 q = offset_to(tree_, triangle, p_);
         const double square = dot(q, q);
-        if (square > square_ || (square == square_ && tree_.faces[triangle] >= face_)) return;
+        if (square > square_ || (square == square_ && tree_.face(triangle) >= face_)) return;
         square_ = square;
         offset_ = q;
         triangle_ = triangle;
-        face_ = tree_.faces[triangle];
+        face_ = tree_.face(triangle);
     }
 
     /// Searches what is near the hint in the tree, more and more of it, as long as it is not near enough.
@@ -251,7 +251,7 @@ class Search {
     /// turns, as rays do, gained nothing more: 3.2 CPU s a million anywhere in the box either way.
     [[gnu::always_inline]] void fetch(int level, std::uint32_t node) const {
         if (level < 0)
-            fetch_soon(tree_.triangles[node]);
+            tree_.fetch_triangle(node);
         else if (level > tree_.patch_levels)
             fetch_soon(tree_.node(level, node));
         else if (level == 0)
@@ -281,7 +281,7 @@ class Search {
 
 Closest closest_on(const FaceTree& tree, Index triangle, const Vec3& p) {
     const Vec3 q = offset_to(tree, triangle, p);
-    return {p + q / tree.scale, length(q) / tree.scale, tree.faces[triangle], triangle};
+    return {p + q / tree.scale, length(q) / tree.scale, tree.face(triangle), triangle};
 }
 
 Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -71,27 +71,38 @@ std::vector<Index> FaceTree::along_curve(const Surface& surface, const std::vect
     return order;
 }
 
-FaceTree::FaceTree(const Surface& surface, Use use) {
-    const std::vector<Index> kept = finite_triangles(surface);
+FaceTree::FaceTree(const Surface& surface, Use use) { build_over(surface, surface.bounds(), use, true); }
+
+FaceTree FaceTree::over(const Surface& surface, const Box& bounds, Use use) {
+    FaceTree tree;
+    tree.positions_ = surface.positions;
+    tree.corners_ = surface.corners;
+    tree.faces_ = surface.faces;
+    tree.build_over(surface, bounds, use, false);
+    return tree;
+}
+
+void FaceTree::build_over(const Surface& surface, const Box& all, Use use, bool keeps_triangles) {
+    std::vector<Index> kept = finite_triangles(surface);
     if (kept.empty()) return;
-    const Box all = surface.bounds();
     set_frame(all);
     const bool is_near = use == Use::near || use == Use::few;
     if (is_near) set_dense_frame(surface, all, kept);
-    const std::vector<Index> order =
-        use == Use::few ? along_curve(surface, kept) : in_median_order(surface, kept);
-    resize_large(triangles, kept.size());
-    resize_large(faces, kept.size());
-    if (is_near) resize_large(sources, kept.size());
-    parallel_for(kept.size(), [&](std::size_t i) {
-        const Index t = order[i];
-        if (is_near) sources[i] = t;
-        triangles[i] = {surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)};
-        faces[i] = surface.face(t);
-    });
+    std::vector<Index> order = use == Use::few ? along_curve(surface, kept) : in_median_order(surface, kept);
+    kept = {};
+    if (keeps_triangles) {
+        resize_large(triangles, order.size());
+        resize_large(faces, order.size());
+        parallel_for(order.size(), [&](std::size_t i) {
+            const Index t = order[i];
+            triangles[i] = {surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)};
+            faces[i] = surface.face(t);
+        });
+    }
+    if (is_near) sources = std::move(order);
 
-    build(triangles.size(), [&](Node& node, std::size_t slot, std::size_t i) {
-        const auto& [a, b, c] = triangles[i];
+    build(size(), [&](Node& node, std::size_t slot, std::size_t i) {
+        const auto [a, b, c] = triangle(i);
         Box box;
         box.add(a);
         box.add(b);
@@ -214,11 +225,12 @@ std::array<Vec3, 3> axes_of(const Moments& m) {
 }
 
 void set(Patches& patches, std::size_t slot, const FaceTree& tree, const std::array<Vec3, 3>& axes,
-         std::span<const FaceTree::Triangle> triangles) {
+         std::size_t first, std::size_t last) {
     double low[] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     double error = 0;
-    for (const auto& t : triangles)
-        for (const Vec3* p : {&t.a, &t.b, &t.c}) {
+    for (std::size_t t = first; t < last; ++t) {
+        const auto [a, b, c] = tree.triangle(t);
+        for (const Vec3* p : {&a, &b, &c}) {
             const Vec3 at = tree.local(*p);
             error = std::max(error, beyond_frame(at));
             for (std::size_t i = 0; i < 3; ++i) {
@@ -227,6 +239,7 @@ void set(Patches& patches, std::size_t slot, const FaceTree& tree, const std::ar
                 high[i] = x > high[i] ? x : high[i];
             }
         }
+    }
     Vec3 centre;
     for (std::size_t i = 0; i < 3; ++i) centre += axes[i] * ((low[i] + high[i]) / 2);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -241,12 +254,12 @@ Moments flatten_leaf(const FaceTree& tree, std::size_t n, Plates& plates) {
     Moments m;
     for (std::size_t slot = 0; slot < 4; ++slot) {
         const std::size_t t = 4 * n + slot;
-        if (t >= tree.triangles.size()) {
+        if (t >= tree.size()) {
             clear(plates, slot);
             continue;
         }
-        const Vec3 a = tree.local(tree.triangles[t].a), b = tree.local(tree.triangles[t].b),
-                   c = tree.local(tree.triangles[t].c);
+        const auto corners = tree.triangle(t);
+        const Vec3 a = tree.local(corners.a), b = tree.local(corners.b), c = tree.local(corners.c);
         set(plates, slot, a, b, c);
         m.normal += cross(b - a, c - a);
         m.add(a);
@@ -260,7 +273,7 @@ Moments flatten_leaf(const FaceTree& tree, std::size_t n, Plates& plates) {
 
 void FaceTree::flatten() {
     constexpr std::size_t chunk = 1024;
-    resize_large(plates, (triangles.size() + 3) / 4);
+    resize_large(plates, (this->size() + 3) / 4);
     std::vector<Moments> moments(plates.size());
     parallel_for(
         plates.size(), [&](std::size_t n) { moments[n] = flatten_leaf(*this, n, plates[n]); }, chunk);
@@ -280,9 +293,8 @@ void FaceTree::flatten() {
                         clear(patches[begin + n], slot);
                         continue;
                     }
-                    const std::size_t first = child * size, last = std::min(first + size, triangles.size());
-                    set(patches[begin + n], slot, *this, axes_of(moments[child]),
-                        std::span(triangles).subspan(first, last - first));
+                    const std::size_t first = child * size, last = std::min(first + size, this->size());
+                    set(patches[begin + n], slot, *this, axes_of(moments[child]), first, last);
                     above[n].add(moments[child]);
                 }
             },

@@ -6,8 +6,11 @@
 // box of a scan of 1.1M). So the lower levels also have boxes turned to lie flat along their piece of the
 // surface.
 
+#include "base/simd.hpp"
 #include "geometry/spatial/box_levels.hpp"
 #include "mesh/surface.hpp"
+
+#include <span>
 
 namespace facetmill {
 
@@ -36,20 +39,44 @@ struct FaceTree : BoxLevels {
     };
 
     explicit FaceTree(const Surface& surface, Use use = Use::all);
+    /// For near or few points, of a surface that has these bounds and stays as it is for as long as the tree
+    /// is used (it may be moved): the tree keeps no triangles of its own, a third of its size.
+    static FaceTree over(const Surface& surface, const Box& bounds, Use use);
 
     /// Makes plates and patches, which a tree for near points does without: points that are farther from the
     /// surface than its triangles are long are found three times as fast with them.
     void flatten();
 
-    bool empty() const { return triangles.empty(); }
+    bool empty() const { return nodes.empty(); }
+    std::size_t size() const { return triangles.empty() ? sources.size() : triangles.size(); }
+    Triangle triangle(std::size_t t) const {
+        if (!triangles.empty()) return triangles[t];
+        const Index* const c = &corners_[3 * std::size_t{sources[t]}];
+        return {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
+    }
+    /// The face that triangle t is of.
+    Index face(std::size_t t) const {
+        if (!faces.empty()) return faces[t];
+        return faces_.empty() ? sources[t] : faces_[sources[t]];
+    }
+    /// Asks the memory for a triangle that is read soon.
+    [[gnu::always_inline]] void fetch_triangle(std::size_t t) const {
+        if (!triangles.empty()) {
+            fetch_soon(triangles[t]);
+            return;
+        }
+        const Index* const c = &corners_[3 * std::size_t{sources[t]}];
+        for (std::size_t k = 0; k < 3; ++k) fetch_soon(positions_[c[k]]);
+    }
     /// The turned boxes of the children of a node, on levels 1 to patch_levels.
     const Patches& patch(int level, std::size_t i) const {
         return patches[patch_begin[static_cast<std::size_t>(level) - 1] + i];
     }
 
-    std::vector<Triangle>
-        triangles;            ///< those with finite corners, neighbours by geometry/spatial/median_order.hpp
-    std::vector<Index> faces; ///< of triangles
+    /// Those with finite corners, neighbours by geometry/spatial/median_order.hpp; none in a tree over a
+    /// surface that stays.
+    std::vector<Triangle> triangles;
+    std::vector<Index> faces;   ///< of triangles, likewise
     std::vector<Index> sources; ///< of triangles, in a tree for near points: which of the surface's each is
     std::vector<Plates> plates; ///< of triangles 4i to 4i + 3
     int patch_levels = -1;      ///< at most 2; above, pieces are too curved to gain. -1: no plates either
@@ -58,10 +85,15 @@ struct FaceTree : BoxLevels {
     double reach = 1; ///< of everything, in the tree's frame: above 1 some of it lies outside
 
   private:
+    FaceTree() = default;
+    void build_over(const Surface& surface, const Box& all, Use use, bool keeps_triangles);
     void set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept);
     /// The triangles that were kept, in the order of the tree.
     std::vector<Index> in_median_order(const Surface& surface, const std::vector<Index>& kept) const;
     std::vector<Index> along_curve(const Surface& surface, const std::vector<Index>& kept) const;
+
+    std::span<const Vec3> positions_; ///< of the surface that stays, and so on
+    std::span<const Index> corners_, faces_;
 };
 
 } // namespace facetmill

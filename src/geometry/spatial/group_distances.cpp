@@ -113,7 +113,9 @@ Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::si
 /// Lowers the squared distances to those to one triangle.
 void GroupDistances::compare(const Flat& t, Index triangle) {
     for (std::size_t i = 0; i < fours_; ++i) {
-        const Float4 least = least_[i], square = squares_below(least, t, i);
+        const Float4 least = least_[i];
+        if (bits_of(least > four(done_square_)) == 0) continue;
+        const Float4 square = squares_below(least, t, i);
         const Int4 nearer = square < least;
         least_[i] = nearer ? square : least;
         nearest_[i] = nearer ? Int4{} + static_cast<std::int32_t>(triangle) : nearest_[i];
@@ -136,7 +138,7 @@ void GroupDistances::compare_exactly(std::span<const Vec3> points, Index triangl
 
 void GroupDistances::compare(std::span<const Vec3> points, Index triangle) {
     Flat flat;
-    const auto& [a, b, c] = tree_.triangles[triangle];
+    const auto [a, b, c] = tree_.triangle(triangle);
     if (flat.set((a - centre_) * scale_, (b - centre_) * scale_, (c - centre_) * scale_))
         compare(flat, triangle);
     else
@@ -214,6 +216,7 @@ void GroupDistances::take_distances(std::size_t count) {
 }
 
 bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
+    done_square_ = -1;
     const Box box = box_around(points);
     const Closest closest = closest_point(tree_, box.centre(), hint);
     if (closest.triangle == none) return false;
@@ -234,15 +237,20 @@ float GroupDistances::enough_square(double distance) const {
 }
 
 bool GroupDistances::all_within(std::span<const Vec3> points, double distance, Index& hint) {
-    distances_.fill(HUGE_VAL);
+    forget();
+    too_many_ = false;
     if (tree_.empty() || !(distance > 0)) return false;
     const Box box = box_around(points);
     if (!place(points, box.centre(), box.diagonal() + distance)) return false;
     const float square = enough_square(distance);
     if (!(square > 0)) return false;
+    done_square_ = square;
     if (hint != none) compare(points, hint);
-    const bool all = (hint != none && farthest_square() <= square) ||
-                     (gather(box, distance, few_nodes) && compare_until(square, points, box, distance));
+    bool all = hint != none && farthest_square() <= square;
+    if (!all) {
+        too_many_ = !gather(box, distance, few_nodes);
+        all = !too_many_ && compare_until(square, points, box, distance);
+    }
     take_distances(points.size());
     if (all) hint = triangles_[points.size() - 1];
     return all;
@@ -252,7 +260,7 @@ bool GroupDistances::all_within(std::span<const Vec3> points, double distance, I
 std::uint32_t GroupDistances::which_within(std::span<const Vec3> points, float square, Index triangle) const {
     std::uint32_t within = 0;
     Flat flat;
-    const auto& [a, b, c] = tree_.triangles[triangle];
+    const auto [a, b, c] = tree_.triangle(triangle);
     if (flat.set((a - centre_) * scale_, (b - centre_) * scale_, (c - centre_) * scale_))
         for (std::size_t i = 0; i < fours_; ++i)
             within |= bits_of(squares_below(four(square), flat, i) < four(square)) << 4 * i;

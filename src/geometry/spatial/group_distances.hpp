@@ -28,6 +28,10 @@ class GroupDistances {
     /// Tries to show that 1 to `most` finite points are all within a distance, which needs fewer triangles.
     /// hint as above. What has been shown of each is distance(i) + error(): not less than its distance.
     bool all_within(std::span<const Vec3> points, double distance, Index& hint);
+    /// Of points that are not tried together nothing has been shown.
+    void forget() { distances_.fill(HUGE_VAL); }
+    /// Whether that was not found out, since there are so many triangles around the points.
+    bool too_many() const { return too_many_; }
 
     /// Removes from `sets`, of which each has bit i for the i-th of 1 to `most` finite points, those whose
     /// points all are within a distance of one and the same triangle: so is all between them. What cannot be
@@ -63,6 +67,8 @@ class GroupDistances {
     std::array<double, most> distances_{};
     std::array<Index, most> triangles_{};
     double error_ = 0; ///< in the surface's units
+    bool too_many_ = false;
+    float done_square_ = -1; ///< points that are this near need not be compared with more triangles
 
     std::vector<std::uint32_t> nodes_,
         children_; ///< of one level and the one below, that may hold the closest

@@ -1,9 +1,11 @@
 #include "geometry/spatial/median_order.hpp"
 
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <span>
 
 namespace facetmill {
@@ -14,13 +16,17 @@ using Items = std::span<CentredItem>;
 
 /// The axis along which the centres reach farthest.
 std::size_t longest_side(Items items) {
-    float low[3], high[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) low[axis] = high[axis] = items[0].centre[axis];
-    for (const auto& item : items)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], item.centre[axis]);
-            high[axis] = std::max(high[axis], item.centre[axis]);
-        }
+    static_assert(sizeof(CentredItem) == sizeof(Float4));
+    const auto whole = [](const CentredItem& item) { // the last is the item's number, and not looked at
+        Float4 four;
+        std::memcpy(&four, &item, sizeof four);
+        return four;
+    };
+    Float4 low = whole(items[0]), high = low;
+    for (const auto& item : items) {
+        low = lesser(low, whole(item));
+        high = greater(high, whole(item));
+    }
     std::size_t longest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis)
         if (high[axis] - low[axis] > high[longest] - low[longest]) longest = axis;

@@ -217,7 +217,7 @@ int winding(const FaceTree& tree, const Vec3& p) {
     const bool forward = at[axis] >= 0;
     int sum = 0;
     visit(tree, AxisQuery(tree, p, axis, forward),
-          [&](Index t) { sum += crossing(tree.triangles[t], p, axis, forward); });
+          [&](Index t) { sum += crossing(tree.triangle(t), p, axis, forward); });
     return sum;
 }
 
@@ -225,14 +225,14 @@ void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, boo
                       const std::function<void(Index face, int way)>& hit) {
     if (tree.empty() || !is_finite(p)) return;
     visit(tree, AxisQuery(tree, p, axis, forward), [&](Index t) {
-        if (const int way = crossing(tree.triangles[t], p, axis, forward)) hit(tree.faces[t], way);
+        if (const int way = crossing(tree.triangle(t), p, axis, forward)) hit(tree.face(t), way);
     });
 }
 
 bool lies_on(const FaceTree& tree, const Vec3& p) {
     if (tree.empty() || !is_finite(p)) return false;
     bool on = false;
-    visit(tree, PointQuery(tree, p), [&](Index t) { on = on || holds(tree.triangles[t], p); });
+    visit(tree, PointQuery(tree, p), [&](Index t) { on = on || holds(tree.triangle(t), p); });
     return on;
 }
 

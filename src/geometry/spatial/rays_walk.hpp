@@ -65,7 +65,7 @@ class LineTest {
     explicit LineTest(const Line& line) : line_(line), signs_(line.from, line.to) {}
 
     std::optional<Hit> hit(const FaceTree& tree, Index triangle) const {
-        const auto& [a, b, c] = tree.triangles[triangle];
+        const auto [a, b, c] = tree.triangle(triangle);
         const int way = signs_.passes(a, b, c);
         if (way == 0) return {};
         const int from_side = orientation_3d(a, b, c, line_.from);
@@ -74,7 +74,7 @@ class LineTest {
         Hit hit;
         hit.way = way;
         hit.triangle = triangle;
-        hit.face = tree.faces[triangle];
+        hit.face = tree.face(triangle);
         const Vec3 n = cross(b - a, c - a), d = line_.to - line_.from;
         const double along = dot(n, d), t = along != 0 ? dot(n, a - line_.from) / along : 0;
         hit.t = from_side == 0 ? 0 : std::max(t, 0.0);
@@ -196,7 +196,7 @@ class LineWalk {
     };
 
     [[gnu::always_inline]] void fetch(int level, std::uint32_t node) const {
-        level < 0 ? fetch_soon(tree_.triangles[node]) : fetch_soon(tree_.node(level, node));
+        level < 0 ? tree_.fetch_triangle(node) : fetch_soon(tree_.node(level, node));
     }
 
     const FaceTree& tree_;

@@ -4,6 +4,7 @@
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "geometry/deviation/deviation.hpp"
+#include "geometry/edit/moved.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/power_scale.hpp"
@@ -81,7 +82,8 @@ std::vector<std::size_t> shared_samples(std::size_t all, std::span<const Sampled
 /// A part as it came, as far as the report compares with it.
 struct Before {
     Surface surface;       ///< in the world
-    Properties properties; ///< in the world
+    Size size;             ///< in the world
+    Properties properties; ///< in the world, where the method may change more than that
 };
 
 /// What was measured of a part, which holds wherever it is moved to.
@@ -90,7 +92,10 @@ struct Measured {
     DeviationResult deviation;
 };
 
-Size size_of(const Properties& p) { return {p.area, p.volume}; }
+Size size_of(const Part& part) {
+    const SurfaceSize size = surface_size(part.mesh, part.transform);
+    return {size.area, part.mesh.face_count() > 0 ? size.volume : 0};
+}
 
 Measured carried(Measured m, const Vec3& by) {
     for (DirectedDeviation* d : {&m.deviation.forward, &m.deviation.backward}) {
@@ -339,8 +344,11 @@ class Simplifier {
         ShareOfSteps steps(std::vector<double>(set.size(), 1));
         for (const std::size_t p : set) {
             const bool is_first = measures() && measured_as_[p] == p;
-            if (is_first) before_[p].surface = surface_of(scene_.parts[p]);
-            if (is_first || changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
+            if (is_first) {
+                before_[p].surface = surface_of(scene_.parts[p]);
+                before_[p].size = size_of(scene_.parts[p]);
+            }
+            if (changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
             limits_[p] = settings_for(set).max_quadric_error;
             steps.next();
         }
@@ -454,10 +462,7 @@ class Simplifier {
             return carried(measured_[as][number_of_level], by);
         }
         const Before& before = before_[number];
-        ShareOfSteps steps({1, 9});
-        const Properties after = inspect(part);
-        steps.next();
-        Measured m{{size_of(before.properties), size_of(after)},
+        Measured m{{before.size, size_of(part)},
                    deviation(before.surface, surface_of(part),
                              {.samples = samples_[number], .certify = o_.certify})};
         measured_[number].push_back(m);

@@ -14,7 +14,8 @@ using namespace facetmill;
 
 namespace {
 
-/// The trees that know distances: of all uses, for near points, that with what far points need, and for few.
+/// The trees that know distances: of all uses, for near points, that with what far points need, and for few;
+/// and those over a surface that stays.
 std::vector<FaceTree> trees_of(const Surface& surface) {
     std::vector<FaceTree> trees;
     trees.emplace_back(surface);
@@ -22,6 +23,10 @@ std::vector<FaceTree> trees_of(const Surface& surface) {
     trees.emplace_back(surface, FaceTree::Use::near);
     trees.back().flatten();
     trees.emplace_back(surface, FaceTree::Use::few);
+    for (const auto use : {FaceTree::Use::near, FaceTree::Use::few})
+        trees.push_back(FaceTree::over(surface, surface.bounds(), use));
+    trees.push_back(FaceTree::over(surface, surface.bounds(), FaceTree::Use::near));
+    trees.back().flatten();
     return trees;
 }
 
@@ -61,14 +66,16 @@ TEST_CASE("the tree finds what trying every triangle finds", "[geometry]") {
     const Mesh shape = GENERATE(as<Mesh>{}, test::noisy_icosphere(2, 0.1, 3), shapes::quad_cube(),
                                 shapes::torus(20, 9), shapes::tetrahedron());
     const Surface surface = surface_of(shape);
+    const FaceTree whole(surface);
     for (const FaceTree& tree : trees_of(surface)) {
-        REQUIRE(tree.triangles.size() == surface.size());
+        REQUIRE(tree.size() == surface.size());
         for (std::uint64_t k = 0; k < 200; ++k) {
             const Vec3 p = test::random_point(k % 2 ? 1.5 : 30, 5, k);
             const Closest found = closest_point(tree, p);
             CHECK(found.distance == Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
             CHECK(found.distance == Approx(length(found.point - p)));
             CHECK(found.face < shape.face_count());
+            CHECK(found.face == closest_point(whole, p).face);
         }
     }
 }
@@ -78,7 +85,7 @@ TEST_CASE("a hint and a distance that is enough never hide what is farther", "[g
     for (const FaceTree& tree : trees_of(surface))
         for (std::uint64_t k = 0; k < 500; ++k) {
             const Vec3 p = test::random_point(1.2, 5, k);
-            const auto hint = static_cast<Index>(k * 7919 % tree.triangles.size());
+            const auto hint = static_cast<Index>(k * 7919 % tree.size());
             const double distance = closest_point(tree, p).distance;
             CHECK(closest_point(tree, p, hint).distance == distance);
             CHECK(closest_point(tree, p, hint, distance * 0.99).distance == distance);
