@@ -227,8 +227,7 @@ void simplify_job(const Partition& partition, const SimplifySettings& settings, 
         Hierarchy(partition, settings, means, transform).run(*means.job);
     } catch (const Error& error) {
         if (error.diagnostics().front().id != "E-SCRATCH") throw;
-        make_cells_due(*means.kept,
-                       fmt::format("cells in '{}' are not as written", means.kept->path().string()));
+        make_cells_due(*means.kept, error.diagnostics().front().message);
     }
 }
 

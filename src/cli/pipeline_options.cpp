@@ -151,6 +151,14 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
     if (settings.job && (settings.kept.empty() || settings.when == When::never))
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cells-job is for runs that keep their cells",
                     "give their folder: --keep-cells DIR", line.value(options.cells_job));
+    if (settings.job)
+        for (const auto& [option, is_given] : {std::pair{"--report", !options.reports.empty()},
+                                               {"--timings", !options.timings.empty()},
+                                               {"--depfile", !options.depfile.empty()}})
+            if (is_given)
+                throw Error(ErrorKind::usage, "E-CONFLICT",
+                            fmt::format("--cells-job writes cells alone, and {} is of a whole run", option),
+                            "give it to the last run, which takes up the cells", line.find(option));
     settings.scratch = !options.scratch.empty() ? options.scratch : options.kept_cells;
     if (settings.scratch.empty()) settings.scratch = options.output_dir;
     if (settings.scratch.empty()) settings.scratch = ".";

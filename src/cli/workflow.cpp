@@ -291,7 +291,7 @@ for job in JOBS:
         input: job["inputs"]
         output: job["outputs"]
         message: "Processing " + job["asset"].replace("{{", "{{{{").replace("}}", "}}}}")
-        params: command="s=0;" + "".join(f" {{FACETMILL}}{{run}} || s=$?;" for run in job["runs"]) + " exit $s"
+        params: command=lambda wildcards, job=job: "s=0;" + "".join(f" {{FACETMILL}}{{run}} || s=$?;" for run in job["runs"]) + " exit $s"
         threads: {}
         resources: mem_mb=job["megabytes"]
         shell: "{{params.command}}"

@@ -110,12 +110,11 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     return cells;
 }
 
-CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count) {
-    const CellPlan cells = plan_cells(plan, settings);
+void require_jobs(const Plan& plan, const CellPlan& cells) {
     if (cells.steps == 0)
         refuse_jobs(
             fmt::format("the run has no cells: {}", cells.why.empty() ? "--partition never" : cells.why),
-            "export it without --keep-cells, or use --partition always");
+            "use --partition always, or do it without jobs");
     const Step& last = plan.steps[cells.steps - 1];
     if (last.stage->name != "simplify")
         refuse_jobs(
@@ -127,6 +126,10 @@ CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::siz
             refuse_jobs(fmt::format("each job would do '{}' again before it simplifies", step.name),
                         "write its result by a run of its own, and load that", step.where);
     }
+}
+
+CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count) {
+    require_jobs(plan, plan_cells(plan, settings));
     CellJobs jobs;
     constexpr std::uint64_t faces_of_job = 2000000, most = 64;
     jobs.count = count > 0 ? count

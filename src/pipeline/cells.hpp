@@ -24,13 +24,16 @@ struct CellPlan {
 /// stage, an option or a file cannot be processed so, with the way out.
 CellPlan plan_cells(const Plan& plan, const CellSettings& settings);
 
+/// Throws usage (E-EXPORT) where a run cannot be divided into jobs: nothing is simplified in cells, or a
+/// stage before that makes cells anew.
+void require_jobs(const Plan& plan, const CellPlan& cells);
+
 /// A run in cells as jobs: see cells/cell_job.hpp.
 struct CellJobs {
     std::size_t count = 0;                              ///< of those that simplify
     std::vector<std::filesystem::path> inputs, outputs; ///< of the run
 };
-/// count: jobs that simplify; 0: as many as suit the inputs. Throws usage (E-EXPORT) where nothing of the
-/// plan is simplified in cells, as plan_cells decides, or a stage before that makes cells anew.
+/// count: jobs that simplify; 0: as many as suit the inputs. Throws as require_jobs.
 CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count);
 
 } // namespace facetmill::pipeline

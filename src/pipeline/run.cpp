@@ -106,7 +106,7 @@ class Runner {
         for (const auto& error : headers.errors) failures_.add(error);
         if (!settings_.cells.job) try_outputs(headers);
         Flow flow;
-        if (settings_.cells.job) return run_job();
+        if (settings_.cells.job) return run_job(watch);
         const bool small = !failures_.any() && run_on_cells(flow);
         if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
             (takes_pictures_ || !plan_.reports.empty()) && fetch({}, "the inspection at the end", flow))
@@ -121,9 +121,7 @@ class Runner {
             failures_.guarded({}, "a picture",
                               [&] { record().stages.back().picture = report::small_picture(flow.scene); });
         finish_outputs();
-        record().seconds = watch.seconds();
-        record().peak_memory = peak_memory();
-        record().threads = threads();
+        record_cost(watch);
         write_reports();
         if (settings_.progress) settings_.progress->done();
         if (settings_.on_trace) settings_.on_trace(trace_);
@@ -132,6 +130,12 @@ class Runner {
 
   private:
     report::RunRecord& record() { return state_.record; }
+
+    void record_cost(const Stopwatch& watch) {
+        record().seconds = watch.seconds();
+        record().peak_memory = peak_memory();
+        record().threads = threads();
+    }
 
     /// Makes the scene of the flow be there. False after a failure.
     bool fetch(const Mark& where, const std::string& what, Flow& flow) {
@@ -144,11 +148,16 @@ class Runner {
                (step.kind != Step::Kind::stage && (step.join || step.arms_of_parts));
     }
 
+    CellPlan planned_cells() const {
+        CellPlan cells = plan_cells(plan_, settings_.cells);
+        if (settings_.cells.job) require_jobs(plan_, cells);
+        return cells;
+    }
+
     /// Runs the first steps where they are to work on cells; the scene is in memory afterwards. False after a
     /// failure, and when all steps were done on cells.
     bool run_on_cells(Flow& flow) {
-        if (!failures_.guarded({}, "the plan", [&] { on_cells_ = plan_cells(plan_, settings_.cells); }))
-            return false;
+        if (!failures_.guarded({}, "the plan", [&] { on_cells_ = planned_cells(); })) return false;
         if (on_cells_.steps == 0) return true;
         if (keeps_loaded_ && !failures_.guarded({}, "the plan", [] { refuse_reference(); })) return false;
         CellFlow cells;
@@ -172,9 +181,10 @@ class Runner {
     }
 
     /// A part of a run that several processes do: without outputs and reports.
-    report::RunRecord run_job() {
+    report::RunRecord run_job(const Stopwatch& watch) {
         Flow ignored;
         if (!failures_.any()) run_on_cells(ignored);
+        record_cost(watch);
         if (settings_.progress) settings_.progress->done();
         return std::move(record());
     }

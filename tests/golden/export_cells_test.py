@@ -99,6 +99,9 @@ class ExportOfCells(LargeCase):
         self.need("snakemake", in_ci=False)
         self.export("snakemake", "Snakefile")
         self.check(("snakemake", "-j2"), "Nothing to be done")
+        self.write("braces.yaml", PIPELINE.replace("params: {", "params: {note: {type: text, default: a}, "))
+        self.write("Snakefile", self.mill("export", "--to", "snakemake", "braces.yaml", "-D", "note={foo} {", *self.options()[1:]).stdout)
+        self.build("snakemake", "-j2")
 
     def killed(self):
         """A workflow whose first job that simplifies is killed when it has simplified something. False: it was too fast."""
@@ -145,14 +148,14 @@ class ExportOfCells(LargeCase):
         (self.kept / MANIFEST).unlink()
         self.check(("ninja",), "no work to do")
         # A job beside others cannot make the cells anew that all read: the workflow does when it runs again.
+        written = (self.kept / RECORDS).stat().st_mtime_ns
         data = bytearray((self.kept / RECORDS).read_bytes())
         data[100::4096] = bytes(255 - b for b in data[100::4096])
         (self.kept / RECORDS).write_bytes(data)
         for path in self.simplified():
             path.unlink()
         self.stamp(1).unlink()
-        os.utime(self.kept / MANIFEST, (time.time() - 9,) * 2)  # what was written is older than all stamps
-        os.utime(self.kept / RECORDS, (time.time() - 9,) * 2)
+        os.utime(self.kept / RECORDS, ns=(written, written))  # older than all stamps, as before
         told = self.build("ninja", expect=1)
         self.assertIn("E-SCRATCH", told)
         self.assertIn("run the workflow again", told)
@@ -202,6 +205,14 @@ class ExportOfCells(LargeCase):
         refused("'clip' works on cells by itself", "clip.yaml", *here[1:], *MEMORY)
         for job in ("x", "0/3", "4/3", "1.5/3", "/", "1/", "-1/3", "nan/3"):
             self.assertIn("--cells-job takes a job", self.job(job, expect=2).stderr)
+        for option in ("--report", "--timings", "--depfile"):
+            self.assertIn(f"and {option} is of a whole run", self.job("1/2", option, "r.json", expect=2).stderr)
+        run = self.mill("run", "p q.yaml", "-D", "input=large.ply", "--memory", "16G", "--keep-cells", self.kept, "--cells-job", "1/2",
+                        "-o", "out", expect=2)
+        self.assertIn("the run has no cells: in memory", run.stderr)
+        run = self.mill("run", "clean.yaml", "-D", "input=large.ply", *MEMORY, "--keep-cells", self.kept, "--cells-job", "1/2",
+                        "-o", "out", expect=2)
+        self.assertIn("each job would do 'clean' again", run.stderr)
         run = self.mill("run", "p q.yaml", "-D", "input=large.ply", *MEMORY, "--cells-job", "1/2", expect=2)
         self.assertIn("give their folder", run.stderr)
         self.assertFalse(self.kept.exists())
