@@ -6,6 +6,7 @@
 #include "base/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/early_folders.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 #include "pipeline/failures.hpp"
@@ -164,6 +165,7 @@ class Runner {
         cells.means = {settings_.cells.scratch, settings_.cells.memory};
         cells.means.job = settings_.cells.job;
         if (cells.means.memory == 0) cells.means.memory = memory_there() / 4 * 3;
+        output_folder_.make(plan_.places.output_base); // where temporary data usually is
         if (!failures_.guarded({}, "kept cells", [&] { open_kept(cells.means); })) return false;
         for (std::size_t i = 0; i < on_cells_.steps; ++i) {
             const Step& step = plan_.steps[i];
@@ -605,6 +607,7 @@ class Runner {
     Reuse reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
     std::set<fs::path> unwritable_; ///< folders
     CellPlan on_cells_;
+    io::EarlyFolders output_folder_;
     bool keeps_loaded_ = false, takes_pictures_ = false;
     Page page_{state_.record};
     PageView view_{plan_.steps, page_};

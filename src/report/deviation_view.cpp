@@ -9,7 +9,9 @@
 
 namespace facetmill::report {
 
-double colour_limit(const std::vector<float>& distances, double most) {
+namespace {
+
+double limit_of(const std::vector<float>& distances, double most) {
     std::vector<float> sizes(distances.size());
     std::transform(distances.begin(), distances.end(), sizes.begin(), [](float x) { return std::abs(x); });
     if (sizes.empty()) return most;
@@ -22,8 +24,6 @@ double colour_limit(const std::vector<float>& distances, double most) {
         if (limit > 0 && limit < most / 4) return limit;
     return most;
 }
-
-namespace {
 
 std::vector<std::uint64_t> counted_in_bins(const std::vector<float>& distances, double limit) {
     constexpr std::size_t bins = 41; // an odd number: one around 0
@@ -56,6 +56,12 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
 
 } // namespace
 
+double colour_limit(const std::vector<float>& distances, double most, double diagonal) {
+    constexpr double lost_by_floats = 1e-6; // of the diagonal: has no colours
+    const double limit = limit_of(distances, most);
+    return std::isfinite(diagonal) ? std::max(limit, lost_by_floats * diagonal) : limit;
+}
+
 DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
                              const std::optional<PictureSettings>& pictures) {
     const SignedDeviation d = signed_deviation(scene, from.tree);
@@ -70,9 +76,7 @@ DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
     view.rms = d.rms;
     view.worst = d.worst;
     view.worst_distance = d.worst_distance;
-    view.limit = colour_limit(d.samples, std::max(-d.low, d.high));
-    constexpr double lost_by_floats = 1e-6; // of the diagonal: has no colours
-    if (std::isfinite(view.diagonal)) view.limit = std::max(view.limit, lost_by_floats * view.diagonal);
+    view.limit = colour_limit(d.samples, std::max(-d.low, d.high), view.diagonal);
     view.counts = counted_in_bins(d.samples, view.limit);
     if (pictures && d.any()) take_pictures(d.scene, *pictures, d.worst_normal, d.is_cut, view);
     return view;

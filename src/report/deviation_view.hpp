@@ -15,8 +15,9 @@ struct EarlierSurface {
 };
 
 /// Half the width of the scale of distances: all of it, or, where a tenth or less is far off, what tells the
-/// rest apart. What lies beyond has the colour of the end. most: the largest amount.
-double colour_limit(const std::vector<float>& distances, double most);
+/// rest apart, and at least what positions in float32 may be off by. What lies beyond has the colour of the
+/// end. most: the largest amount. diagonal: of the scene.
+double colour_limit(const std::vector<float>& distances, double most, double diagonal);
 
 /// Both in world space, and in one pose. pictures: their size and camera; none: only numbers. Throws as
 /// picture_of. O((vertices + faces) log n), of at most 20000 vertices or some tens of thousands of cells, and

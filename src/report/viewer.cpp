@@ -104,7 +104,8 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     std::vector<float> distances;
     if (from && !from->empty() && preview.mesh.face_count() > 0)
         distances = signed_distances(*from, of_surface(preview));
-    const double largest = largest_of(distances), most = colour_limit(distances, largest);
+    const double largest = largest_of(distances);
+    const double most = colour_limit(distances, largest, box_of(preview.mesh.positions).diagonal());
     if (!distances.empty()) distances.resize(preview.mesh.vertex_count()); // lines and points have none
     PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
     PictureSettings as_first; // a scene that does not say what is up keeps that of the first

@@ -217,6 +217,11 @@ class Cells(LargeCase):
         self.assertIn("E-WRITE", self.mill("pipe", "--no-sandbox", "--memory", "64M", "--scratch", "nowhere", "load", scan, *run,
                                            expect=4).stderr)
         self.assertFalse((self.dir / "o.ply").exists())
+        self.assertIn("E-PLY", self.mill("pipe", "--no-sandbox", "--memory", "64M", "-o", "new/out", "load", "short.ply", *run,
+                                         expect=6).stderr)
+        self.assertFalse((self.dir / "new").exists())
+        self.mill("pipe", "--no-sandbox", "--memory", "64M", "-o", "new/out", "load", scan, *run)
+        self.assertTrue((self.dir / "new/out/o.ply").exists())
 
     def test_the_report_tells_of_cells(self):
         self.large()

@@ -100,6 +100,10 @@ TEST_CASE("several groups of OBJ lines are named as lost, one is not", "[io]") {
     CHECK(several.log.warnings[0].id == "W-SKIPPED");
     CHECK(several.log.warnings[0].message.find("'groups of l' (2)") != std::string::npos);
     CHECK(load("a.obj", points + "g left\nl 1 2\nl 2 1\ng empty\n", false).log.warnings.empty());
+    CHECK(load("a.obj", points + "o a\ng a\nl 1 2\no b\ng b\nl 2 1\n", false).log.warnings.empty());
+    const Loaded one = load("a.obj", points + "l 1 2\ng right\nl 2 1\n", false);
+    REQUIRE(one.log.warnings.size() == 1);
+    CHECK(one.log.warnings[0].message.find("'groups of l' (1)") != std::string::npos);
 }
 
 TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {

@@ -13,7 +13,9 @@ namespace {
 class LooseColours {
   public:
     LooseColours(const Part& part, const Scene& scene, const MaterialLooks* looks)
-        : mesh_(part.mesh), scene_(scene), looks_(looks), own_(colours_in(part.mesh)) {}
+        : mesh_(part.mesh), scene_(scene), looks_(looks), own_(colours_in(part.mesh)) {
+        if (own_ && own_->domain != Domain::vertex && own_->domain != Domain::wedge) own_ = nullptr;
+    }
 
     Texel of(Index wedge, Index primitive) const {
         Texel colour = of_material(primitive);

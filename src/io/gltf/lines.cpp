@@ -1,9 +1,12 @@
 #include "io/gltf/lines.hpp"
 
+#include "base/numbers.hpp"
 #include "io/gltf/instances.hpp"
 
 #include <fmt/format.h>
 #include <map>
+#include <optional>
+#include <string_view>
 
 namespace facetmill::io::gltf {
 
@@ -41,20 +44,20 @@ void add_lines(Source& source, const Place& primitive, const Transform& world, s
         lines.segments.push_back({base + ends[i], base + ends[i + 1], material});
 }
 
-/// Takes the lines from a mesh that has triangles, too: a mesh of them, or null.
+/// Takes the lines from a mesh that has triangles, too: a mesh of them.
 Json lines_taken_from(Json& mesh, const std::string& path) {
     const Place before(mesh, path);
-    if (!has_triangles(before)) return nullptr;
     Json kept = Json::array(), lines = Json::array();
     const Place primitives = before.at("primitives");
     for (std::size_t i = 0; i < primitives.size(); ++i)
         (makes_lines(primitives.at(i)) ? lines : kept).push_back(primitives.at(i).json());
-    if (lines.empty()) return nullptr;
     Json taken = Json::object();
     const std::string name = before.text_or("name", "");
     if (!name.empty()) taken["name"] = name + suffix_of_lines;
     taken["primitives"] = std::move(lines);
     if (mesh.contains("weights")) taken["weights"] = mesh["weights"];
+    if (const auto extras = before.find("extras"); extras && extras->json().is_object())
+        if (const auto names = extras->find("targetNames")) taken["extras"]["targetNames"] = names->json();
     mesh["primitives"] = std::move(kept);
     return taken;
 }
@@ -73,48 +76,109 @@ Json beside_node(const Json& node, std::size_t mesh, const std::string& path) {
     return beside;
 }
 
+/// Whether the mesh has triangles and lines.
+bool has_both(const Place& mesh) {
+    if (!has_triangles(mesh)) return false;
+    const Place primitives = mesh.at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (makes_lines(primitives.at(i))) return true;
+    return false;
+}
+
+/// What stands beside nodes and meshes.
+struct Beside {
+    std::map<std::size_t, std::size_t> nodes, meshes;
+};
+
+std::optional<std::size_t> known(const std::map<std::size_t, std::size_t>& beside, std::size_t number) {
+    const auto found = beside.find(number);
+    return found == beside.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The pointer to the weights of what stands beside those that this one names (KHR_animation_pointer), or
+/// none.
+std::optional<std::string> pointer_beside(const std::string& pointer, const Beside& beside) {
+    constexpr std::string_view end = "/weights";
+    const std::string_view text = pointer;
+    for (const auto& [list, numbers] :
+         {std::pair{std::string_view("/nodes/"), &beside.nodes}, {"/meshes/", &beside.meshes}}) {
+        if (text.size() < list.size() + end.size() || !text.starts_with(list) || !text.ends_with(end))
+            continue;
+        const auto number = parse_integer(text.substr(list.size(), text.size() - list.size() - end.size()));
+        const auto other = number ? known(*numbers, static_cast<std::size_t>(*number)) : std::nullopt;
+        if (other) return fmt::format("{}{}{}", list, *other, end);
+    }
+    return {};
+}
+
+/// The target of a channel that moves the weights of what stands beside, or null.
+Json target_beside(const Place& target, const Beside& beside, std::size_t nodes) {
+    Json moved = target.json();
+    if (const auto node = target.find("node"); node && target.text_or("path", "") == "weights") {
+        const auto other = known(beside.nodes, node->index(nodes, "node"));
+        if (!other) return nullptr;
+        moved["node"] = *other;
+        return moved;
+    }
+    constexpr const char* extension = "KHR_animation_pointer";
+    const auto extensions = target.find("extensions");
+    const auto pointed = extensions ? extensions->find(extension) : std::nullopt;
+    if (!pointed) return nullptr;
+    const auto pointer = pointer_beside(pointed->text_or("pointer", ""), beside);
+    if (!pointer) return nullptr;
+    moved["extensions"][extension]["pointer"] = *pointer;
+    return moved;
+}
+
 /// What moves the morph weights of a node moves those of the one beside it.
-void animate_beside(Json& document, const std::map<std::size_t, std::size_t>& beside) {
+void animate_beside(Json& document, const Beside& beside, std::size_t nodes) {
     for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
         const Place channels = item(document, "animations", a).at("channels");
         Json more = Json::array();
         for (std::size_t c = 0; c < channels.size(); ++c) {
-            const Place target = channels.at(c).at("target");
-            const auto node = target.find("node");
-            if (!node || target.text_or("path", "") != "weights") continue;
-            const auto known = beside.find(node->index(count_of(document, "nodes"), "node"));
-            if (known == beside.end()) continue;
+            Json target = target_beside(channels.at(c).at("target"), beside, nodes);
+            if (target.is_null()) continue;
             more.push_back(channels.at(c).json());
-            more.back()["target"]["node"] = known->second;
+            more.back()["target"] = std::move(target);
         }
         for (Json& channel : more) document["animations"][a]["channels"].push_back(std::move(channel));
     }
 }
 
+/// Throws malformed when a scene names a node that is not there.
+void check_roots(const Json& document, std::size_t nodes) {
+    for (std::size_t s = 0; s < count_of(document, "scenes"); ++s)
+        if (const auto roots = item(document, "scenes", s).find("nodes"))
+            for (std::size_t i = 0; i < roots->size(); ++i) roots->at(i).index(nodes, "node");
+}
+
 } // namespace
 
 bool part_lines(Json& document) {
-    std::map<int, std::size_t> mesh_of_lines;
-    const std::size_t meshes = count_of(document, "meshes");
-    for (std::size_t m = 0; m < meshes; ++m) {
+    std::vector<std::size_t> both;
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
+        if (has_both(item(document, "meshes", m))) both.push_back(m);
+    if (both.empty()) return false;
+    const auto frames =
+        node_frames(document); // before there are more meshes and nodes, which nothing may name
+    check_roots(document, frames.size());
+    Beside beside;
+    for (const std::size_t m : both) {
         const std::string path = item(document, "meshes", m).path();
         Json lines = lines_taken_from(document["meshes"][m], path);
-        if (lines.is_null()) continue;
-        mesh_of_lines[static_cast<int>(m)] = document["meshes"].size();
+        beside.meshes[m] = document["meshes"].size();
         document["meshes"].push_back(std::move(lines));
     }
-    if (mesh_of_lines.empty()) return false;
-    const auto frames = node_frames(document);
-    std::map<std::size_t, std::size_t> beside;
     for (std::size_t n = 0; n < frames.size(); ++n) {
-        const auto lines = mesh_of_lines.find(frames[n].mesh);
-        if (lines == mesh_of_lines.end()) continue;
-        Json node = beside_node(document["nodes"][n], lines->second, item(document, "nodes", n).path());
-        beside[n] = document["nodes"].size();
-        document["nodes"][n]["children"].push_back(beside[n]);
+        if (frames[n].mesh < 0) continue;
+        const auto lines = known(beside.meshes, static_cast<std::size_t>(frames[n].mesh));
+        if (!lines) continue;
+        Json node = beside_node(document["nodes"][n], *lines, item(document, "nodes", n).path());
+        beside.nodes[n] = document["nodes"].size();
+        document["nodes"][n]["children"].push_back(beside.nodes[n]);
         document["nodes"].push_back(std::move(node));
     }
-    animate_beside(document, beside);
+    animate_beside(document, beside, frames.size());
     return true;
 }
 

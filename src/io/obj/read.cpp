@@ -411,6 +411,23 @@ Attribute marked_ends(const Statements& s) {
     return {std::string(ends_of_lines), Domain::vertex, Role::generic, 1, false, std::move(marked)};
 }
 
+/// How many groups the lines are in, where an object has lines of several; else 0: parts are those of
+/// objects.
+std::size_t lost_groups_of_lines(const Statements& s) {
+    const Naming objects = naming(s, Event::Kind::object, "", s.lines(), &Event::line);
+    const Naming groups = naming(s, Event::Kind::group, "", s.lines(), &Event::line);
+    std::vector<Index> group_of(objects.names.size(), none);
+    bool any = false;
+    for (std::size_t l = 0; l < s.lines(); ++l) {
+        const Index group = groups.of_face[l];
+        Index& first = group_of[objects.of_face[l]];
+        any |= first != none && first != group;
+        first = group;
+    }
+    const auto unnamed = std::count(groups.names.begin(), groups.names.end(), "");
+    return any ? groups.names.size() - static_cast<std::size_t>(unnamed) : 0;
+}
+
 /// Vertices that only lines use are no vertices of the surface, nor is a part of them a part.
 void drop_ends(Scene& scene) {
     for (Part& part : scene.parts) {
@@ -426,9 +443,7 @@ void drop_ends(Scene& scene) {
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     Statements s = parse(input, settings);
-    if (const std::size_t groups = naming(s, Event::Kind::group, "", s.lines(), &Event::line).names.size();
-        groups > 1)
-        s.skipped["groups of l"] = groups;
+    if (const std::size_t groups = lost_groups_of_lines(s); groups > 0) s.skipped["groups of l"] = groups;
     report_skipped(s, input.name(), log);
     Scene scene;
     Mesh mesh;

@@ -388,11 +388,12 @@ TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own
     const std::string text =
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"materials":[{"name":"red"},{"name":"blue"}],
  "nodes":[{"name":"a","mesh":0,"translation":[5,0,0],"weights":[0.5]},{"mesh":0}],
- "meshes":[{"name":"m","weights":[0.25],"primitives":[
+ "meshes":[{"name":"m","weights":[0.25],"extras":{"targetNames":["up"],"other":1},"primitives":[
  {"attributes":{"POSITION":0},"targets":[{"POSITION":0}],"mode":3,"material":1},
  {"attributes":{"POSITION":0},"targets":[{"POSITION":0}],"material":0},
  {"attributes":{"POSITION":0},"targets":[{"POSITION":0}],"mode":0}]}],
  "animations":[{"samplers":[{"input":1,"output":1}],"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}},
+ {"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/meshes/0/weights"}}}},
  {"sampler":0,"target":{"node":0,"path":"translation"}}]}],
  "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
  {"bufferView":1,"componentType":5126,"count":1,"type":"SCALAR","min":[0],"max":[0]}],
@@ -421,8 +422,10 @@ TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own
     CHECK(json["nodes"][2] == Json{{"name", "a_lines"}, {"mesh", 1}, {"weights", {0.5}}});
     CHECK(json["nodes"][3] == Json{{"mesh", 1}});
     const Json& channels = json["animations"][0]["channels"];
-    REQUIRE(channels.size() == 3);
-    CHECK(channels[2]["target"] == Json{{"node", 2}, {"path", "weights"}});
+    REQUIRE(channels.size() == 5);
+    CHECK(channels[3]["target"] == Json{{"node", 2}, {"path", "weights"}});
+    CHECK(channels[4]["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == "/meshes/1/weights");
+    CHECK(json["meshes"][1]["extras"] == Json::parse(R"({"targetNames":["up"]})"));
     Scene moved = scene;
     for (Vec3& p : moved.parts[2].mesh.positions) p.z += 1;
     moved.parts[2].changed = true;
@@ -434,6 +437,12 @@ TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own
     const auto bytes = std::as_bytes(std::span(text));
     CHECK(io::file_header(io::Input::of("a.gltf", {bytes.begin(), bytes.end()}), {}).parts ==
           std::vector<std::string>{"a", "m", "a_lines", "m_lines"});
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string other = text;
+        return other.replace(other.find(from), from.size(), to);
+    };
+    CHECK_THROWS_AS(test::read_text(with(R"({"mesh":0}])", R"({"mesh":1}])")), Error);
+    CHECK_THROWS_AS(test::read_text(with(R"("nodes":[0,1])", R"("nodes":[0,2])")), Error);
 }
 
 TEST_CASE("nodes of lines beside triangles are parts, and those of points are named", "[io]") {
