@@ -42,9 +42,9 @@ std::string colour_text(const Material& m) {
                        m.double_sided ? ", double-sided" : "");
 }
 
-Json contents_or_null(const Scene& scene, const Material& material) {
+Json contents_or_null(io::MaterialContents& contents, const Material& material) {
     try {
-        return io::material_contents(scene, material);
+        return contents.of(material);
     } catch (const Error&) {
         return nullptr;
     }
@@ -113,11 +113,12 @@ std::vector<ItemChange> item_changes(const Scene& a, const Scene& b, double most
     add_changes(
         a.parts, b.parts, true, told_of, [&](const Part& x, const Part& y) { return part_note(x, y, most); },
         out);
+    io::MaterialContents of_a(a), of_b(b);
     const auto note = [&](const Material& x, const Material& y) -> std::string {
         if (!std::equal(std::begin(x.base_colour), std::end(x.base_colour), std::begin(y.base_colour)))
             return "another colour";
         if (x.double_sided != y.double_sided) return "other sides";
-        return contents_or_null(a, x) == contents_or_null(b, y) ? "" : "another look";
+        return contents_or_null(of_a, x) == contents_or_null(of_b, y) ? "" : "another look";
     };
     add_changes(a.materials, b.materials, false, colour_text, note, out);
     return out;

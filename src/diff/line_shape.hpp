@@ -4,7 +4,7 @@
 #include "geometry/deviation/deviation.hpp"
 #include "mesh/scene.hpp"
 
-#include <optional>
+#include <map>
 
 namespace facetmill::report {
 
@@ -12,10 +12,15 @@ namespace facetmill::report {
 struct LineShape {
     Surface lines, points;
 
-    /// All lines of the scene, or those of one material (none: those without).
-    explicit LineShape(const Scene& scene, std::optional<Index> material = {});
+    LineShape() = default;
+    /// All lines of the scene.
+    explicit LineShape(const Scene& scene);
+    void add(const Vec3& a, const Vec3& b);
     /// From the ends and the middle of each line to the nearest line of the other; 0 without a line.
     double distance_to(const LineShape& other) const;
 };
+
+/// The lines of each material that has some (none: those without). O(lines log materials).
+std::map<Index, LineShape> lines_by_material(const Scene& scene);
 
 } // namespace facetmill::report

@@ -50,11 +50,12 @@ bool is_plain(const Json& material) {
 }
 
 /// All that only glTF says of a material.
-void compare_contents(const Comparing& with, std::size_t i) {
+void compare_contents(const Comparing& with, io::MaterialContents& of_a, io::MaterialContents& of_b,
+                      std::size_t i) {
     const std::string name = fmt::format("{}", i);
     try {
-        const Json a = io::material_contents(with.a, with.a.materials[i]);
-        const Json b = io::material_contents(with.b, with.b.materials[i]);
+        const Json a = of_a.of(with.a.materials[i]);
+        const Json b = of_b.of(with.b.materials[i]);
         if (a.is_null() != b.is_null()) {
             if (!is_plain(a.is_null() ? b : a))
                 with.leave("materials", name + " as glTF", !a.is_null(), !b.is_null(),
@@ -142,8 +143,13 @@ void compare_places_of_lines(const Comparing& with) {
     all.insert(b.begin(), b.end());
     if (all.size() < 2 || a.empty() || b.empty()) return;
     const double most = farthest_allowed(with, LineShape(with.a).lines);
+    const auto of_a = lines_by_material(with.a), of_b = lines_by_material(with.b);
+    const auto of = [](const std::map<Index, LineShape>& shapes, Index material) {
+        const auto found = shapes.find(material);
+        return found == shapes.end() ? LineShape() : found->second;
+    };
     for (const Index material : all) {
-        const LineShape x(with.a, material), y(with.b, material);
+        const LineShape x = of(of_a, material), y = of(of_b, material);
         const double forward = x.distance_to(y), backward = y.distance_to(x);
         with.add("materials", material == none ? "lines of none" : fmt::format("{} lines", material),
                  finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
@@ -156,11 +162,12 @@ void compare_places_of_lines(const Comparing& with) {
 void compare_materials(const Comparing& with) {
     const auto &a = with.a.materials, &b = with.b.materials;
     compare_names(with, "materials", a, b);
+    io::MaterialContents of_a(with.a), of_b(with.b);
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
         const std::string name = fmt::format("{}", i);
         with.add("materials", name + " base_colour", colour_of(a[i]), colour_of(b[i]));
         with.add("materials", name + " double_sided", a[i].double_sided, b[i].double_sided);
-        compare_contents(with, i);
+        compare_contents(with, of_a, of_b, i);
     }
     if (with.settings.ignored.contains("materials")) return;
     compare_places(with);

@@ -102,10 +102,13 @@ class Speller {
 
 } // namespace
 
-Json material_contents(const Scene& scene, const Material& material) {
+Json MaterialContents::of(const Material& material) {
     if (material.document < 0 || material.index < 0) return nullptr;
-    const Document& document = *scene.documents[static_cast<std::size_t>(material.document)];
-    const Json json = parse_document(document.json);
+    const Document& document = *scene_.documents[static_cast<std::size_t>(material.document)];
+    auto found = parsed_.find(material.document);
+    if (found == parsed_.end())
+        found = parsed_.emplace(material.document, parse_document(document.json)).first;
+    const Json& json = found->second;
     Speller speller(json, document);
     return speller.material(item(json, "materials", static_cast<std::size_t>(material.index)));
 }

@@ -8,12 +8,24 @@
 #include "base/json.hpp"
 #include "mesh/scene.hpp"
 
+#include <map>
 #include <optional>
 
 namespace facetmill::io {
 
-/// The material of the document; null when the material is of none. Throws malformed as reading does.
-Json material_contents(const Scene& scene, const Material& material);
+/// The materials of a scene as their documents have them. A document is parsed when a material of it is first
+/// asked for, and once only: it may have thousands.
+class MaterialContents {
+  public:
+    /// The scene has to outlive it.
+    explicit MaterialContents(const Scene& scene) : scene_(scene) {}
+    /// Null when the material is of no document. Throws malformed as reading does.
+    Json of(const Material& material);
+
+  private:
+    const Scene& scene_;
+    std::map<int, Json> parsed_; // by the number of the document
+};
 
 /// One entry for each animation, skin, camera and light of the scene's first document with nodes:
 /// {animations: [...], skins: [...], cameras: [...], lights: [...]}; null when there is no document. Throws

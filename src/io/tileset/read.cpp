@@ -96,8 +96,9 @@ class MaterialsOfTiles {
     void take(Scene& tile) {
         std::vector<Index> number;
         std::optional<int> document;
+        MaterialContents contents(tile);
         for (Material& m : tile.materials) {
-            const std::string key = m.name + material_contents(tile, m).dump();
+            const std::string key = m.name + contents.of(m).dump();
             const auto [at, is_new] = known_.emplace(key, static_cast<Index>(all_.materials.size()));
             number.push_back(at->second);
             if (!is_new) continue;

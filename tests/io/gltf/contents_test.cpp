@@ -33,7 +33,7 @@ std::string document(int padding, const std::string& image, const std::string& f
 
 Json material_of(const std::string& text) {
     const Scene scene = test::read_text(text.c_str());
-    return io::material_contents(scene, scene.materials.at(0));
+    return io::MaterialContents(scene).of(scene.materials.at(0));
 }
 
 const std::string picture = "data:image/png;base64,AAECAwQF",
