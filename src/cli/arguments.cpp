@@ -34,13 +34,37 @@ std::string negative(const std::string& text) {
     return fmt::format("expected a number of 0 or more, found '{}'", text);
 }
 
+/// For each value between the commas, what CLI11 checks of one: one of the choices, if there are any.
+CLI::Validator for_each_value(const std::vector<std::string>& choices) {
+    const CLI::Validator one_of = CLI::IsMember(choices);
+    const bool any = choices.empty();
+    return CLI::Validator(
+        [=](const std::string& text) -> std::string {
+            const auto values = split_at_commas(text);
+            if (values.empty() || std::find(values.begin(), values.end(), "") != values.end())
+                return fmt::format("expected a value before and after each comma, found '{}'", text);
+            for (const auto value : values)
+                if (std::string why = any ? "" : one_of(std::string(value)); !why.empty()) return why;
+            return {};
+        },
+        any ? "" : one_of.get_description());
+}
+
+/// Values that came as one word each, value by value.
+std::vector<std::string> separated(const std::vector<std::string>& words) {
+    std::vector<std::string> values;
+    for (const std::string& word : words)
+        for (const auto value : split_at_commas(word)) values.emplace_back(value);
+    return values;
+}
+
 CLI::Option* make(CLI::App& app, const Argument& a) {
     if (const auto* flag = std::get_if<bool*>(&a.target)) return app.add_flag(a.names, **flag, a.help);
     if (const auto* call = std::get_if<std::function<void(const std::string&)>>(&a.target))
         return app.add_option_function<std::string>(a.names, *call, a.help);
     if (const auto* list = std::get_if<std::vector<std::string>*>(&a.target)) {
         CLI::Option* option = app.add_option(a.names, **list, a.help);
-        if (a.at_commas) option->delimiter(',');
+        if (a.at_commas && !a.in_one_word) option->delimiter(','); // which drops empty values
         if (a.names.starts_with("-") && (!a.at_commas || a.in_one_word)) option->allow_extra_args(false);
         return option;
     }
@@ -55,7 +79,10 @@ CLI::Option* make(CLI::App& app, const Argument& a) {
 void declare(CLI::App& app, const Argument& a) {
     CLI::Option* option = make(app, a);
     if (a.needed) option->required();
-    if (!a.choices.empty()) option->check(CLI::IsMember(a.choices));
+    if (a.in_one_word)
+        option->check(for_each_value(a.choices));
+    else if (!a.choices.empty())
+        option->check(CLI::IsMember(a.choices));
     if (a.range) option->check(CLI::Range(a.range->first, a.range->second));
     if (a.at_least_0) option->check(negative);
     if (a.is_hidden)
@@ -100,6 +127,11 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     } catch (const CLI::ParseError& e) {
         throw std::invalid_argument(e.what());
     }
+    for (const auto& a : all_)
+        if (a.in_one_word) {
+            auto& list = *std::get<std::vector<std::string>*>(a.target);
+            list = separated(list);
+        }
     return {false, {}, app.remaining()};
 }
 

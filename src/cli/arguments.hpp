@@ -53,7 +53,7 @@ struct Argument {
         at_least_0 = true;
         return *this;
     }
-    /// A list whose values are one argument, so that what follows it is another's.
+    /// A list whose values are one argument, so that what follows it is another's; none of them is empty.
     Argument& separated_by_commas_alone() {
         at_commas = in_one_word = true;
         return *this;

@@ -91,12 +91,14 @@ ComparedFiles compared_files(const DiffOptions& options, const std::string& name
     steps.next();
     b = read(name_b, false, options, notes, console);
     steps.next();
+    report::Origin origin{{a.unit, a.up}, {b.unit, b.up}, {}};
     state(a, true, options);
     state(b, false, options);
-    io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
-                    b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
+    origin.of_second = io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
+                                       b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
     if (is_named_by_file(a, name_a) && is_named_by_file(b, name_b)) b.parts[0].name = a.parts[0].name;
     auto settings = options.settings;
+    settings.origin = origin;
     settings.maximum = limit_of(options.maximum, "--max", a.unit, line);
     settings.rms = limit_of(options.rms, "--rms", a.unit, line);
     settings.mean = limit_of(options.mean, "--mean", a.unit, line);

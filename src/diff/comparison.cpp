@@ -69,7 +69,9 @@ Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& set
     result.items = item_changes(a, b, most);
     result.ignored = settings.ignored;
     const auto differs = [](const Difference& line) { return line.section == "geometry" && !line.same; };
-    if (std::any_of(result.lines.begin(), result.lines.end(), differs)) result.hint = conversion_hint(a, b);
+    if (std::any_of(result.lines.begin(), result.lines.end(), differs))
+        result.hint =
+            conversion_hint(a, b, settings.origin.value_or(Origin{{a.unit, a.up}, {b.unit, b.up}, {}}));
     return result;
 }
 

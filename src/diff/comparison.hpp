@@ -1,6 +1,7 @@
 #pragma once
 // Two scenes side by side: what `facetmill diff` finds.
 
+#include "diff/conversion.hpp"
 #include "diff/items.hpp"
 #include "diff/pictures.hpp"
 #include "geometry/deviation/deviation.hpp"
@@ -26,6 +27,7 @@ struct ComparisonSettings {
     };
     std::optional<Limit> maximum, rms, mean;
     double attribute_limit = 1e-6; ///< how far attribute values may be apart
+    std::optional<Origin> origin;  ///< none: what the scenes have is what their files state
 };
 
 /// One line of the comparison.

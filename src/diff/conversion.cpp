@@ -1,6 +1,6 @@
 #include "diff/conversion.hpp"
 
-#include "io/convert.hpp"
+#include "mesh/surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,22 +12,54 @@ namespace facetmill::report {
 
 namespace {
 
-/// Where a scene lies: its box, and the mean of its vertices, by which turns of one box are told apart.
+/// Where a scene lies: its box, and a point in it by which turns of one box are told apart.
 struct Lie {
     Box box;
-    Vec3 mean;
+    Vec3 middle;
 };
 
-Lie lie_of(const Scene& scene) {
-    Lie lie{scene.bounds(), {}};
-    std::size_t count = 0;
+/// The middle of places that weigh differently.
+class WeightedMean {
+  public:
+    void add(const Vec3& p, double weight) {
+        if (!is_finite(p) || !(weight > 0) || !std::isfinite(sum_ + weight)) return;
+        sum_ += weight;
+        mean_ += (p - mean_) * (weight / sum_);
+    }
+    bool is_of_something() const { return sum_ > 0; }
+    const Vec3& mean() const { return mean_; }
+
+  private:
+    double sum_ = 0;
+    Vec3 mean_;
+};
+
+/// The centroid of the surface, which does not depend on how it is cut into faces.
+WeightedMean mean_of_surface(const Scene& scene) {
+    const Surface surface = surface_of(scene);
+    WeightedMean mean;
+    for (std::size_t t = 0; t < surface.size(); ++t) {
+        const Vec3 &a = surface.point(t, 0), &b = surface.point(t, 1), &c = surface.point(t, 2);
+        mean.add(a + ((b - a) + (c - a)) / 3, length(cross(b - a, c - a)));
+    }
+    return mean;
+}
+
+WeightedMean mean_of_vertices(const Scene& scene) {
+    WeightedMean mean;
     for (const Part& part : scene.parts)
-        for (const Vec3& own : part.mesh.positions)
-            if (const Vec3 p = part.transform.point(own); is_finite(p)) {
-                ++count;
-                lie.mean += (p - lie.mean) / static_cast<double>(count);
-            }
-    return lie;
+        for (const Vec3& own : part.mesh.positions) mean.add(part.transform.point(own), 1);
+    return mean;
+}
+
+/// Both by the centroids of their surfaces; by their vertices where one has no area.
+std::pair<Lie, Lie> lies_of(const Scene& a, const Scene& b) {
+    WeightedMean first = mean_of_surface(a), second = mean_of_surface(b);
+    if (!first.is_of_something() || !second.is_of_something()) {
+        first = mean_of_vertices(a);
+        second = mean_of_vertices(b);
+    }
+    return {{a.bounds(), first.mean()}, {b.bounds(), second.mean()}};
 }
 
 struct UnitFactor {
@@ -67,7 +99,7 @@ struct AxisTurn {
         return {sign[0] * p[from[0]], sign[1] * p[from[1]], sign[2] * p[from[2]]};
     }
     Lie of(const Lie& lie) const {
-        Lie out{{}, of(lie.mean)};
+        Lie out{{}, of(lie.middle)};
         out.box.add(of(lie.box.min));
         out.box.add(of(lie.box.max));
         return out;
@@ -102,26 +134,52 @@ std::vector<AxisTurn> all_turns() {
     return out;
 }
 
-/// How far the one is from the other times the factor: the means where the boxes are within a hundredth of
+/// How far the one is from the other times the factor: the middles where the boxes are within a hundredth of
 /// the diagonal, corner by corner.
 std::optional<double> off(const Lie& a, const Lie& b, double factor) {
     const double most = a.box.diagonal() / 100 * factor;
     if (!(length(a.box.min * factor - b.box.min) <= most && length(a.box.max * factor - b.box.max) <= most))
         return {};
-    return length(a.mean * factor - b.mean);
+    return length(a.middle * factor - b.middle);
 }
 
-/// The turn that makes the one the other, if there is one; of several the first that is clearly nearest.
+/// The turn that makes the one the other, if there is one: none at all where the box fits, unless the middles
+/// clearly say otherwise; of several others the first that is clearly nearest.
 std::optional<AxisTurn> turn_between(const Lie& a, const Lie& b, double factor) {
+    const double diagonal = a.box.diagonal() * factor;
+    const auto unturned = off(a, b, factor);
+    if (unturned && *unturned <= diagonal / 100) return AxisTurn{};
     std::optional<AxisTurn> best;
     double nearest = HUGE_VAL;
     for (const AxisTurn& turn : all_turns()) {
         const auto distance = off(turn.of(a), b, factor);
-        if (!distance || !(*distance < nearest - a.box.diagonal() * factor / 1000)) continue;
+        if (!distance || !(*distance < nearest - diagonal / 1000)) continue;
         nearest = *distance;
         best = turn;
     }
-    return best;
+    return unturned && !(nearest < diagonal / 1000) ? AxisTurn{} : best;
+}
+
+/// What the command line did to the second scene: nothing where both files state what they are in.
+struct Given {
+    double factor = 1;
+    AxisTurn turn; ///< back to how it was
+
+    Lie undone(const Lie& lie) const {
+        Lie out = turn.of(lie);
+        out.box = {out.box.min / factor, out.box.max / factor};
+        out.middle = out.middle / factor;
+        return out;
+    }
+};
+
+Given given_by_command_line(const Origin& origin, UpAxis up) {
+    Given out;
+    if (origin.a.unit == Unit::unknown || origin.b.unit == Unit::unknown)
+        out.factor = origin.of_second.factor;
+    if (origin.of_second.turned && (origin.a.up == UpAxis::unknown || origin.b.up == UpAxis::unknown))
+        out.turn = up_turn(up, up == UpAxis::y ? UpAxis::z : UpAxis::y);
+    return out;
 }
 
 /// How to say that the first file has the one and the second the other.
@@ -150,38 +208,68 @@ std::string words_for(const AxisTurn& turn) {
     return fmt::format("turned so that its x, y, z are {} (transform --matrix {})", axes, matrix);
 }
 
-std::string words_for(const UnitFactor& units, const AxisTurn& turn, const Scene& a, const Scene& b) {
+/// What is to be said, and how it is said on the command line.
+struct Words {
     std::string how, way;
-    if (units.factor != 1) {
-        how = fmt::format("times {:.6g}, as from {} to {}", units.factor, to_string(units.from),
-                          to_string(units.to));
-        way = way_to_say("--unit", "a unit", to_string(units.from), to_string(units.to),
-                         a.unit != Unit::unknown, b.unit != Unit::unknown);
+};
+
+void tell_units(const UnitFactor& units, const Given& given, const Origin& origin, Words& words) {
+    if (units.factor == 1) {
+        if (given.factor != 1) add(words.how, ", and ", "without --unit");
+        return;
     }
-    const bool y_to_z = turn == up_turn(UpAxis::y, UpAxis::z);
-    if (y_to_z || turn == up_turn(UpAxis::z, UpAxis::y)) {
-        const UpAxis from = y_to_z ? UpAxis::y : UpAxis::z, to = y_to_z ? UpAxis::z : UpAxis::y;
-        add(how, ", and ", fmt::format("turned from {} up to {} up", to_string(from), to_string(to)));
-        add(way, "; ",
-            way_to_say("--up", "an up axis", to_string(from), to_string(to), a.up != UpAxis::unknown,
-                       b.up != UpAxis::unknown));
-    } else if (turn != AxisTurn{}) {
-        add(how, ", and ", words_for(turn));
-    }
-    return fmt::format("the box of the second file is that of the first {}{}{}", how, way.empty() ? "" : ": ",
-                       way);
+    add(words.how, ", and ",
+        fmt::format("times {:.6g}, as from {} to {}", units.factor, to_string(units.from),
+                    to_string(units.to)));
+    add(words.way, "; ",
+        way_to_say("--unit", "a unit", to_string(units.from), to_string(units.to),
+                   origin.a.unit != Unit::unknown, origin.b.unit != Unit::unknown));
+}
+
+/// Whether the turn is one from the up axis to the other, and the files do not state something else.
+bool is_of_up_axes(const AxisTurn& turn, UpAxis from, UpAxis to, const Origin& origin) {
+    const UpAxis a = origin.a.up, b = origin.b.up;
+    if (a != UpAxis::unknown && b != UpAxis::unknown) return false; // and it was turned by what they state
+    return turn == up_turn(from, to) && (a == UpAxis::unknown || a == from) &&
+           (b == UpAxis::unknown || b == to);
+}
+
+/// own: the turn between the files as they are; now: between the scenes as they are compared.
+void tell_turn(const AxisTurn& own, const AxisTurn& now, const Given& given, const Origin& origin,
+               Words& words) {
+    for (const auto& [from, to] : {std::pair(UpAxis::y, UpAxis::z), std::pair(UpAxis::z, UpAxis::y)})
+        if (is_of_up_axes(own, from, to, origin)) {
+            add(words.how, ", and ",
+                fmt::format("turned from {} up to {} up", to_string(from), to_string(to)));
+            add(words.way, "; ",
+                way_to_say("--up", "an up axis", to_string(from), to_string(to),
+                           origin.a.up != UpAxis::unknown, origin.b.up != UpAxis::unknown));
+            return;
+        }
+    if (own == AxisTurn{} && given.turn != AxisTurn{})
+        add(words.how, ", and ", "without --up");
+    else if (now != AxisTurn{})
+        add(words.how, ", and ", words_for(now));
 }
 
 } // namespace
 
-std::string conversion_hint(const Scene& a, const Scene& b) {
-    const Lie first = lie_of(a), second = lie_of(b);
+std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin) {
+    const auto [first, second] = lies_of(a, b);
     const double size_a = first.box.diagonal(), size_b = second.box.diagonal();
     if (!(size_a > 0) || !(size_b > 0) || !std::isfinite(size_a) || !std::isfinite(size_b)) return {};
-    const UnitFactor units = unit_factor(size_b / size_a, a.unit, b.unit);
-    const auto turn = turn_between(first, second, units.factor);
-    if (!turn || (units.factor == 1 && *turn == AxisTurn{})) return {};
-    return words_for(units, *turn, a, b);
+    if (turn_between(first, second, 1) == AxisTurn{}) return {};
+    const Given given = given_by_command_line(origin, b.up);
+    const UnitFactor units = unit_factor(size_b / given.factor / size_a, origin.a.unit, origin.b.unit);
+    const auto own = turn_between(first, given.undone(second), units.factor),
+               now = turn_between(first, second, units.factor * given.factor);
+    if (!own || !now) return {};
+    Words words;
+    tell_units(units, given, origin, words);
+    tell_turn(*own, *now, given, origin, words);
+    if (words.how.empty()) return {};
+    return fmt::format("the box of the second file is that of the first {}{}{}", words.how,
+                       words.way.empty() ? "" : ": ", words.way);
 }
 
 } // namespace facetmill::report

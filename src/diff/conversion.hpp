@@ -1,16 +1,23 @@
 #pragma once
 // Two scenes that differ by a unit or an up axis alone.
 
-#include "mesh/scene.hpp"
+#include "io/convert.hpp"
 
 #include <string>
 
 namespace facetmill::report {
 
+/// What was known of two scenes before the second was put into the convention of the first.
+struct Origin {
+    io::Convention a, b;      ///< what the files themselves state
+    io::Conversion of_second; ///< what was done, by this and by what the command line says
+};
+
 /// What to do when the box of the second scene is that of the first times a factor between two units, or with
 /// another up axis or otherwise turned about the axes, or both: "the box of B is that of A times 0.001 ...".
 /// Empty when it is the same box, or no such conversion makes it so (corners within a hundredth of the
-/// diagonal). O(vertices).
-std::string conversion_hint(const Scene& a, const Scene& b);
+/// diagonal). Where a file states nothing, what the command line says of it is not taken for granted: the
+/// hint is of the files as they are. O(faces).
+std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin);
 
 } // namespace facetmill::report

@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 
 #include "diff/comparison.hpp"
+#include "io/convert.hpp"
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;
@@ -314,17 +315,140 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
     for (Vec3& p : turned.parts[0].mesh.positions) p = {-p.x, p.y, p.z}; // mirrored is not turned
     CHECK(hint(mm, turned).empty());
     // A box with its middle at 0 is the same in all ways up but for what lies in it.
-    Scene low = scene_called(shapes::cube()), lying = low;
-    auto& places = low.parts[0].mesh.positions;
-    for (Vec3& p : places) p = p * 2 - Vec3{1, 1, 1};
-    places.insert(places.end(), 20, Vec3{0, -0.9, 0});
-    lying = low;
+    const auto cube_at_0 = [](const Mesh& inside) {
+        Mesh mesh = shapes::cube();
+        append(mesh, inside);
+        for (Vec3& p : mesh.positions) p = p * 2 - Vec3{1, 1, 1};
+        return scene_called(mesh);
+    };
+    Mesh inside = shapes::cube();
+    for (Vec3& p : inside.positions) p = p * 0.5 + Vec3{0.25, 0.05, 0.25};
+    const Scene low = cube_at_0(inside);
+    Scene lying = low;
     for (Vec3& p : lying.parts[0].mesh.positions) p = {p.x, p.z, -p.y};
     CHECK(hint(low, lying).find("turned from z up to y up") != std::string::npos);
+    Scene cloud = low; // of a cloud the vertices tell
+    cloud.parts[0].mesh = {};
+    cloud.parts[0].mesh.positions = low.parts[0].mesh.positions;
+    Scene lying_cloud = cloud;
+    lying_cloud.parts[0].mesh.positions = lying.parts[0].mesh.positions;
+    CHECK(hint(cloud, lying_cloud).find("turned from z up to y up") != std::string::npos);
     ComparisonSettings ignoring;
     ignoring.ignored = {"geometry"};
     CHECK(report::compare(mm, z_up, ignoring).hint.empty());
     CHECK(hint(mm, Scene{}).empty());
+}
+
+namespace {
+
+/// A cube around 0, one side of which is cut into many triangles.
+Scene cube_with_fine_side(std::size_t axis, double size) {
+    Mesh mesh = shapes::cube(), fine = shapes::grid(12, 12);
+    mesh.corners.erase(mesh.corners.begin() + 6, mesh.corners.begin() + 12); // z = 1
+    for (Vec3& p : fine.positions) p = {p.x / 12, p.y / 12, 1};
+    append(mesh, fine);
+    for (Vec3& p : mesh.positions) {
+        p = (p - Vec3{0.5, 0.5, 0.5}) * size;
+        for (std::size_t i = 0; i < axis; ++i) p = {p.y, p.z, p.x};
+    }
+    return scene_called(mesh);
+}
+
+/// A box that is alike in no two ways up.
+Scene uneven_box() {
+    Mesh mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p = {p.x * 100 + 300, p.y * 200 + 1000, p.z * 300 + 2100};
+    return scene_called(mesh);
+}
+
+Scene z_to_y(Scene scene) {
+    scene.parts[0].transform = io::turn_up(UpAxis::z, UpAxis::y) * scene.parts[0].transform;
+    return scene;
+}
+
+/// As the command line has files read: what they do not state is as it says.
+std::string hint_with(const Scene& a, Scene b, const io::Convention& said_a, const io::Convention& said_b) {
+    const auto stated = [](const Scene& scene, const io::Convention& said) {
+        return io::Convention{scene.unit == Unit::unknown ? said.unit : scene.unit,
+                              scene.up == UpAxis::unknown ? said.up : scene.up};
+    };
+    ComparisonSettings settings;
+    settings.origin = report::Origin{{a.unit, a.up}, {b.unit, b.up}, {}};
+    Scene first = a;
+    const io::Convention of_a = stated(a, said_a), of_b = stated(b, said_b);
+    first.unit = of_a.unit;
+    first.up = of_a.up;
+    b.unit = of_b.unit;
+    b.up = of_b.up;
+    settings.origin->of_second = io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : of_a.unit,
+                                                 b.up == UpAxis::unknown ? UpAxis::unknown : of_a.up});
+    return report::compare(first, b, settings).hint;
+}
+
+} // namespace
+
+TEST_CASE("files that are aligned are not called turned", "[report]") {
+    Scene a = cube_with_fine_side(0, 2), b = cube_with_fine_side(1, 2.004);
+    const Comparison found = report::compare(a, b);
+    CHECK(different(found).find("geometry: deviation maximum") != std::string::npos);
+    CHECK(found.hint.empty());
+    for (Scene* scene : {&a, &b}) { // as clouds the means of their vertices are elsewhere
+        Mesh cloud;
+        cloud.positions = scene->parts[0].mesh.positions;
+        scene->parts[0].mesh = cloud;
+    }
+    CHECK(report::compare(a, b).hint.find("turned") != std::string::npos);
+}
+
+TEST_CASE("an up axis that a file states is not doubted", "[report]") {
+    Scene a = uneven_box();
+    const Scene turned = z_to_y(a);
+    CHECK(report::compare(a, turned).hint.ends_with(
+        "turned from z up to y up: --up z,y says so of the files, which state none"));
+    a.up = UpAxis::z;
+    CHECK(report::compare(a, turned).hint.ends_with("--up y says so of the second file, which states none"));
+    a.up = UpAxis::y;
+    const std::string matrix = "turned so that its x, y, z are x, z, -y (transform --matrix "
+                               "1,0,0,0,0,0,1,0,0,-1,0,0)";
+    CHECK(report::compare(a, turned).hint.ends_with(matrix));
+    Scene both = turned;
+    both.up = UpAxis::y;
+    CHECK(report::compare(a, both).hint.ends_with(matrix));
+    CHECK(hint_with(a, turned, {}, {Unit::unknown, UpAxis::z})
+              .ends_with("its x, y, z are x, -y, -z (transform --matrix 1,0,0,0,0,-1,0,0,0,0,-1,0)"));
+}
+
+TEST_CASE("a hint is of the files, not of what the command line says of them", "[report]") {
+    const Scene mm = uneven_box();
+    Scene metre = mm;
+    for (Vec3& p : metre.parts[0].mesh.positions) p = p * 0.001;
+    const io::Convention in_mm{Unit::mm, UpAxis::unknown}, in_m{Unit::m, UpAxis::unknown},
+        in_inch{Unit::inch, UpAxis::unknown}, y_up{Unit::unknown, UpAxis::y}, z_up{Unit::unknown, UpAxis::z};
+    const std::string say_mm_m =
+        "times 0.001, as from mm to m: --unit mm,m says so of the files, which state "
+        "none";
+    CHECK(hint_with(mm, metre, in_mm, in_mm).ends_with(say_mm_m));
+    CHECK(hint_with(mm, metre, in_m, in_mm).ends_with(say_mm_m));
+    CHECK(hint_with(mm, metre, in_inch, in_mm).ends_with(say_mm_m));
+    CHECK(hint_with(mm, metre, in_mm, in_m).empty());
+    CHECK(hint_with(mm, mm, in_mm, in_m) == "the box of the second file is that of the first without --unit");
+    Scene stated = mm;
+    stated.unit = Unit::mm;
+    CHECK(hint_with(stated, metre, in_inch, in_inch)
+              .ends_with("--unit m says so of the second file, which states none"));
+    stated.unit = Unit::m;
+    Scene stated_metre = metre;
+    stated_metre.unit = Unit::m;
+    CHECK(hint_with(stated, stated_metre, in_mm, in_mm)
+              .ends_with("both files state a unit, and one seems to be wrong"));
+    const std::string say_z_y = "turned from z up to y up: --up z,y says so of the files, which state none";
+    CHECK(hint_with(mm, z_to_y(mm), y_up, y_up).ends_with(say_z_y));
+    CHECK(hint_with(mm, z_to_y(mm), y_up, z_up).ends_with(say_z_y));
+    CHECK(hint_with(mm, z_to_y(mm), z_up, y_up).empty());
+    CHECK(hint_with(mm, mm, z_up, y_up) == "the box of the second file is that of the first without --up");
+    CHECK(hint_with(mm, metre, {Unit::mm, UpAxis::z}, {Unit::mm, UpAxis::y})
+              .find("times 0.001, as from mm to m, and without --up: --unit mm,m says so") !=
+          std::string::npos);
 }
 
 TEST_CASE("a comparison as a page and as Markdown", "[report]") {

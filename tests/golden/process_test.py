@@ -348,6 +348,15 @@ class Process(Case):
         self.write("moved.obj", points.replace("0 1 0", "0 9 0"))
         self.mill("diff", "lines.obj", "moved.obj", expect=1)
 
+    def test_the_hint_of_diff_can_be_followed(self):
+        corners = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
+        for name, size in (("mm.obj", 1000), ("m.obj", 1)):
+            self.write(name, "".join(f"v {x * size} {y * size} {z * size}\n" for x, y, z in corners) + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        for given in ((), ("--unit", "mm"), ("--unit", "m,mm")):
+            self.assertIn("--unit mm,m says so of the files, which state none", self.mill("diff", "mm.obj", "m.obj", *given, expect=1).stdout)
+        self.mill("diff", "mm.obj", "m.obj", "--unit", "mm,m")
+        self.assertIn("is that of the first without --unit", self.mill("diff", "m.obj", "m.obj", "--unit", "mm,m", expect=1).stdout)
+
     def test_diff_compares_lines(self):
         points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
         self.write("lines.obj", points + "l 1 2 3\n")
@@ -380,6 +389,9 @@ class Process(Case):
         self.mill("diff", "t.off", "cut.ply", expect=6)
         self.mill("diff", "t.off", "t.off", "--max", "2mm", expect=2)
         self.mill("diff", "t.off", "t.off", "--max", "-1", expect=2)
+        for option, value in (("--unit", "m,"), ("--unit", ",m"), ("--unit", "mm,,m"), ("--unit", ""), ("--up", "y,"), ("--up", "z,x")):
+            self.mill("diff", "t.off", "t.off", option, value, expect=2)
+        self.mill("diff", "t.off", "t.off", "--unit", "m,m", "--up=z")
         self.mill("diff", "t.off", "t.off", "--values", "nan", expect=2)
         self.mill("diff", "t.off", "t.off", "--samples", "-1", expect=2)
         self.mill("run", "none.yaml", expect=3)
