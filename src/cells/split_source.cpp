@@ -95,9 +95,7 @@ class SplitSource final : public FaceSource {
     }
 
     std::vector<std::uint64_t> names(io::Span records) const override {
-        std::vector<std::uint64_t> names = piece(records).names;
-        sort_once(names);
-        return names;
+        return sorted_once(piece(records).names);
     }
 
   private:

@@ -122,12 +122,11 @@ cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
     cells::CellJob job;
     if (text == "cells") return job;
     const auto slash = text.find('/');
-    const auto number = parse_real(std::string_view(text).substr(0, slash));
-    const auto of = slash == text.npos ? std::nullopt : parse_real(std::string_view(text).substr(slash + 1));
-    constexpr double most = 100000;
-    const auto whole = [](double x) { return x == static_cast<double>(static_cast<std::size_t>(x)); };
-    if (!number || !of || !(*number >= 1) || !(*of >= *number) || !(*of <= most) || !whole(*number) ||
-        !whole(*of))
+    const auto number = parse_integer(std::string_view(text).substr(0, slash));
+    const auto of =
+        slash == text.npos ? std::nullopt : parse_integer(std::string_view(text).substr(slash + 1));
+    constexpr std::int64_t most = 100000;
+    if (!number || !of || *number < 1 || *of < *number || *of > most)
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--cells-job takes a job, found '{}'", text),
                     "cells, or 3/16 for the third of 16", line.value(text));
     return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};

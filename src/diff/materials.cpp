@@ -97,23 +97,29 @@ Surface of_material(const Surface& surface, const std::vector<Index>& materials,
     return out;
 }
 
-/// How far the places of a material may be apart, in the scene with this surface.
-double farthest_allowed(const Comparing& with, const Surface& surface) {
+/// The materials of both, where there are several to tell apart; else none.
+std::set<Index> materials_to_compare(const std::vector<Index>& a, const std::vector<Index>& b) {
+    if (a == b || a.empty() || b.empty()) return {};
+    std::set<Index> all(a.begin(), a.end());
+    all.insert(b.begin(), b.end());
+    return all.size() < 2 ? std::set<Index>{} : all;
+}
+
+/// How far the places of a material may be apart, in a scene of these bounds.
+double farthest_allowed(const Comparing& with, const Box& bounds) {
     const auto limit = maximum_of(with.settings);
     return !limit           ? std::numeric_limits<double>::max()
-           : limit->percent ? limit->amount / 100 * surface.bounds().diagonal()
+           : limit->percent ? limit->amount / 100 * bounds.diagonal()
                             : limit->amount;
 }
 
 /// Which faces each material is on: by number where the faces are the same ones, else by where they are.
 void compare_places(const Comparing& with) {
     const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
-    if (a == b) return;
-    std::set<Index> all(a.begin(), a.end());
-    all.insert(b.begin(), b.end());
-    if (all.size() < 2 || a.empty() || b.empty()) return;
+    const std::set<Index> all = materials_to_compare(a, b);
+    if (all.empty()) return;
     const Surface x = surface_of(with.a, filled_surface), y = surface_of(with.b, filled_surface);
-    const double most = farthest_allowed(with, x);
+    const double most = farthest_allowed(with, x.bounds());
     DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
     settings.samples = settings.samples / all.size() + 1;
     settings.certify = false;
@@ -137,19 +143,14 @@ std::vector<Index> materials_of_lines(const Scene& scene) {
 
 /// Which lines each material is on: as for faces.
 void compare_places_of_lines(const Comparing& with) {
-    const auto a = materials_of_lines(with.a), b = materials_of_lines(with.b);
-    if (a == b) return;
-    std::set<Index> all(a.begin(), a.end());
-    all.insert(b.begin(), b.end());
-    if (all.size() < 2 || a.empty() || b.empty()) return;
-    const double most = farthest_allowed(with, LineShape(with.a).lines);
-    const auto of_a = lines_by_material(with.a), of_b = lines_by_material(with.b);
-    const auto of = [](const std::map<Index, LineShape>& shapes, Index material) {
-        const auto found = shapes.find(material);
-        return found == shapes.end() ? LineShape() : found->second;
-    };
+    const std::set<Index> all = materials_to_compare(materials_of_lines(with.a), materials_of_lines(with.b));
+    if (all.empty()) return;
+    auto of_a = lines_by_material(with.a), of_b = lines_by_material(with.b);
+    Box bounds;
+    for (const auto& [material, shape] : of_a) bounds.add(shape.lines.bounds());
+    const double most = farthest_allowed(with, bounds);
     for (const Index material : all) {
-        const LineShape x = of(of_a, material), y = of(of_b, material);
+        const LineShape &x = of_a[material], &y = of_b[material];
         const double forward = x.distance_to(y), backward = y.distance_to(x);
         with.add("materials", material == none ? "lines of none" : fmt::format("{} lines", material),
                  finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,

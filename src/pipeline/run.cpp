@@ -105,9 +105,9 @@ class Runner {
         for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, {missing});
         const Headers headers = read_headers(plan_);
         for (const auto& error : headers.errors) failures_.add(error);
-        if (!settings_.cells.job) try_outputs(headers);
-        Flow flow;
         if (settings_.cells.job) return run_job(watch);
+        try_outputs(headers);
+        Flow flow;
         const bool small = !failures_.any() && run_on_cells(flow);
         if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
             (takes_pictures_ || !plan_.reports.empty()) && fetch({}, "the inspection at the end", flow))

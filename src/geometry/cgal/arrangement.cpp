@@ -298,17 +298,13 @@ struct Arrangement::Own {
     std::vector<std::pair<Index, Index>> meetings(const std::vector<Box>& boxes) const {
         using Pairs = std::vector<std::pair<Index, Index>>; // (triangle, box)
         const BoxTree tree(boxes);
-        const auto meet = [](const Box& a, const Box& b) {
-            return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-                   a.min.z <= b.max.z && b.min.z <= a.max.z;
-        };
         const auto among = [&](std::size_t first, std::size_t last) {
             Pairs pairs;
             for (std::size_t i = first; i < last; ++i)
                 tree.visit(runs[i], [&](Index at) {
                     const std::size_t end = std::min(soup.triangles.size(), (i + 1) * run);
                     for (auto t = static_cast<Index>(i * run); t < end; ++t)
-                        if (meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
+                        if (boxes_meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
                 });
             return pairs;
         };

@@ -5,6 +5,7 @@
 #include "geometry/clean/united_mesh.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "mesh/surface.hpp"
 
 #include <algorithm>
@@ -191,14 +192,10 @@ class Uniting {
             for (const Index v : soup.triangles[t]) b.add(mesh_.positions[v]);
             return b;
         };
-        const auto meet = [](const Box& a, const Box& b) {
-            return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-                   a.min.z <= b.max.z && b.min.z <= a.max.z;
-        };
         for (const auto& [f, g] : pairs_)
             for (Index s = first_[f]; s < first_[f + 1]; ++s)
                 for (Index t = first_[g]; t < first_[g + 1]; ++t)
-                    if (meet(box(s), box(t))) soup.pairs.emplace_back(s, t);
+                    if (boxes_meet(box(s), box(t))) soup.pairs.emplace_back(s, t);
         for (Index f = 0; f < cut_.size(); ++f) // where a polygon has a triangle without area
             for (Index s = first_[f]; cut_[f] && s < first_[f + 1]; ++s)
                 for (Index t = first_[f]; !has_area(s) && t < first_[f + 1]; ++t)

@@ -10,6 +10,12 @@
 
 namespace facetmill {
 
+/// Whether they have a point in common, touching included.
+inline bool boxes_meet(const Box& a, const Box& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+           a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
 /// The box that holds all of them. Parallel.
 Box box_of_all(std::span<const Box> boxes);
 
@@ -41,11 +47,11 @@ class BoxTree {
         stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
         while (size > 0) {
             const Node node = stack[--size];
-            if (!meet(levels_[node.level][node.index], box)) continue;
+            if (!boxes_meet(levels_[node.level][node.index], box)) continue;
             if (node.level == 0) {
                 const std::size_t end = std::min(boxes_.size(), std::size_t{node.index + 1} * leaf);
                 for (std::size_t i = std::size_t{node.index} * leaf; i < end; ++i)
-                    if (meet(boxes_[i], box) && holds(items_[i])) return true;
+                    if (boxes_meet(boxes_[i], box) && holds(items_[i])) return true;
                 continue;
             }
             const std::uint32_t child = 2 * node.index;
@@ -57,11 +63,6 @@ class BoxTree {
 
   private:
     static constexpr std::size_t leaf = 4; ///< items in a leaf
-
-    static bool meet(const Box& a, const Box& b) {
-        return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-               a.min.z <= b.max.z && b.min.z <= a.max.z;
-    }
 
     std::vector<Index> items_; ///< along the curve
     std::vector<Box> boxes_;   ///< of items_

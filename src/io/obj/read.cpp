@@ -416,13 +416,13 @@ Attribute marked_ends(const Statements& s) {
 std::size_t lost_groups_of_lines(const Statements& s) {
     const Naming objects = naming(s, Event::Kind::object, "", s.lines(), &Event::line);
     const Naming groups = naming(s, Event::Kind::group, "", s.lines(), &Event::line);
-    std::vector<Index> group_of(objects.names.size(), none);
+    std::vector<Index> last_of(objects.names.size(), none); // group of each object
     bool any = false;
     for (std::size_t l = 0; l < s.lines(); ++l) {
         const Index group = groups.of_face[l];
-        Index& first = group_of[objects.of_face[l]];
-        any |= first != none && first != group;
-        first = group;
+        Index& last = last_of[objects.of_face[l]];
+        any |= last != none && last != group;
+        last = group;
     }
     const auto unnamed = std::count(groups.names.begin(), groups.names.end(), "");
     return any ? groups.names.size() - static_cast<std::size_t>(unnamed) : 0;
