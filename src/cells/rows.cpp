@@ -1,5 +1,6 @@
 #include "cells/rows.hpp"
 
+#include "base/parallel.hpp"
 #include "base/sorted_once.hpp"
 #include "cells/pieces.hpp"
 #include "cells/unite.hpp"
@@ -191,25 +192,11 @@ class RowSource final : public FaceSource {
     }
 
     Piece piece(io::Span records) const override {
-        const std::size_t n = records.size() / sizeof(Corners);
-        std::vector<std::uint32_t> numbers = numbers_of(records);
-        io::Bytes bytes = header_of(numbers.size(), n);
+        const Ranks ranks = ranks_of(records);
+        const auto& numbers = ranks.numbers;
         const io::Bytes rows = read_records(*rows_.vertices, rows_.vertices_at, stride_, numbers);
-        bytes.insert(bytes.end(), rows.begin(), rows.end());
-        for (std::size_t i = 0; i < 3 * n; ++i) {
-            std::uint32_t number = 0;
-            std::memcpy(&number, records.data() + i * sizeof number, sizeof number);
-            const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
-            auto raw =
-                std::bit_cast<std::array<std::byte, 4>>(static_cast<std::uint32_t>(at - numbers.begin()));
-            if (rows_.swap) std::reverse(raw.begin(), raw.end());
-            if (i % 3 == 0) bytes.push_back(std::byte{3});
-            bytes.insert(bytes.end(), raw.begin(), raw.end());
-        }
-        io::ReadLog log;
-        Scene scene =
-            io::read_scene(io::Input::of(name(), std::move(bytes)), settings_, log, io::codec_named("ply"));
-        Piece piece{std::move(scene.parts.front().mesh), {numbers.begin(), numbers.end()}};
+        Piece piece{has_places_only() ? mesh_of_places(rows, ranks) : mesh_of_rows(rows, ranks),
+                    {numbers.begin(), numbers.end()}};
         if (!by_place_) return piece;
         for (std::size_t v = 0; v < numbers.size(); ++v)
             piece.names[v] = name_of(numbers[v], piece.mesh.positions[v]);
@@ -263,13 +250,72 @@ class RowSource final : public FaceSource {
                  vertices, take);
     }
 
+    /// The rows of some corners.
+    struct Ranks {
+        std::vector<std::uint32_t> numbers; ///< each once, ascending
+        std::vector<Index> of;              ///< [corners] into numbers
+    };
+
+    static Ranks ranks_of(io::Span records) {
+        constexpr int place_bits = 32;
+        std::vector<std::uint32_t> corners(records.size() / sizeof(std::uint32_t));
+        if (!corners.empty())
+            std::memcpy(corners.data(), records.data(), corners.size() * sizeof(std::uint32_t));
+        std::vector<std::uint64_t> sorted(corners.size());
+        std::uint32_t largest = 0;
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+            sorted[c] = std::uint64_t{corners[c]} << place_bits | c;
+            largest = std::max(largest, corners[c]);
+        }
+        radix_sort(
+            sorted, [](std::uint64_t s) { return s >> place_bits; },
+            static_cast<int>(std::bit_width(largest)));
+        Ranks ranks;
+        ranks.of.resize(corners.size());
+        for (const std::uint64_t s : sorted) {
+            const auto number = static_cast<std::uint32_t>(s >> place_bits);
+            if (ranks.numbers.empty() || ranks.numbers.back() != number) ranks.numbers.push_back(number);
+            ranks.of[static_cast<std::uint32_t>(s)] = static_cast<Index>(ranks.numbers.size() - 1);
+        }
+        return ranks;
+    }
+
     /// Each row once, ascending.
-    static std::vector<std::uint32_t> numbers_of(io::Span records) {
-        std::vector<std::uint32_t> numbers(records.size() / sizeof(std::uint32_t));
-        if (numbers.empty()) return numbers;
-        std::memcpy(numbers.data(), records.data(), numbers.size() * sizeof(std::uint32_t));
-        sort_once(numbers);
-        return numbers;
+    static std::vector<std::uint32_t> numbers_of(io::Span records) { return ranks_of(records).numbers; }
+
+    /// Whether rows have no attributes.
+    bool has_places_only() const {
+        constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+        return rows_.vertex.size() == axes.size() &&
+               std::all_of(axes.begin(), axes.end(), [&](const char* axis) {
+                   return std::any_of(rows_.vertex.begin(), rows_.vertex.end(),
+                                      [&](const ply::Property& p) { return p.name == axis; });
+               });
+    }
+
+    Mesh mesh_of_places(io::Span rows, const Ranks& ranks) const {
+        Mesh mesh;
+        mesh.positions.reserve(ranks.numbers.size());
+        for (std::size_t v = 0; v < ranks.numbers.size(); ++v)
+            mesh.positions.push_back(coordinates_.of(rows.data() + v * stride_));
+        mesh.corners = ranks.of;
+        return mesh;
+    }
+
+    /// With the attributes that reading a file of these rows gives.
+    Mesh mesh_of_rows(io::Span rows, const Ranks& ranks) const {
+        io::Bytes bytes = header_of(ranks.numbers.size(), ranks.of.size() / 3);
+        bytes.insert(bytes.end(), rows.begin(), rows.end());
+        for (std::size_t i = 0; i < ranks.of.size(); ++i) {
+            auto raw = std::bit_cast<std::array<std::byte, 4>>(ranks.of[i]);
+            if (rows_.swap) std::reverse(raw.begin(), raw.end());
+            if (i % 3 == 0) bytes.push_back(std::byte{3});
+            bytes.insert(bytes.end(), raw.begin(), raw.end());
+        }
+        io::ReadLog log;
+        Scene scene =
+            io::read_scene(io::Input::of(name(), std::move(bytes)), settings_, log, io::codec_named("ply"));
+        return std::move(scene.parts.front().mesh);
     }
 
     /// Of a file of some of the vertices and faces.
