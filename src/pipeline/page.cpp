@@ -42,8 +42,13 @@ bool Page::Shown::is_same(const Shown& other) const {
     return surface_.positions == other.surface_.positions && surface_.corners == other.surface_.corners;
 }
 
+const Box& Page::Shown::bounds() {
+    if (!bounds_) bounds_ = surface_.bounds();
+    return *bounds_;
+}
+
 const FaceTree& Page::Shown::tree() {
-    if (!tree_) tree_.emplace(surface_, FaceTree::Use::few);
+    if (!tree_) tree_ = FaceTree::over(surface_, bounds(), FaceTree::Use::few);
     return *tree_;
 }
 
@@ -119,8 +124,8 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
         settings->camera = camera_for(seen);
     }
     Shown& earlier = *from.shown;
-    auto view = report::deviation_view(
-        seen, {from.name, earlier.surface().bounds().diagonal(), earlier.tree()}, settings);
+    auto view =
+        report::deviation_view(seen, {from.name, earlier.bounds().diagonal(), earlier.tree()}, settings);
     view.posed = posed.has_value();
     bytes_ += view.picture.size() + view.behind.size() + view.close.size();
     return view;

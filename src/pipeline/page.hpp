@@ -21,12 +21,16 @@ class Page {
     class Shown {
       public:
         explicit Shown(const Scene& scene);
+        Shown(const Shown&) = delete; // the tree looks into the surface
+        Shown& operator=(const Shown&) = delete;
         bool is_same(const Shown& other) const;
         const Surface& surface() const { return surface_; }
+        const Box& bounds();
         const FaceTree& tree();
 
       private:
         Surface surface_;
+        std::optional<Box> bounds_;
         std::optional<FaceTree> tree_;
     };
     /// A scene that distances are taken from. Shared by the arms of a branch.
