@@ -95,6 +95,9 @@ DracoColumn column_of(const ::draco::PointCloud& mesh, const ::draco::PointAttri
                     fail("an attribute has fewer values than the mesh has points");
                 if (computed)
                     std::copy_n(&computed->numbers[value.value() * width], width, &numbers[i * width]);
+                else if (attribute.data_type() == ::draco::DT_BOOL) // of any byte the library makes a bool
+                    std::transform(attribute.GetAddress(value), attribute.GetAddress(value) + width,
+                                   &numbers[i * width], [](std::uint8_t byte) { return byte != 0 ? 1 : 0; });
                 else if (!attribute.ConvertValue(value, static_cast<std::int8_t>(width), &numbers[i * width]))
                     fail("an attribute's value does not fit its type");
             });
