@@ -71,6 +71,18 @@ AttributeData empty_for(::draco::DataType type) {
     }
 }
 
+/// False when the value does not fit its type or its memory.
+template <class T>
+bool copy_value(const ::draco::PointAttribute& attribute, ::draco::AttributeValueIndex value,
+                std::size_t width, T* to) {
+    if (attribute.data_type() != ::draco::DT_BOOL)
+        return attribute.ConvertValue(value, static_cast<std::int8_t>(width), to);
+    const std::uint8_t* bytes = attribute.GetAddress(value); // the library loads any byte as a bool
+    if (!attribute.IsAddressValid(bytes + width - 1)) return false;
+    std::transform(bytes, bytes + width, to, [](std::uint8_t byte) { return T(byte != 0); });
+    return true;
+}
+
 DracoColumn column_of(const ::draco::PointCloud& mesh, const ::draco::PointAttribute& attribute) {
     DracoColumn column;
     column.kind = kind_of(attribute.attribute_type());
@@ -95,10 +107,7 @@ DracoColumn column_of(const ::draco::PointCloud& mesh, const ::draco::PointAttri
                     fail("an attribute has fewer values than the mesh has points");
                 if (computed)
                     std::copy_n(&computed->numbers[value.value() * width], width, &numbers[i * width]);
-                else if (attribute.data_type() == ::draco::DT_BOOL) // of any byte the library makes a bool
-                    std::transform(attribute.GetAddress(value), attribute.GetAddress(value) + width,
-                                   &numbers[i * width], [](std::uint8_t byte) { return byte != 0 ? 1 : 0; });
-                else if (!attribute.ConvertValue(value, static_cast<std::int8_t>(width), &numbers[i * width]))
+                else if (!copy_value(attribute, value, width, &numbers[i * width]))
                     fail("an attribute's value does not fit its type");
             });
         },
