@@ -61,6 +61,38 @@ const Value* given_option(const Step& step, const std::string& name) {
     return !name.empty() && step.given.is_map() ? step.given.find(name) : nullptr;
 }
 
+/// Why files of one stage cannot be loaded: a pattern may match thousands that are no meshes, so the first
+/// few are told and the others counted.
+class Refusals {
+  public:
+    void add(const Error& error, const fs::path& path) {
+        if (++count_ <= most_told)
+            told_.push_back(error);
+        else if (!first_untold_)
+            first_untold_ = {error, path};
+    }
+
+    void move_to(std::vector<Error>& errors) {
+        errors.insert(errors.end(), told_.begin(), told_.end());
+        if (!first_untold_) return;
+        const auto& [error, path] = *first_untold_;
+        const Diagnostic& one = error.diagnostics().front();
+        const std::size_t untold = count_ - most_told;
+        errors.emplace_back(error.kind(), one.id,
+                            untold == 1
+                                ? fmt::format("'{}' cannot be loaded, either", path.string())
+                                : fmt::format("{} more files cannot be loaded, '{}' the first of them",
+                                              untold, path.string()),
+                            one.hint, one.where);
+    }
+
+  private:
+    static constexpr std::size_t most_told = 10;
+    std::vector<Error> told_;
+    std::optional<std::pair<Error, fs::path>> first_untold_;
+    std::size_t count_ = 0;
+};
+
 class Walk {
   public:
     explicit Walk(const Places& places) : places_(places) {}
@@ -93,6 +125,7 @@ class Walk {
     void load(const Step& step, std::optional<Unit>& unit) {
         bool first = !any_loaded_;
         any_loaded_ = true;
+        Refusals refused;
         for (const auto& file : planned_files({step}, places_)) {
             if (!has_open_header(file.path)) {
                 first = false;
@@ -101,17 +134,16 @@ class Walk {
             try {
                 const io::FileHeader header = step.stage->header(step.options.get(), file.path, places_);
                 if (std::exchange(first, false)) unit = header.unit;
-                const auto same = [&](const InputHeader& h) { return h.path == file.path; };
-                if (std::none_of(headers.inputs.begin(), headers.inputs.end(), same))
-                    headers.inputs.push_back({file.path, header});
+                if (known_.insert(file.path.native()).second) headers.inputs.push_back({file.path, header});
                 headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
                                            header.files.end());
                 loaded_.push_back(header);
             } catch (Error& error) {
-                headers.errors.push_back(error.at(file.where));
+                refused.add(error.at(file.where), file.path);
                 first = false;
             }
         }
+        refused.move_to(headers.errors);
     }
 
     /// What goes beside an output because the scene has it. A branch counts what was loaded in those before
@@ -190,6 +222,7 @@ class Walk {
 
     const Places& places_;
     std::vector<io::FileHeader> loaded_;
+    std::set<std::string> known_; ///< paths of headers.inputs
     bool any_loaded_ = false;
 };
 

@@ -138,3 +138,31 @@ TEST_CASE("headers of missing files, streams and compressed files wait for the r
     CHECK(read_headers(ground.plan("  - load: [absent.ply, \"-\", scan.ply.gz]\n")).inputs.empty());
     CHECK(ground.errors("  - load: [absent.ply, \"-\", scan.ply.gz]\n  - crumple: 2mm\n").empty());
 }
+
+TEST_CASE("of many files that cannot be loaded the first are told and the others counted", "[pipeline]") {
+    test::TemporaryDirectory directory;
+    const auto errors = [&] {
+        pipeline::PlanSettings settings;
+        settings.places = {directory.path(), directory.path()};
+        const auto result = planned_stages("  - load: '*.txt'\n", settings);
+        REQUIRE(result.problems.empty());
+        return read_headers(result.plan).errors;
+    };
+    const auto put = [&](int from, int to) {
+        for (int i = from; i < to; ++i) test::put(directory / fmt::format("note{:02}.txt", i), "no mesh");
+    };
+    put(0, 10);
+    CHECK(errors().size() == 10);
+    put(10, 11);
+    REQUIRE(errors().size() == 11);
+    CHECK(std::string_view(errors().back().what()).find("note10.txt' cannot be loaded, either") !=
+          std::string_view::npos);
+    put(11, 40);
+    const auto all = errors();
+    REQUIRE(all.size() == 11);
+    CHECK(all.back().kind() == all.front().kind());
+    CHECK(all.back().diagnostics().front().id == "E-FORMAT");
+    const std::string_view rest = all.back().what();
+    CHECK(rest.find("30 more files cannot be loaded, '") != rest.npos);
+    CHECK(rest.find("note10.txt' the first of them") != rest.npos);
+}

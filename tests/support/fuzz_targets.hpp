@@ -24,15 +24,16 @@ struct FuzzTarget {
     std::string (*trouble)(io::Bytes bytes);
 };
 
-/// The same of what may throw no other errors than those of a file that is wrong.
+/// The same of what may throw no other errors than those of a file that is wrong, or of files that it names.
 template <class Read>
-std::string trouble_of(const Read& read) {
+std::string trouble_of(const Read& read, bool names_files = false) {
     try {
         read();
         return "";
     } catch (const Error& error) {
         const bool fair = error.kind() == ErrorKind::malformed || error.kind() == ErrorKind::limit ||
-                          error.kind() == ErrorKind::usage;
+                          error.kind() == ErrorKind::usage ||
+                          (names_files && error.kind() == ErrorKind::missing);
         return fair ? "" : std::string("refused as the wrong kind: ") + error.what();
     } catch (const std::exception& error) {
         return std::string("escaped: ") + error.what();
@@ -143,7 +144,7 @@ inline std::string trouble_of_image(io::Bytes bytes) {
 
 /// A pipeline file, planned; nothing runs.
 inline std::string trouble_of_pipeline(io::Bytes bytes) {
-    return trouble_of([&] { planned(std::string(io::as_text(bytes))); });
+    return trouble_of([&] { planned(std::string(io::as_text(bytes))); }, true);
 }
 
 /// A one-liner, an argument a line.
@@ -151,12 +152,14 @@ inline std::string trouble_of_pipe(io::Bytes bytes) {
     std::vector<std::string> arguments{"pipe"};
     std::istringstream lines{std::string(io::as_text(bytes))};
     for (std::string line; std::getline(lines, line);) arguments.push_back(line.substr(0, line.find('\0')));
-    return trouble_of([&] {
-        const cli::CommandLine line(std::move(arguments));
-        Problems problems;
-        const Value document = cli::parse_pipe(line, 1, problems);
-        if (!problems.any_errors()) pipeline::make_plan(document, {}, problems);
-    });
+    return trouble_of(
+        [&] {
+            const cli::CommandLine line(std::move(arguments));
+            Problems problems;
+            const Value document = cli::parse_pipe(line, 1, problems);
+            if (!problems.any_errors()) pipeline::make_plan(document, {}, problems);
+        },
+        true);
 }
 
 inline constexpr char gltf_name[] = "gltf", glb_name[] = "glb", obj_name[] = "obj", ply_name[] = "ply",
