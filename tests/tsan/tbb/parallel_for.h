@@ -1,8 +1,9 @@
 #pragma once
-// Stands in for TBB in the `tsan` build. ThreadSanitizer sees only synchronisation that it was compiled into, and the
-// packaged libtbb was not, so that the end of every loop would look like a race. Here a loop starts threads and joins
-// them, which it understands. What one iteration does is ordered after another only by the thread that ran both:
-// neighbours always run on different threads, so a race between chunks shows in one run, whatever the load.
+// Stands in for TBB in the `tsan` build. ThreadSanitizer sees only synchronisation that it was compiled into,
+// and the packaged libtbb was not, so that the end of every loop would look like a race. Here a loop starts
+// threads and joins them, which it understands. What one iteration does is ordered after another only by the
+// thread that ran both: neighbours always run on different threads, so a race between chunks shows in one
+// run, whatever the load.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,6 +16,14 @@
 namespace tbb {
 
 struct simple_partitioner {};
+
+/// A loop here is never cancelled by another, so there is nothing to isolate.
+class task_group_context {
+  public:
+    enum kind_type { bound, isolated };
+
+    explicit task_group_context(kind_type = bound) {}
+};
 
 template <class Body>
 void parallel_for(std::size_t begin, std::size_t end, const Body& body, simple_partitioner = {}) {
@@ -34,6 +43,12 @@ void parallel_for(std::size_t begin, std::size_t end, const Body& body, simple_p
     if (stride > 0) work(begin);
     for (std::thread& other : others) other.join();
     if (failure) std::rethrow_exception(failure);
+}
+
+template <class Body>
+void parallel_for(std::size_t begin, std::size_t end, const Body& body, simple_partitioner parts,
+                  task_group_context&) {
+    parallel_for(begin, end, body, parts);
 }
 
 } // namespace tbb
