@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <compare>
+#include <limits>
 
 namespace facetmill {
 
@@ -35,17 +36,34 @@ bool parts(const std::vector<Vec2>& piece, std::size_t edge, double way, double 
     return low >= -most && high > most;
 }
 
+/// A frame in which the pieces of a face have narrow boxes: its first axis is along the longest of the
+/// segments that enter the face, of which most run alike.
+class Frame {
+  public:
+    Frame() = default;
+    explicit Frame(const Vec2& segment) {
+        const Vec2 unit = segment * (1 / length(segment));
+        if (std::isfinite(unit.x) && std::isfinite(unit.y)) along_ = unit;
+    }
+    Vec2 operator()(const Vec2& p) const { return {dot(along_, p), cross(along_, p)}; }
+
+  private:
+    Vec2 along_{1, 0};
+};
+
 /// Cuts segment by segment, in their order. A cut touches the pieces that its segment enters and those that
 /// share a cut edge with them, and looks at no others.
 class SegmentCutter {
   public:
-    SegmentCutter(const Mesh& mesh, const CropView& view, const SegmentPlanes& segments, OnPlanes on)
+    SegmentCutter(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
+                  const SegmentPlanes& segments, OnPlanes on)
         : mesh_(mesh), view_(view), segments_(segments), on_(std::move(on)), edges_(build_edges(mesh)),
           corner_face_(corner_faces(mesh)), points_(mesh.positions), wedge_vertex_(mesh.wedge_vertex) {
         see_new_points();
+        find_frames(entered);
         for (Index f = 0; f < mesh.face_count(); ++f) {
             const auto wedges = mesh.face_wedges(f);
-            pieces_.add_face({wedges.begin(), wedges.end()}, bounds(wedges));
+            pieces_.add_face({wedges.begin(), wedges.end()}, bounds(f, wedges));
         }
         was_cut_.resize(mesh.face_count());
     }
@@ -61,10 +79,33 @@ class SegmentCutter {
     using Bounds = PieceTree::Bounds;
 
     Index vertex_of(Index wedge) const { return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge]; }
-    Bounds bounds(std::span<const Index> wedges) const {
+    /// In the frame of the face.
+    Bounds bounds(Index face, std::span<const Index> wedges) const {
         Bounds box;
-        for (const Index w : wedges) box.add(seen_[vertex_of(w)]);
+        for (const Index w : wedges) box.add(frames_[face](seen_[vertex_of(w)]));
         return box;
+    }
+    /// Likewise, and by what rounding moves points wider.
+    Bounds bounds(Index face, const polygon::RingTree::Edge& e) const {
+        Bounds box;
+        for (const Vec2& p : {e.a, e.b}) box.add(frames_[face](p));
+        const double wider =
+            std::max(rounding_of({size_, length(e.a), length(e.b)}), std::numeric_limits<double>::min());
+        if (!std::isfinite(wider)) return {-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
+        return {box.x0 - wider, box.y0 - wider, box.x1 + wider, box.y1 + wider};
+    }
+    void find_frames(const EnteredFaces& entered) {
+        for (const Vec2& p : seen_) size_ = std::max(size_, length(p));
+        frames_.resize(mesh_.face_count());
+        std::vector<double> longest(mesh_.face_count());
+        for (std::size_t i = 0; i < entered.segments.size(); ++i) {
+            const auto& e = segment(entered.segments[i]);
+            for (const Index f : entered.of(i))
+                if (const double size = length(e.b - e.a); size > longest[f]) {
+                    longest[f] = size;
+                    frames_[f] = Frame(e.b - e.a);
+                }
+        }
     }
     const polygon::RingTree::Edge& segment(Index s) const { return view_.footprint().tree().edges()[s]; }
     void see_new_points() {
@@ -125,7 +166,7 @@ class SegmentCutter {
         touched_.clear();
         const auto& e = segment(s);
         for (const Index f : faces)
-            pieces_.query(f, polygon::RingTree::bounds(e), [&](Index piece) {
+            pieces_.query(f, bounds(f, e), [&](Index piece) {
                 face_.clear();
                 for (const Index w : pieces_[piece].wedges) face_.push_back(seen_[vertex_of(w)]);
                 if (is_parted(piece, e) || meeting(face_, e.a, e.b) != OutlineMeeting::crossing) return;
@@ -164,7 +205,9 @@ class SegmentCutter {
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             const Index u = vertex_of(a), v = vertex_of(b);
             if (sign_at(s, u) * sign_at(s, v) >= 0) return;
-            for (const Index f : around_) touch(f, u, v); // a whole face is the piece of its number
+            const bool may_be_whole = std::max(u, v) < mesh_.vertex_count();
+            for (std::size_t i = 0; may_be_whole && i < around_.size(); ++i)
+                touch(around_[i], u, v); // a whole face is the piece of its number
             at_edges_.visit(u, v, [&](Index other) {
                 if (std::find(around_.begin(), around_.end(), pieces_[other].face) != around_.end())
                     touch(other, u, v);
@@ -295,7 +338,7 @@ class SegmentCutter {
             some.push_back(wedge_on(wedges[(i + n - 1) % n], wedges[i % n], first_made));
             for (; i < begin + n && sign(i) == side; ++i) some.push_back(wedges[i % n]);
             some.push_back(wedge_on(wedges[(i + n - 1) % n], wedges[i % n], first_made));
-            boxes[part] = bounds(some);
+            boxes[part] = bounds(pieces_[piece].face, some);
         }
         replace(piece, parts, boxes);
     }
@@ -316,7 +359,7 @@ class SegmentCutter {
         return wedges;
     }
     void reshape(Index piece, std::vector<Index> wedges, Index first_new) {
-        const Bounds box = bounds(wedges);
+        const Bounds box = bounds(pieces_[piece].face, wedges);
         pieces_.reshape(piece, std::move(wedges), box);
         note_edges(piece, first_new);
     }
@@ -353,7 +396,7 @@ class SegmentCutter {
                 parts.push_back(global(back.of(next_back)));
             std::vector<Bounds> boxes;
             boxes.reserve(parts.size());
-            for (const auto& wedges : parts) boxes.push_back(bounds(wedges));
+            for (const auto& wedges : parts) boxes.push_back(bounds(pieces_[touched_[f]].face, wedges));
             replace(touched_[f], parts, boxes);
             note_edges(touched_[f]);
         }
@@ -454,7 +497,9 @@ class SegmentCutter {
     OnPlanes on_;
     EdgeTable edges_;
     std::vector<Index> corner_face_;
-    PieceTree pieces_;
+    double size_ = 0;                   ///< of the farthest vertex of the mesh, as seen
+    std::vector<Frame> frames_;         ///< [faces]
+    PieceTree pieces_;                  ///< boxes in the frames
     PiecesAtEdges at_edges_;            ///< without faces that nothing has happened to
     std::vector<Vec3> points_;          ///< [vertices] those of the mesh, and new ones
     std::vector<Index> wedge_vertex_;   ///< [wedges] empty without seams
@@ -480,7 +525,7 @@ class SegmentCutter {
 
 CutFaces cut_along_segments(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
                             const SegmentPlanes& segments, OnPlanes on) {
-    return SegmentCutter(mesh, view, segments, std::move(on)).run(entered);
+    return SegmentCutter(mesh, entered, view, segments, std::move(on)).run(entered);
 }
 
 } // namespace facetmill

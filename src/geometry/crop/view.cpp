@@ -59,6 +59,8 @@ Place CropView::middle(const Mesh& mesh, Index f, bool convex) const {
 
 /// Exactly, all of it, and seen edge-on.
 bool CropView::is_on_segment(const std::vector<Vec2>& face) const {
+    for (std::size_t i = 2; i < face.size(); ++i)
+        if (polygon::turn(face[0], face[i - 1], face[i]) != 0) return false;
     bool found = false;
     footprint_.tree().query({face[0].x, face[0].y, face[0].x, face[0].y}, [&](Index i) {
         const auto& e = footprint_.tree().edges()[i];

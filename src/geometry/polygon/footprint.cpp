@@ -97,6 +97,10 @@ polygon::Place Footprint::locate(const Vec2& p) const {
             if (e.a.y == p.y && e.b.y == p.y && (e.a.x <= p.x) != (e.b.x <= p.x)) on = Place::on_edge;
             return true;
         }
+        if (std::max(e.a.x, e.b.x) < p.x) { // all of it is on the left
+            inside = !inside;
+            return true;
+        }
         const int side = turn(e.a, e.b, p);
         if (side == 0) on = Place::on_edge;
         if ((side > 0) != a_below) inside = !inside;

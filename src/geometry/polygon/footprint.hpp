@@ -3,6 +3,8 @@
 
 #include "geometry/polygon/ring_tree.hpp"
 
+#include <limits>
+
 namespace facetmill {
 
 /// How a face and a stretch of the outline lie to each other, both seen along the axis.
@@ -34,8 +36,11 @@ class Footprint {
     void near(const Vec2& p, double distance, Visit&& visit) const {
         tree_.query({p.x - distance, p.y - distance, p.x + distance, p.y + distance}, [&](Index i) {
             const auto& e = tree_.edges()[i];
-            const Vec2 d = e.b - e.a;
-            const double along = dot(p - e.a, d) / dot(d, d), t = along > 0 ? along < 1 ? along : 1 : 0;
+            const Vec2 d = e.b - e.a, to = p - e.a;
+            // Most lines are far more off than rounding can tell, which is seen without a division.
+            const double square = dot(d, d), off = cross(d, to), most = 4 * (distance * distance * square);
+            if (off * off > most && most > std::numeric_limits<double>::min()) return true;
+            const double along = dot(to, d) / square, t = along > 0 ? along < 1 ? along : 1 : 0;
             return length(e.a + d * t - p) > distance || visit(i);
         });
     }
