@@ -88,7 +88,7 @@ PLACE = b"property float x\nproperty float y\nproperty float z\n"
 
 
 # AddressSanitizer takes terabytes of addresses for itself, so that no such limit can be set beside it.
-@unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+@unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
 class Bombs(Case):
     def check(self, name, content, code, message, command="info"):
         path = self.dir / name

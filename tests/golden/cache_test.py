@@ -409,7 +409,7 @@ class Trouble(Cache):
         for folder in [self.cache, *(p for p in self.cache.iterdir())]:
             self.assertEqual(folder.stat().st_mode & 0o777, 0o700)
 
-    @unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+    @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
     def test_a_union_that_was_refused_for_memory(self):
         """It is done when there is enough."""
         sphere = "generate: {shape: icosphere, subdivisions: 4, noise: 0.01, seed: %d}"
@@ -425,7 +425,7 @@ class Trouble(Cache):
         self.assertEqual(refused.returncode, 0)
         self.assertEqual(self.told("run", "u.yaml", *ALL), expected)
 
-    @unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+    @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
     def test_without_memory(self):
         """Exit code 7, or all as it should be, whatever the cache has when memory ends."""
         self.write("p.yaml", PIPELINE.replace("relax: 1", "split: midpoint"))  # much more than the libraries take

@@ -399,7 +399,7 @@ class Process(Case):
         self.mill("pipe", "load", "t.off", "!", "relux", expect=2)
         self.assertEqual(self.mill(expect=2).stdout, "")
 
-    @unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+    @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
     def test_hardly_any_memory(self):
         """From where the libraries just fit, and where there is too little for the stack of a thread."""
         self.write("p.yaml", "facetmill: 1\nparams: {input: path}\nstages: [{load: '${input}'}, {relax: 1}, "
