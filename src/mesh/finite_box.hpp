@@ -6,14 +6,15 @@
 
 namespace facetmill {
 
-/// The box around the points that are finite, in parallel; empty where none is.
-inline Box box_of_finite(std::span<const Vec3> points) {
+/// The box around those of n points, at(i), that are finite, in parallel; empty where none is.
+template <class At>
+Box box_of_finite(std::size_t n, const At& at) {
     return parallel_reduce(
-        points.size(), Box{},
+        n, Box{},
         [&](std::size_t begin, std::size_t end) {
             Box box;
             for (std::size_t i = begin; i < end; ++i)
-                if (is_finite(points[i])) box.add(points[i]);
+                if (const Vec3 p = at(i); is_finite(p)) box.add(p);
             return box;
         },
         [](Box a, const Box& b) {

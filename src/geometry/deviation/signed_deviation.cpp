@@ -141,7 +141,7 @@ class Reduced {
     Reduced(const FaceTree& tree, const std::vector<Vec3>& points) : tree_(tree), points_(points) {}
 
     std::vector<float> distances(std::size_t& looked_up) {
-        const Box box = box_of_finite(points_);
+        const Box box = box_of_finite(points_.size(), [&](std::size_t i) { return points_[i]; });
         const auto cells = cells_of(points_, box);
         std::vector<Index> first; // of the cells
         for (std::size_t i = 0; i < cells.size(); ++i)

@@ -89,7 +89,8 @@ double cosine_between(const Vec3& edge, double its_length, const Vec3& next, dou
 
 class ShapesOfFaces {
   public:
-    explicit ShapesOfFaces(const Part& part) : mesh_(part.mesh), to_world_(part.transform) {}
+    explicit ShapesOfFaces(const Part& part)
+        : mesh_(part.mesh), to_world_(part.transform), is_moved_(!part.transform.identity()) {}
 
     Shapes operator()(std::size_t begin, std::size_t end) const {
         Shapes out;
@@ -106,17 +107,21 @@ class ShapesOfFaces {
     /// As add, without arrays of unknown size: most faces are triangles.
     void add_triangle(Index f, Shapes& out) const {
         const Index first = mesh_.face_begin(f);
-        const Vec3 a = to_world_.point(mesh_.point(first)), b = to_world_.point(mesh_.point(first + 1)),
-                   c = to_world_.point(mesh_.point(first + 2));
+        const Vec3 a = point(first), b = point(first + 1), c = point(first + 2);
         if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return;
         const Vec3 ab = b - a, bc = c - b, ca = a - c;
         const double x = length(ab), y = length(bc), z = length(ca);
         for (const double edge : {x, y, z}) out.edges.add(power_bin(edge, lowest_octave), edge);
-        double sharpest = -1; // stays where lengths are beyond all numbers
-        sharpest = std::max(sharpest, cosine_between(ab, x, bc, y));
-        sharpest = std::max(sharpest, cosine_between(bc, y, ca, z));
-        sharpest = std::max(sharpest, cosine_between(ca, z, ab, x));
-        add_shape(sharpest, aspect_ratio(x, y, z, length(cross(ab, ca)) / 2), out);
+        // The smallest angle is opposite the shortest edge.
+        const double cosine = x <= y && x <= z ? cosine_between(bc, y, ca, z)
+                              : y <= z         ? cosine_between(ca, z, ab, x)
+                                               : cosine_between(ab, x, bc, y);
+        add_shape(std::max(-1.0, cosine), // -1 where lengths are beyond all numbers
+                  aspect_ratio(x, y, z, length(cross(ab, ca)) / 2), out);
+    }
+    Vec3 point(Index corner) const {
+        const Vec3& p = mesh_.point(corner);
+        return is_moved_ ? to_world_.point(p) : p;
     }
 
     /// sharpest: the cosine of the smallest angle; worst: the aspect.
@@ -143,7 +148,7 @@ class ShapesOfFaces {
         outline.edges.resize(n);
         outline.lengths.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
-            outline.points[i] = to_world_.point(mesh_.point(first + static_cast<Index>(i)));
+            outline.points[i] = point(first + static_cast<Index>(i));
             if (!is_finite(outline.points[i])) return false;
         }
         for (std::size_t i = 0; i < n; ++i) {
@@ -176,6 +181,7 @@ class ShapesOfFaces {
 
     const Mesh& mesh_;
     const Transform& to_world_;
+    bool is_moved_;
 };
 
 /// The bins from `begin` to `end`, `together` of them in one.

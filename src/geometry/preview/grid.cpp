@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <unordered_set>
 
 namespace facetmill {
@@ -58,27 +59,22 @@ class Cells {
         edge_ = std::max({edge, size.x / most, size.y / most, size.z / most});
     }
 
-    /// The key of the cell of a finite point.
-    std::uint64_t key(const Vec3& p) const {
+    /// The key of the cell of a finite point, and how far it is from the cell's centre, squared, in cells.
+    std::pair<std::uint64_t, double> place(const Vec3& p) const {
         std::uint64_t key = 0;
-        for (std::size_t i = 0; i < 3; ++i) key = key << 21 | coordinate(p, i);
-        return key;
-    }
-    /// How far a point is from the centre of its cell, squared, in cells.
-    double off_centre(const Vec3& p) const {
-        double sum = 0;
+        double off = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double d = (p[i] - least_[i]) / edge_ - static_cast<double>(coordinate(p, i)) - 0.5;
-            sum += d * d;
+            const double at = (p[i] - least_[i]) / edge_;
+            const std::uint64_t cell = edge_ > 0 ? static_cast<std::uint64_t>(std::min(at, most)) : 0;
+            const double d = at - static_cast<double>(cell) - 0.5;
+            key = key << 21 | cell;
+            off += d * d;
         }
-        return sum;
+        return {key, off};
     }
 
   private:
     static constexpr double most = (1 << 21) - 2;
-    std::uint64_t coordinate(const Vec3& p, std::size_t i) const {
-        return edge_ > 0 ? static_cast<std::uint64_t>(std::min((p[i] - least_[i]) / edge_, most)) : 0;
-    }
 
     Vec3 least_;
     double edge_;
@@ -102,21 +98,24 @@ std::array<Index, 3> turned(std::array<Index, 3> t) {
 } // namespace
 
 std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_world, double cell) {
-    std::vector<Vec3> places(triangles.vertex_count());
-    parallel_for(places.size(), [&](std::size_t v) { places[v] = to_world.point(triangles.positions[v]); });
-    const Cells cells(box_of_finite(places), cell);
-    std::vector<std::uint64_t> keys(places.size());
-    parallel_for(places.size(),
-                 [&](std::size_t v) { keys[v] = is_finite(places[v]) ? cells.key(places[v]) : 0; });
+    const auto place = [&](std::size_t v) { return to_world.point(triangles.positions[v]); };
+    const Cells cells(box_of_finite(triangles.vertex_count(), place), cell);
+    constexpr std::uint64_t nowhere = ~std::uint64_t{0}; // not finite
+    std::vector<std::uint64_t> keys(triangles.vertex_count());
+    std::vector<double> off_centre(triangles.vertex_count());
+    parallel_for(keys.size(), [&](std::size_t v) {
+        const Vec3 p = place(v);
+        std::tie(keys[v], off_centre[v]) = is_finite(p) ? cells.place(p) : std::pair{nowhere, 0.0};
+    });
     Numbers numbers;
-    std::vector<Index> cell_of(places.size(), none);
+    std::vector<Index> cell_of(keys.size(), none);
     std::vector<Index> corner_of; // [cells] of the vertex nearest to the centre
     std::vector<double> distance;
     for (Index c = 0; c < triangles.corner_count(); ++c) {
         const Index v = triangles.vertex(c);
-        if (cell_of[v] != none || !is_finite(places[v])) continue;
+        if (cell_of[v] != none || keys[v] == nowhere) continue;
         cell_of[v] = numbers.of(keys[v]);
-        const double d = cells.off_centre(places[v]);
+        const double d = off_centre[v];
         if (cell_of[v] == corner_of.size()) {
             corner_of.push_back(c);
             distance.push_back(d);

@@ -35,6 +35,10 @@ struct Stance {
     double area = 0;
 };
 
+Stance operator*(const Stance& s, double factor) {
+    return {s.y_base * factor, s.z_base * factor, s.net * factor, s.area * factor};
+}
+
 Stance joined(Stance a, const Stance& b) {
     a.y_base += b.y_base;
     a.z_base += b.z_base;
@@ -55,20 +59,25 @@ void add_face(const Part& part, Index face, const Box& box, Stance& stance) {
     if (-vector.z > straight * area && p.z - box.min.z < thin * size.z) stance.z_base += area;
 }
 
+/// Of a part of many faces one in so many is looked at, as it asks for shares of the surface.
+constexpr std::size_t many_faces = 200000;
+
 Stance stance_of(const Scene& scene, const PictureSettings& settings, const Box& box) {
     Stance all;
     for (const Part& part : scene.parts) {
         if (!is_shown(part, settings)) continue;
-        all = joined(all, parallel_reduce(
-                              part.mesh.face_count(), Stance{},
-                              [&](std::size_t begin, std::size_t end) {
-                                  Stance stance;
-                                  for (std::size_t f = begin; f < end; ++f)
-                                      if (part.mesh.face_size(static_cast<Index>(f)) >= 3)
-                                          add_face(part, static_cast<Index>(f), box, stance);
-                                  return stance;
-                              },
-                              joined));
+        const std::size_t faces = part.mesh.face_count(), step = 1 + faces / many_faces;
+        Stance of_part =
+            parallel_reduce((faces + step - 1) / step, Stance{},
+                            [&](std::size_t begin, std::size_t end) {
+                                Stance stance;
+                                for (std::size_t f = begin * step; f < std::min(end * step, faces); f += step)
+                                    if (part.mesh.face_size(static_cast<Index>(f)) >= 3)
+                                        add_face(part, static_cast<Index>(f), box, stance);
+                                return stance;
+                            },
+                            joined);
+        all = joined(all, of_part * static_cast<double>(step));
     }
     return all;
 }
