@@ -50,11 +50,12 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     ComparisonPictures out{png_of(seen_a, settings, looks_a), png_of(seen_b, settings, looks_b), {}, {}, {}};
     const Surface surface_a = surface_or_points_of(seen_a, filled_surface),
                   surface_b = surface_or_points_of(seen_b, filled_surface);
-    const FaceTree tree(surface_a, FaceTree::Use::few);
+    const Box box_a = surface_a.bounds(), box_b = surface_b.bounds();
+    const FaceTree tree = FaceTree::over(surface_a, box_a, FaceTree::Use::coarse);
     settings.width = 480; // three beside each other
     settings.height = 360;
-    out.backward = distances_from(tree, surface_a.bounds().diagonal(), "the first file", seen_b, settings);
-    out.forward = distances_from(FaceTree(surface_b, FaceTree::Use::few), surface_b.bounds().diagonal(),
+    out.backward = distances_from(tree, box_a.diagonal(), "the first file", seen_b, settings);
+    out.forward = distances_from(FaceTree::over(surface_b, box_b, FaceTree::Use::coarse), box_b.diagonal(),
                                  "the second file", seen_a, settings);
     for (auto* view : {&out.backward, &out.forward})
         if (*view) (*view)->posed = posed_a || posed_b;

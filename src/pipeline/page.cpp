@@ -48,7 +48,7 @@ const Box& Page::Shown::bounds() {
 }
 
 const FaceTree& Page::Shown::tree() {
-    if (!tree_) tree_ = FaceTree::over(surface_, bounds(), FaceTree::Use::few);
+    if (!tree_) tree_ = FaceTree::over(surface_, bounds(), FaceTree::Use::coarse);
     return *tree_;
 }
 

@@ -32,6 +32,35 @@ std::vector<Index> finite_triangles(const Surface& surface) {
     return kept;
 }
 
+constexpr int coarse_run_bits = 3;
+constexpr std::size_t coarse_run = std::size_t{1} << coarse_run_bits;
+
+Box box_of_triangle(const Surface& surface, std::size_t t) {
+    Box box;
+    for (std::size_t k = 0; k < 3; ++k) box.add(surface.point(t, k));
+    return box;
+}
+
+/// Whether triangles that follow each other lie beside each other, as in most files. Judged by a thousand
+/// runs of them: in rows of a grid a run is three times as long as a triangle, sorted along a curve twice.
+bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& kept) {
+    constexpr double near = 6;
+    const std::size_t runs = kept.size() / coarse_run;
+    double of_runs = 0, of_triangles = 0;
+    for (std::size_t run = 0; run < runs; run += runs / 1024 + 1) {
+        Box all;
+        double sum = 0;
+        for (std::size_t i = run * coarse_run; i < (run + 1) * coarse_run; ++i) {
+            const Box box = box_of_triangle(surface, kept[i]);
+            all.add(box);
+            sum += box.diagonal();
+        }
+        of_runs += all.diagonal();
+        of_triangles += sum / coarse_run;
+    }
+    return of_runs <= near * of_triangles;
+}
+
 } // namespace
 
 /// A frame of where most triangles are, so that float32 tells them apart whatever else there is. Rays need a
@@ -71,6 +100,25 @@ std::vector<Index> FaceTree::along_curve(const Surface& surface, const std::vect
     return order;
 }
 
+std::vector<Index> FaceTree::runs_along_curve(const Surface& surface, const std::vector<Index>& kept) const {
+    const std::size_t runs = kept.size() / coarse_run;
+    const std::vector<Index> order = order_along_curve(runs, {{-1, -1, -1}, {1, 1, 1}}, [&](std::size_t run) {
+        return local(surface.point(kept[run * coarse_run + coarse_run / 2], 0));
+    });
+    std::vector<Index> out = kept; // what is too few for a run stays at the end
+    parallel_for(runs, [&](std::size_t i) {
+        for (std::size_t k = 0; k < coarse_run; ++k)
+            out[i * coarse_run + k] = kept[order[i] * coarse_run + k];
+    });
+    return out;
+}
+
+std::vector<Index> FaceTree::in_order(const Surface& surface, const std::vector<Index>& kept, Use use) const {
+    if (use == Use::coarse && has_neighbours_in_runs(surface, kept)) return runs_along_curve(surface, kept);
+    if (use == Use::coarse || use == Use::few) return along_curve(surface, kept);
+    return in_median_order(surface, kept);
+}
+
 FaceTree::FaceTree(const Surface& surface, Use use) { build_over(surface, surface.bounds(), use, true); }
 
 FaceTree FaceTree::over(const Surface& surface, const Box& bounds, Use use) {
@@ -86,9 +134,10 @@ void FaceTree::build_over(const Surface& surface, const Box& all, Use use, bool 
     std::vector<Index> kept = finite_triangles(surface);
     if (kept.empty()) return;
     set_frame(all);
-    const bool is_near = use == Use::near || use == Use::few;
+    const bool is_near = use == Use::near || use == Use::few || use == Use::coarse;
+    if (use == Use::coarse) run_bits = coarse_run_bits;
     if (is_near) set_dense_frame(surface, all, kept);
-    std::vector<Index> order = use == Use::few ? along_curve(surface, kept) : in_median_order(surface, kept);
+    std::vector<Index> order = in_order(surface, kept, use);
     kept = {};
     if (keeps_triangles) {
         resize_large(triangles, order.size());
@@ -101,12 +150,14 @@ void FaceTree::build_over(const Surface& surface, const Box& all, Use use, bool 
     }
     if (is_near) sources = std::move(order);
 
-    build(size(), [&](Node& node, std::size_t slot, std::size_t i) {
-        const auto [a, b, c] = triangle(i);
+    build(run_count(), [&](Node& node, std::size_t slot, std::size_t run) {
         Box box;
-        box.add(a);
-        box.add(b);
-        box.add(c);
+        for (std::size_t i = run << run_bits; i < std::min((run + 1) << run_bits, size()); ++i) {
+            const auto [a, b, c] = triangle(i);
+            box.add(a);
+            box.add(b);
+            box.add(c);
+        }
         node.set(slot, local(box.min), local(box.max));
     });
     if (use == Use::all) flatten();

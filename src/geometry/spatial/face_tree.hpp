@@ -18,10 +18,11 @@ namespace facetmill {
 struct FaceTree : BoxLevels {
     enum class Use {
         all,
-        rays, ///< rays alone: made faster, and knows no distances
-        near, ///< closest points alone, most of them near the surface: made faster; see flatten
-        few   ///< likewise, of fewer points than the surface has triangles: made twice as fast, each point
-              ///< slower
+        rays,  ///< rays alone: made faster, and knows no distances
+        near,  ///< closest points alone, most of them near the surface: made faster; see flatten
+        few,   ///< likewise, of fewer points than the surface has triangles: made twice as fast, each point
+               ///< slower
+        coarse ///< likewise, of far fewer points: a box holds eight triangles, so that there are few boxes
     };
     /// Four boxes turned to the mean normal of what they hold, in the tree's frame: the points centre + sum
     /// of axis[i] * x[i] with |x[i]| <= half[i]. Empty slots have half = -infinity.
@@ -82,15 +83,20 @@ struct FaceTree : BoxLevels {
     int patch_levels = -1;      ///< at most 2; above, pieces are too curved to gain. -1: no plates either
     std::vector<std::size_t> patch_begin; ///< into patches
     std::vector<Patches> patches;
+    int run_bits = 0; ///< 2^run_bits triangles in a row share a box of the lowest level
     double reach = 1; ///< of everything, in the tree's frame: above 1 some of it lies outside
 
   private:
     FaceTree() = default;
     void build_over(const Surface& surface, const Box& all, Use use, bool keeps_triangles);
     void set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept);
+    /// How many of the lowest boxes there are.
+    std::size_t run_count() const { return (size() + (std::size_t{1} << run_bits) - 1) >> run_bits; }
     /// The triangles that were kept, in the order of the tree.
     std::vector<Index> in_median_order(const Surface& surface, const std::vector<Index>& kept) const;
     std::vector<Index> along_curve(const Surface& surface, const std::vector<Index>& kept) const;
+    std::vector<Index> runs_along_curve(const Surface& surface, const std::vector<Index>& kept) const;
+    std::vector<Index> in_order(const Surface& surface, const std::vector<Index>& kept, Use use) const;
 
     std::span<const Vec3> positions_; ///< of the surface that stays, and so on
     std::span<const Index> corners_, faces_;

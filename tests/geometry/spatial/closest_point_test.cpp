@@ -14,8 +14,8 @@ using namespace facetmill;
 
 namespace {
 
-/// The trees that know distances: of all uses, for near points, that with what far points need, and for few;
-/// and those over a surface that stays.
+/// The trees that know distances: of all uses, for near points, that with what far points need, for few and
+/// for far fewer; and those over a surface that stays.
 std::vector<FaceTree> trees_of(const Surface& surface) {
     std::vector<FaceTree> trees;
     trees.emplace_back(surface);
@@ -23,7 +23,8 @@ std::vector<FaceTree> trees_of(const Surface& surface) {
     trees.emplace_back(surface, FaceTree::Use::near);
     trees.back().flatten();
     trees.emplace_back(surface, FaceTree::Use::few);
-    for (const auto use : {FaceTree::Use::near, FaceTree::Use::few})
+    trees.emplace_back(surface, FaceTree::Use::coarse);
+    for (const auto use : {FaceTree::Use::near, FaceTree::Use::few, FaceTree::Use::coarse})
         trees.push_back(FaceTree::over(surface, surface.bounds(), use));
     trees.push_back(FaceTree::over(surface, surface.bounds(), FaceTree::Use::near));
     trees.back().flatten();
@@ -76,6 +77,38 @@ TEST_CASE("the tree finds what trying every triangle finds", "[geometry]") {
             CHECK(found.distance == Approx(length(found.point - p)));
             CHECK(found.face < shape.face_count());
             CHECK(found.face == closest_point(whole, p).face);
+        }
+    }
+}
+
+TEST_CASE("a coarse tree has few boxes and finds the same, whatever the order of the triangles",
+          "[geometry]") {
+    const Surface in_rows = surface_of(shapes::torus(61, 23)); // 2806 triangles, the last run is not full
+    Surface mixed = in_rows;
+    for (std::size_t t = 0; t < in_rows.size(); ++t) // 1009 and 2806 have no common factor
+        std::copy_n(&in_rows.corners[3 * (t * 1009 % in_rows.size())], 3, &mixed.corners[3 * t]);
+    for (const Surface* surface : {&in_rows, static_cast<const Surface*>(&mixed)}) {
+        const FaceTree fine(*surface, FaceTree::Use::few),
+            coarse = FaceTree::over(*surface, surface->bounds(), FaceTree::Use::coarse);
+        CHECK(coarse.nodes.size() * 7 < fine.nodes.size());
+        std::set<Index> held(coarse.sources.begin(), coarse.sources.end());
+        CHECK(held.size() == surface->size());
+        double size = 0; // of the lowest boxes
+        for (std::size_t n = 0; n < coarse.level_begin[1]; ++n)
+            for (std::size_t slot = 0; slot < 4; ++slot) {
+                const auto& node = coarse.nodes[n];
+                if (node.max[0][slot] >= node.min[0][slot])
+                    size += static_cast<double>(node.max[0][slot] - node.min[0][slot]);
+            }
+        CHECK(size / 351 < 0.2); // a sixth of that of the middle of any eight
+        Index hint = none;
+        for (std::uint64_t k = 0; k < 500; ++k) {
+            const Vec3 p = test::random_point(1.5, 7, k);
+            const Closest one = closest_point(fine, p), other = closest_point(coarse, p, hint);
+            REQUIRE(other.distance == one.distance);
+            REQUIRE(other.face == one.face);
+            REQUIRE(other.point == one.point);
+            hint = other.triangle;
         }
     }
 }
