@@ -125,7 +125,11 @@ void Context::warn(std::string id, std::string message, std::string hint) {
 }
 
 void Context::report(const Fields& fields, const void* result) {
-    record_.result.update(fields.json(result));
+    Json made = fields.json(result);
+    if (record_.result.empty()) // most often; of many parts, a copy takes as long as all else
+        record_.result = std::move(made);
+    else
+        record_.result.update(made);
     say(fields.lines(result));
 }
 
