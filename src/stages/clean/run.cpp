@@ -70,6 +70,7 @@ const RegisterStage registered = make_stage<CleanOptions>(
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",
                   "clean: {self_intersections: union}", "clean: {weld: near, stitch: near, tolerance: 0.01%}",
                   "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"},
+     .lines = LinesPolicy::pass,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_clean, declare_clean_report, run,
     StageHooks<CleanOptions>{.verify = verify_clean,
