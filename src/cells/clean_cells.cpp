@@ -12,6 +12,7 @@
 #include "cells/rims.hpp"
 #include "cells/split_source.hpp"
 #include "cells/unite.hpp"
+#include "geometry/edit/moved.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "mesh/topology.hpp"
@@ -53,11 +54,12 @@ class PlaceSet {
     std::uint64_t most_;
 };
 
-/// Finds the places at which clean may have something to do.
+/// Finds the places at which clean may have something to do, and the area on the way.
 class UnsoundPlaces final : public RimVisitor {
   public:
-    explicit UnsoundPlaces(PlaceSet& places) : places_(places) {}
-    void read(Cell&) override {}
+    UnsoundPlaces(PlaceSet& places, const Transform& transform) : places_(places), transform_(transform) {}
+    double area = 0; ///< where the transform puts the mesh
+    void read(Cell& cell) override { area += surface_size(cell.mesh, transform_, false).area; }
     void look(const Mesh& mesh, const std::vector<Turn>& turns) override {
         std::vector<std::uint8_t> unsound(mesh.vertex_count(), 0);
         const EdgeTable edges = build_edges(mesh);
@@ -80,6 +82,7 @@ class UnsoundPlaces final : public RimVisitor {
 
   private:
     PlaceSet& places_;
+    const Transform& transform_;
 };
 
 /// Faces as records of a numbered source.
@@ -192,19 +195,20 @@ GatheredFaces in_order(const GatheredFaces& all) {
 class CellCleaning {
   public:
     CellCleaning(std::unique_ptr<Partition>& partition, const CleanSettings& settings, const Means& means,
-                 std::uint64_t most)
-        : partition_(partition), settings_(settings), means_(means), most_(most),
+                 const Transform& transform, std::uint64_t most)
+        : partition_(partition), settings_(settings), means_(means), transform_(transform), most_(most),
           plain_(partition->shared_source()), before_(partition->vertices()), unsound_(means.memory / 8),
           around_(means.memory / 8) {}
 
-    CleanResult run() {
+    CleanedCells run() {
         const std::vector<Attribute> attributes = partition_->cell(0).mesh.attributes;
         require_countable("clean", static_cast<double>(partition_->faces() + means_.memory / bytes_of_face),
                           "clean parts of it");
         numbered_ = numbered_source(plain_, settings_.weld != Nearness::off);
         placed_ = std::make_unique<Partition>(numbered_, means_, most_);
-        UnsoundPlaces search(unsound_);
+        UnsoundPlaces search(unsound_, transform_);
         visit_rims(*placed_, means_, search);
+        area_ = search.area;
         CleanResult result = unsound_.empty() ? untouched(attributes) : cleaned_part();
         const bool replaces = result.counts.total() > 0 || spared_ > 0;
         const std::size_t welded =
@@ -222,7 +226,7 @@ class CellCleaning {
         else if (welded > 0)
             partition_ = std::move(placed_);
         result.mesh = {};
-        return result;
+        return {std::move(result), search.area, std::max(0.0, area_)}; // what is left may be a rounding
     }
 
   private:
@@ -299,17 +303,24 @@ class CellCleaning {
         unite(whole_.mesh, whole_.names, std::move(sound));
     }
 
+    double area_of(const Mesh& mesh) const { return surface_size(mesh, transform_, false).area; }
+
+    /// The faces at unsound places as they came, with all vertices that were gathered.
+    Mesh unsound_faces() const {
+        Mesh mesh;
+        mesh.positions = whole_.mesh.positions;
+        for (Index f = 0; f < whole_.mesh.face_count(); ++f)
+            if (faces_.sheets[f] == no_sheet)
+                for (const Index v : whole_.mesh.face_wedges(f)) mesh.corners.push_back(v);
+        return mesh;
+    }
+
     /// The faces at unsound places as a mesh, the collar after them.
     Mesh with_collar() const {
         const Mesh& whole = whole_.mesh;
         std::vector<std::uint8_t> in_part(whole.face_count());
-        Mesh mesh;
-        mesh.positions = whole.positions;
-        for (Index f = 0; f < in_part.size(); ++f) {
-            in_part[f] = faces_.sheets[f] == no_sheet;
-            if (!in_part[f]) continue;
-            for (const Index v : whole.face_wedges(f)) mesh.corners.push_back(v);
-        }
+        for (Index f = 0; f < in_part.size(); ++f) in_part[f] = faces_.sheets[f] == no_sheet;
+        Mesh mesh = unsound_faces();
         std::vector<std::uint8_t> in_collar(mesh.face_count(), 0);
         std::vector<std::uint32_t> source(whole.vertex_count());
         for (Index v = 0; v < source.size(); ++v) source[v] = v;
@@ -355,6 +366,7 @@ class CellCleaning {
 
     void replace(const Mesh& cleaned) {
         Replacement by = replacement(cleaned);
+        area_ += area_of(by.come.mesh) - area_of(unsound_faces());
         whole_ = {};
         faces_ = {};
         const auto faces = static_cast<std::uint32_t>(placed_->faces());
@@ -370,6 +382,7 @@ class CellCleaning {
     std::unique_ptr<Partition>& partition_;
     const CleanSettings& settings_;
     const Means& means_;
+    const Transform& transform_;
     std::uint64_t most_;
     std::shared_ptr<FaceSource> plain_, numbered_;
     std::uint64_t before_;              ///< vertices that faces use
@@ -379,6 +392,7 @@ class CellCleaning {
     Piece whole_;            ///< what was gathered
     std::size_t spared_ = 0; ///< vertices at unsound places, less these places: clean counts what it welds
     Box bounds_;
+    double area_ = 0; ///< where the transform puts the mesh, as far as it is cleaned
 };
 
 } // namespace
@@ -402,9 +416,9 @@ std::optional<std::string> why_not_in_cells(const CleanSettings& s) {
     return {};
 }
 
-CleanResult clean_cells(std::unique_ptr<Partition>& partition, const CleanSettings& settings,
-                        const Means& means, std::uint64_t most) {
-    return CellCleaning(partition, settings, means, most).run();
+CleanedCells clean_cells(std::unique_ptr<Partition>& partition, const CleanSettings& settings,
+                         const Means& means, const Transform& transform, std::uint64_t most) {
+    return CellCleaning(partition, settings, means, transform, most).run();
 }
 
 } // namespace facetmill::cells

@@ -14,11 +14,16 @@ namespace facetmill::cells {
 /// Why these settings need the whole mesh at once, in words; none when they do not.
 std::optional<std::string> why_not_in_cells(const CleanSettings& settings);
 
+struct CleanedCells {
+    CleanResult result;                     ///< without the mesh
+    double area_before = 0, area_after = 0; ///< where the transform puts the mesh
+};
+
 /// Cleans the cells: the faces and vertices are those of clean() in memory, and so are counts, but that
-/// vertices without faces are in no cells. Faces get another order where some have changed. The result has no
-/// mesh. Throws limit (E-MEMORY) where the faces at such places are more than memory takes; usage (E-CELLS)
-/// where vertices would get several sets of attributes.
-CleanResult clean_cells(std::unique_ptr<Partition>& partition, const CleanSettings& settings,
-                        const Means& means, std::uint64_t most = faces_of_cell);
+/// vertices without faces are in no cells. Faces get another order where some have changed. Throws limit
+/// (E-MEMORY) where the faces at such places are more than memory takes; usage (E-CELLS) where vertices would
+/// get several sets of attributes.
+CleanedCells clean_cells(std::unique_ptr<Partition>& partition, const CleanSettings& settings,
+                         const Means& means, const Transform& transform, std::uint64_t most = faces_of_cell);
 
 } // namespace facetmill::cells

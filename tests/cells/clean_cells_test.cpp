@@ -1,5 +1,6 @@
 #include "cells/clean_cells.hpp"
 
+#include "geometry/edit/moved.hpp"
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/split/split.hpp"
 #include "mesh/shapes.hpp"
@@ -21,7 +22,12 @@ CleanCounts check_clean(const Mesh& mesh, std::uint64_t most, const CleanSetting
     const test::TemporaryDirectory folder;
     const Means means{folder.path(), test::cell_memory};
     auto partition = test::cells_of(folder, mesh, most);
-    const CleanResult found = clean_cells(partition, settings, means, most), whole = clean(mesh, settings);
+    Transform stretch;
+    stretch.m[2][2] = 3;
+    const CleanedCells cleaned = clean_cells(partition, settings, means, stretch, most);
+    const CleanResult &found = cleaned.result, whole = clean(mesh, settings);
+    CHECK(cleaned.area_before == Approx(surface_size(mesh, stretch).area).epsilon(1e-12));
+    CHECK(cleaned.area_after == Approx(surface_size(whole.mesh, stretch).area).epsilon(1e-12));
     CHECK(found.counts == whole.counts);
     CHECK(found.not_done == whole.not_done);
     CHECK(found.changes == whole.changes);
@@ -195,5 +201,6 @@ TEST_CASE("clean in cells says what it cannot do", "[cells]") {
     const test::TemporaryDirectory folder;
     auto many = test::cells_of(folder, test::nasty(3), 100);
     const Means little{folder.path(), std::uint64_t{1} << 20};
-    CHECK(test::failure([&] { clean_cells(many, {}, little, 100); }).find("E-MEMORY") != std::string::npos);
+    CHECK(test::failure([&] { clean_cells(many, {}, little, {}, 100); }).find("E-MEMORY") !=
+          std::string::npos);
 }

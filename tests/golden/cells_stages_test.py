@@ -154,6 +154,25 @@ class StagesInCells(LargeCase):
             self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
             self.assertEqual(*(rows(self.dir / n) for n in ("o.ply", "whole.ply")))
 
+    def test_clean_tells_of_lost_surface_as_in_memory(self):
+        spikes(self.dir / "spikes.ply", 200)  # two cells
+        head, points, rest = parted_ply(self.dir / "spikes.ply")
+        faces = [face for _, *face in struct.iter_unpack("<B3i", rest)]
+        n = len(points)
+        points += [struct.pack("<3f", *p) for p in ((0, 0, 500), (90, 0, 500), (0, 90, 500))]
+        for copies, lost in ((300, True), (3, False)):
+            write_ply(self.dir / "repeated.ply", head, points, faces + copies * [(n, n + 1, n + 2)])
+            told = []
+            for way in ("never", "always"):
+                chain = ("load", "repeated.ply", "--unit", "m", "--up", "z", "!", "transform", "--scale", "1,1,2", "!", "clean", "!")
+                run = self.mill("pipe", "--memory", "128M", "--partition", way, *chain, "write", "o.ply")
+                told.append([line.split("W-SURFACE-LOST]")[1] for line in run.stderr.splitlines() if "[W-SURFACE-LOST]" in line])
+                self.mill("pipe", "--memory", "128M", "--partition", way, "--strict=W-SURFACE-LOST", *chain, "write",
+                          f"{way}-{copies}.ply", expect=1 if lost else 0)
+                self.assertEqual((self.dir / f"{way}-{copies}.ply").exists(), not lost)
+            self.assertEqual(told[0], told[1])  # the numbers, too
+            self.assertEqual(len(told[0]), int(lost))
+
     @unittest.skipIf(SLOW, "the same code with other data takes minutes under sanitizers")
     def test_clean_in_cells_keeps_attributes_apart_and_is_bounded(self):
         self.large()

@@ -39,23 +39,27 @@ std::optional<std::string> why_not_on_cells(const CleanOptions& o) {
     return cells::why_not_in_cells(clean_steps_of(o));
 }
 
-void run_on_cells(const CleanOptions& o, CellFlow& flow, Context& context) {
-    const Scene outline = flow.outline();
-    const Part& part = outline.parts.front();
-    const CleanResult r =
-        cells::clean_cells(flow.partition, clean_settings(o, outline, part, context), flow.means);
-    flow.box = cells::box_of_cells(*flow.partition, flow.transform);
-    context.attribute_changes(part, r.changes);
-    warn(part, r.not_done, context);
-    const CleanReport report{{{part.name, r.counts, first_not_done(r.not_done, part.transform)}}};
-    context.report(fields_of<CleanReport>(declare_clean_report), &report);
-}
-
 /// Components and what lies inside others go as asked; a union takes what solids have in common.
 MayLose may_lose(const CleanOptions& o) {
     if (o.components || o.inner_components || o.open_components) return MayLose::area;
     const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
     return unites ? MayLose::half : MayLose::tenth;
+}
+
+void run_on_cells(const CleanOptions& o, CellFlow& flow, Context& context) {
+    const Scene outline = flow.outline();
+    const Part& part = outline.parts.front();
+    const std::size_t faces = flow.partition->faces();
+    const cells::CleanedCells cleaned = cells::clean_cells(
+        flow.partition, clean_settings(o, outline, part, context), flow.means, flow.transform);
+    const CleanResult& r = cleaned.result;
+    flow.box = cells::box_of_cells(*flow.partition, flow.transform);
+    context.attribute_changes(part, r.changes);
+    warn(part, r.not_done, context);
+    const CleanReport report{{{part.name, r.counts, first_not_done(r.not_done, part.transform)}}};
+    context.report(fields_of<CleanReport>(declare_clean_report), &report);
+    warn_of_lost_surface({{part.name, faces, cleaned.area_before}},
+                         {{part.name, flow.partition->faces(), cleaned.area_after}}, may_lose(o), context);
 }
 
 /// What is done about intersecting faces is done for those that intersect themselves, too.
