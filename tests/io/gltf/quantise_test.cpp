@@ -447,6 +447,37 @@ TEST_CASE("KHR_meshopt_compression is read, colours and streams of version 1, to
     CHECK_THROWS_AS(damaged.view(std::size_t{0}), Error);
 }
 
+TEST_CASE("a compressed view is read by all of its accessors, those of the whole and those of a part",
+          "[io]") {
+    std::vector<std::uint32_t> numbers(1000);
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i * i % 997;
+    for (const int version : {0, 1}) {
+        const io::Bytes bytes = io::gltf::encode_meshopt(std::as_bytes(std::span(numbers)),
+                                                         {"ATTRIBUTES", "NONE", 4, 1000}, version);
+        const char* name = version == 0 ? "EXT_meshopt_compression" : "KHR_meshopt_compression";
+        const Json json = Json::parse(fmt::format(
+            R"({{"bufferViews": [{{"buffer": 1, "byteLength": 4000, "extensions": {{"{}": {{"buffer": 0, "byteLength": {},
+                "byteStride": 4, "mode": "ATTRIBUTES", "count": 1000}}}}}}],
+                "accessors": [{{"bufferView": 0, "count": 1000, "type": "SCALAR", "componentType": 5125}},
+                {{"bufferView": 0, "count": 7, "byteOffset": 40, "type": "SCALAR", "componentType": 5125}}]}})",
+            name, bytes.size()));
+        const auto read = [&](io::gltf::Source& source, const Json& accessor) {
+            return io::gltf::decode_indices(source, io::gltf::Place(accessor, "indices"), 997);
+        };
+        std::vector<io::Bytes> buffers{bytes, {}};
+        const std::vector<Index> part(numbers.begin() + 10, numbers.begin() + 17);
+        io::gltf::Source source(json, buffers), other(json, buffers);
+        for (int time = 0; time < 3; ++time) CHECK(read(source, 0) == numbers); // the first has no copy
+        CHECK(read(source, 1) == part);
+        CHECK(read(other, 1) == part);
+        CHECK(read(other, 0) == numbers);
+        buffers[0].back() = ~buffers[0].back();
+        buffers[0][1] = std::byte{0x55};
+        io::gltf::Source damaged(json, buffers);
+        CHECK_THROWS_AS(read(damaged, 0), Error);
+    }
+}
+
 TEST_CASE("KHR_meshopt_compression has streams of version 1, which are smaller", "[io]") {
     io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
     Scene scene = test::scene_in_metres(shapes::torus(160, 80));
