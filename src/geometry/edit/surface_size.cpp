@@ -13,16 +13,22 @@ struct SizeSums {
     std::uint64_t boundary = 0; ///< each directed edge once, its reverse as the negative
 };
 
+/// What is added up beside the area.
+struct Wanted {
+    bool volume = true, boundary = false;
+};
+
 /// place(corner): where it is, seen from a point near the surface.
 template <class Place>
-void add_face(SizeSums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners, Place&& place) {
+void add_face(SizeSums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners, bool volume,
+              Place&& place) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     const Vec3 first = place(begin);
     Vec3 twice;
     for (Index c = begin + 1; c + 1 < end; ++c) {
         const Vec3 a = place(c), b = place(c + 1), normal = cross(a - first, b - first);
         twice += normal;
-        sums.volume += dot(first, normal) / 6;
+        if (volume) sums.volume += dot(first, normal) / 6;
     }
     if (end - begin == 3) {
         sums.area += safe_length(twice) / 2;
@@ -43,15 +49,15 @@ void add_boundary(SizeSums& sums, const Mesh& mesh, Index f) {
 }
 
 template <class Place>
-SizeSums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
+SizeSums sums_of(const Mesh& mesh, Wanted wanted, Place&& place) {
     return parallel_reduce(
         mesh.face_count(), SizeSums{},
         [&](std::size_t begin, std::size_t end) {
             SizeSums s;
             std::vector<Vec3> corners;
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
-                add_face(s, mesh, f, corners, place);
-                if (with_boundary) add_boundary(s, mesh, f);
+                add_face(s, mesh, f, corners, wanted.volume, place);
+                if (wanted.boundary) add_boundary(s, mesh, f);
             }
             return s;
         },
@@ -60,10 +66,10 @@ SizeSums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
         });
 }
 
-SizeSums far_sums_of(const Mesh& mesh, bool with_boundary, const Transform& to_world, const PowerScale& scale,
+SizeSums far_sums_of(const Mesh& mesh, Wanted wanted, const Transform& to_world, const PowerScale& scale,
                      const Vec3& origin) {
     const Vec3 from = scale(origin);
-    return sums_of(mesh, with_boundary, [&](Index c) { return scale(to_world.point(mesh.point(c))) - from; });
+    return sums_of(mesh, wanted, [&](Index c) { return scale(to_world.point(mesh.point(c))) - from; });
 }
 
 /// A box that holds the other one's corners, and so everything within it, after a transform.
@@ -76,21 +82,40 @@ Box box_after(const Box& box, const Transform& to_world) {
     return all;
 }
 
+/// A surface as its sums see it: from its centre, at a scale where products neither overflow nor vanish.
+struct Sight {
+    Sight(const Mesh& mesh, const Transform& to_world) {
+        const Box box = box_of(mesh.positions);
+        world = box_after(box, to_world);
+        even = even_scale(world);
+        const Vec3 centre = to_world.point(box.centre());
+        origin = is_finite(centre) ? centre : Vec3{};
+    }
+    Box world;
+    PowerScale even;
+    Vec3 origin;
+};
+
+SizeSums sums_seen(const Mesh& mesh, Wanted wanted, const Transform& to_world, const Sight& sight) {
+    const Vec3 origin = sight.origin;
+    if (sight.even.none())
+        return sums_of(mesh, wanted, [&](Index c) { return to_world.point(mesh.point(c)) - origin; });
+    SizeSums sums = far_sums_of(mesh, wanted, to_world, sight.even, origin);
+    sums.area = unscaled(sums.area, 2 * sight.even.powers[0]);
+    return sums;
+}
+
 } // namespace
 
 SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world, std::optional<bool> closed) {
-    const Box box = box_of(mesh.positions), world = box_after(box, to_world);
-    const PowerScale even = even_scale(world), axes = axis_scale(world);
-    const Vec3 centre = to_world.point(box.centre()), origin = is_finite(centre) ? centre : Vec3{};
-    SizeSums sums =
-        even.none() ? sums_of(mesh, !closed, [&](Index c) { return to_world.point(mesh.point(c)) - origin; })
-                    : far_sums_of(mesh, !closed, to_world, even, origin);
-    if (!even.none()) sums.area = unscaled(sums.area, 2 * even.powers[0]);
-    if (!axes.none())
-        sums.volume = unscaled(far_sums_of(mesh, false, to_world, axes, origin).volume, axes.volume());
+    const Sight sight(mesh, to_world);
+    SizeSums sums = sums_seen(mesh, {closed.value_or(true), !closed}, to_world, sight);
     SurfaceSize size{sums.area, {}};
-    if (closed.value_or(sums.boundary == 0) && mesh.face_count() > 0)
-        size.volume = to_world.determinant() < 0 ? -sums.volume : sums.volume;
+    if (!closed.value_or(sums.boundary == 0) || mesh.face_count() == 0) return size;
+    const PowerScale axes = axis_scale(sight.world);
+    if (!axes.none())
+        sums.volume = unscaled(far_sums_of(mesh, {}, to_world, axes, sight.origin).volume, axes.volume());
+    size.volume = to_world.determinant() < 0 ? -sums.volume : sums.volume;
     return size;
 }
 
