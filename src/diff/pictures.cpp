@@ -51,12 +51,12 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     const Surface surface_a = surface_or_points_of(seen_a, filled_surface),
                   surface_b = surface_or_points_of(seen_b, filled_surface);
     const Box box_a = surface_a.bounds(), box_b = surface_b.bounds();
-    const FaceTree tree = FaceTree::over(surface_a, box_a, FaceTree::Use::coarse);
+    const FaceTree tree = tree_of_earlier(surface_a, box_a);
     settings.width = 480; // three beside each other
     settings.height = 360;
     out.backward = distances_from(tree, box_a.diagonal(), "the first file", seen_b, settings);
-    out.forward = distances_from(FaceTree::over(surface_b, box_b, FaceTree::Use::coarse), box_b.diagonal(),
-                                 "the second file", seen_a, settings);
+    out.forward = distances_from(tree_of_earlier(surface_b, box_b), box_b.diagonal(), "the second file",
+                                 seen_a, settings);
     for (auto* view : {&out.backward, &out.forward})
         if (*view) (*view)->posed = posed_a || posed_b;
     ViewedScenes viewed(2);

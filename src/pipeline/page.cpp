@@ -48,7 +48,7 @@ const Box& Page::Shown::bounds() {
 }
 
 const FaceTree& Page::Shown::tree() {
-    if (!tree_) tree_ = FaceTree::over(surface_, bounds(), FaceTree::Use::coarse);
+    if (!tree_) tree_ = report::tree_of_earlier(surface_, bounds());
     return *tree_;
 }
 

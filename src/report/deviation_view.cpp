@@ -62,6 +62,12 @@ double colour_limit(const std::vector<float>& distances, double most, double dia
     return std::isfinite(diagonal) ? std::max(limit, lost_by_floats * diagonal) : limit;
 }
 
+FaceTree tree_of_earlier(const Surface& surface, const Box& bounds) {
+    constexpr std::size_t many = 250000; // of these, making the tree takes longer than the distances
+    return FaceTree::over(surface, bounds,
+                          surface.size() < many ? FaceTree::Use::few : FaceTree::Use::coarse);
+}
+
 DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
                              const std::optional<PictureSettings>& pictures) {
     const SignedDeviation d = signed_deviation(scene, from.tree);

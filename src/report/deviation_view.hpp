@@ -19,6 +19,10 @@ struct EarlierSurface {
 /// end. most: the largest amount. diagonal: of the scene.
 double colour_limit(const std::vector<float>& distances, double most, double diagonal);
 
+/// The tree over an earlier surface for the distances of a page, some 100,000. The surface has these bounds
+/// and stays.
+FaceTree tree_of_earlier(const Surface& surface, const Box& bounds);
+
 /// Both in world space, and in one pose. pictures: their size and camera; none: only numbers. Throws as
 /// picture_of. O((vertices + faces) log n), of at most 20000 vertices or some tens of thousands of cells, and
 /// those around the worst place.

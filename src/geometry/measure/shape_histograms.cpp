@@ -87,6 +87,14 @@ double cosine_between(const Vec3& edge, double its_length, const Vec3& next, dou
                        : 1; // a corner without sides has no angle
 }
 
+/// The angle there. twice: the area of the triangle, which gives it without a root of its own.
+double angle_between(const Vec3& edge, double its_length, const Vec3& next, double next_length,
+                     double twice) {
+    if (twice > 1e-140 && twice < 1e140) return arc_tangent(twice, -dot(edge, next));
+    // Flat, or squares of squares are beyond all numbers; where those of lengths are, too, it is -1.
+    return arc_cosine(std::max(-1.0, cosine_between(edge, its_length, next, next_length)));
+}
+
 class ShapesOfFaces {
   public:
     explicit ShapesOfFaces(const Part& part)
@@ -112,21 +120,21 @@ class ShapesOfFaces {
         const Vec3 ab = b - a, bc = c - b, ca = a - c;
         const double x = length(ab), y = length(bc), z = length(ca);
         for (const double edge : {x, y, z}) out.edges.add(power_bin(edge, lowest_octave), edge);
+        const double twice = length(cross(ab, ca)); // the area
         // The smallest angle is opposite the shortest edge.
-        const double cosine = x <= y && x <= z ? cosine_between(bc, y, ca, z)
-                              : y <= z         ? cosine_between(ca, z, ab, x)
-                                               : cosine_between(ab, x, bc, y);
-        add_shape(std::max(-1.0, cosine), // -1 where lengths are beyond all numbers
-                  aspect_ratio(x, y, z, length(cross(ab, ca)) / 2), out);
+        const double angle = x <= y && x <= z ? angle_between(bc, y, ca, z, twice)
+                             : y <= z         ? angle_between(ca, z, ab, x, twice)
+                                              : angle_between(ab, x, bc, y, twice);
+        add_shape(angle, aspect_ratio(x, y, z, twice / 2), out);
     }
     Vec3 point(Index corner) const {
         const Vec3& p = mesh_.point(corner);
         return is_moved_ ? to_world_.point(p) : p;
     }
 
-    /// sharpest: the cosine of the smallest angle; worst: the aspect.
-    static void add_shape(double sharpest, double worst, Shapes& out) {
-        const double angle = arc_cosine(sharpest) * 180 / pi;
+    /// smallest: the smallest angle; worst: the aspect.
+    static void add_shape(double smallest, double worst, Shapes& out) {
+        const double angle = smallest * 180 / pi;
         out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
         if (std::isfinite(worst))
             out.aspects.add(power_bin(worst, 0), worst);
@@ -176,7 +184,7 @@ class ShapesOfFaces {
             sharpest = std::max(sharpest, cosine_between(outline.edges[i], outline.lengths[i],
                                                          outline.edges[next], outline.lengths[next]));
         }
-        add_shape(sharpest, worst_aspect(outline), out);
+        add_shape(arc_cosine(sharpest), worst_aspect(outline), out);
     }
 
     const Mesh& mesh_;

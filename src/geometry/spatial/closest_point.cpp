@@ -58,6 +58,20 @@ Vec3 offset_to(const FaceTree& tree, Index triangle, const Vec3& p) {
     return closest_to_origin((t.a - p) * tree.scale, (t.b - p) * tree.scale, (t.c - p) * tree.scale);
 }
 
+/// A lower bound of the square of what offset_to gives, by the box of the triangle: a third of the work. What
+/// the triangle's size may lose to rounding is taken off.
+double square_bound_to(const FaceTree& tree, Index triangle, const Vec3& p) {
+    const auto [a, b, c] = tree.triangle(triangle);
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double low = std::min(std::min(a[axis], b[axis]), c[axis]) - p[axis],
+                     high = std::max(std::max(a[axis], b[axis]), c[axis]) - p[axis];
+        const double gap = (std::max(low, -high) - (high - low) * 1e-12) * tree.scale;
+        sum += gap > 0 ? gap * gap : 0;
+    }
+    return sum * (1 - 1e-12);
+}
+
 /// How far a query is from the middle of the surface, in units of the tree's frame.
 double reach_of(const FaceTree& tree, const Vec3& p) {
     const Vec3 at = tree.local(p);
@@ -187,7 +201,8 @@ class Search {
         if (tree_.run_bits == 0) return test(run);
         const std::size_t first = std::size_t{run} << tree_.run_bits,
                           last = std::min(first + (std::size_t{1} << tree_.run_bits), tree_.size());
-        for (std::size_t t = first; t < last; ++t) test(static_cast<Index>(t));
+        for (std::size_t t = first; t < last; ++t)
+            if (square_bound_to(tree_, static_cast<Index>(t), p_) <= square_) test(static_cast<Index>(t));
     }
 
     /// Searches what is near the hint in the tree, more and more of it, as long as it is not near enough.

@@ -5,6 +5,7 @@
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
 
+#include <array>
 #include <numeric>
 
 using namespace facetmill;
@@ -50,6 +51,9 @@ TEST_CASE("histograms in the world, of flat faces and of nothing", "[geometry]")
     Mesh flat = shapes::grid(1, 1);
     for (Vec3& p : flat.positions) p = {p.x, 0, 0};
     CHECK(shape_histograms(scene_of_mesh(flat)).flat_faces == 2);
+    CHECK(shape_histograms(scene_of_mesh(flat)).smallest_angle.maximum == 0);
+    for (Vec3& p : flat.positions) p = {};
+    CHECK(shape_histograms(scene_of_mesh(flat)).smallest_angle.maximum == 0); // no sides, no angle
     CHECK(shape_histograms(Scene{}).edge_length.total == 0);
     const Mesh noisy = test::noisy_icosphere(5, 0.1, 1);
     set_threads(1);
@@ -59,6 +63,22 @@ TEST_CASE("histograms in the world, of flat faces and of nothing", "[geometry]")
     set_threads(0);
     CHECK(one.edge_length.mean == three.edge_length.mean);
     CHECK(one.aspect_ratio.counts == three.aspect_ratio.counts);
+}
+
+TEST_CASE("the smallest angle of a triangle, whichever corner it is at", "[geometry]") {
+    const Vec3 a{}, b{1, 0, 0}, c{0.3, 0.2, 0.1}; // sharpest at b: 0.2236 up, 0.7 across
+    for (const auto& turned : {std::array{a, b, c}, {b, c, a}, {c, a, b}, {b, a, c}}) {
+        Mesh mesh;
+        mesh.positions = {turned.begin(), turned.end()};
+        mesh.corners = {0, 1, 2};
+        CHECK(shape_histograms(scene_of_mesh(mesh)).smallest_angle.mean == Approx(17.71547));
+        for (const double size : {1e-100, 1e180}) { // squares of areas are beyond all numbers
+            for (Vec3& p : mesh.positions) p = p * size;
+            CHECK(shape_histograms(scene_of_mesh(mesh)).smallest_angle.mean == Approx(17.71547));
+        }
+        for (Vec3& p : mesh.positions) p = p * 1e100;
+        CHECK(shape_histograms(scene_of_mesh(mesh)).smallest_angle.total == 1);
+    }
 }
 
 TEST_CASE("two histograms are trimmed to what both need", "[geometry]") {
