@@ -5,8 +5,6 @@
 
 #include <cstring>
 #include <fmt/format.h>
-#include <limits>
-#include <span>
 
 namespace facetmill::io::gltf {
 
@@ -169,15 +167,6 @@ Span Source::view(std::size_t index) {
     return found->second;
 }
 
-std::optional<Place> Source::whole_compressed_view(const Place& reference, std::size_t bytes) {
-    const std::size_t index = reference.index(count_of(*json_, "bufferViews"), "buffer view");
-    if ((added_ && added_->contains(index)) || decompressed_.contains(index)) return {};
-    const auto meshopt = meshopt_extension(item(*json_, "bufferViews", index));
-    if (!meshopt || meshopt_size(*this, *meshopt) != bytes) return {};
-    if (!handed_out_.insert(index).second) return {};
-    return meshopt;
-}
-
 Accessor accessor(const Source& source, const Place& reference) {
     const std::size_t index = reference.index(count_of(source.json(), "accessors"), "accessor");
     const Place place = item(source.json(), "accessors", index);
@@ -190,32 +179,8 @@ Accessor accessor(const Source& source, const Place& reference) {
     return a;
 }
 
-namespace {
-
-/// Decompresses all numbers of an accessor straight into their array, when they are all that its view has.
-bool decompress(Source& source, const Accessor& a, AttributeData& data) {
-    const auto view = a.place.find("bufferView");
-    const std::size_t size = size_of(a.component_type) * static_cast<std::size_t>(a.components);
-    if (!view || a.place.natural_or("byteOffset", 0) != 0 || stride_of(source, a.place, size) != size ||
-        a.count > std::numeric_limits<std::size_t>::max() / size)
-        return false;
-    const auto meshopt = source.whole_compressed_view(*view, a.count * size);
-    if (!meshopt) return false;
-    std::visit(
-        [&](auto& numbers) {
-            numbers.resize(a.count * static_cast<std::size_t>(a.components));
-            decode_meshopt(source, *meshopt, std::as_writable_bytes(std::span(numbers)));
-            apply_sparse(source, a, numbers);
-        },
-        data);
-    return true;
-}
-
-} // namespace
-
 AttributeData decode(Source& source, const Accessor& a) {
     AttributeData data = empty_data(a.component_type);
-    if (decompress(source, a, data)) return data;
     const std::size_t size = size_of(a.component_type) * static_cast<std::size_t>(a.components);
     const auto view = a.place.find("bufferView");
     const std::byte* from = nullptr;

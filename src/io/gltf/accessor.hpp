@@ -7,7 +7,6 @@
 #include "mesh/mesh.hpp"
 
 #include <map>
-#include <set>
 
 namespace facetmill::io::gltf {
 
@@ -42,9 +41,6 @@ class Source {
     /// The bytes of a buffer view, decompressed when it is under meshopt's extensions.
     Span view(const Place& reference);
     Span view(std::size_t index);
-    /// What must be decompressed of a view that gives exactly so many bytes, when nobody has asked for it
-    /// before: its numbers can then be put where they are to be, without a copy.
-    std::optional<Place> whole_compressed_view(const Place& reference, std::size_t bytes);
     /// True when the view is of a buffer without any bytes, which is legal as long as nothing reads it.
     bool without_bytes(std::size_t index) const;
     /// Bytes of a range of a buffer, checked. owner has "buffer", "byteOffset" and "byteLength".
@@ -58,7 +54,6 @@ class Source {
     const std::vector<Bytes>* buffers_;
     const std::map<std::size_t, Bytes>* added_;
     std::map<std::size_t, Bytes> decompressed_;
-    std::set<std::size_t> handed_out_; ///< views without a copy here, so far
     double needed_ = 0;
 };
 
@@ -86,10 +81,5 @@ std::optional<Place> meshopt_extension(const Place& owner);
 /// Decompresses what a buffer view's object of either extension says. Throws malformed (E-MESHOPT; also for
 /// streams that the library is too old for), limit (E-MEMORY).
 Bytes decode_meshopt(Source& source, const Place& extension);
-/// The same into memory that has room for exactly these bytes.
-void decode_meshopt(Source& source, const Place& extension, std::span<std::byte> to);
-/// The bytes that it says it gives, checked against what its compressed bytes can hold. Throws malformed
-/// (E-MESHOPT).
-std::size_t meshopt_size(const Source& source, const Place& extension);
 
 } // namespace facetmill::io::gltf

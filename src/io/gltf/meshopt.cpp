@@ -3,7 +3,6 @@
 #include "base/parallel.hpp"
 #include "io/gltf/attribute_stream.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
@@ -56,7 +55,7 @@ void check(const Place& place, const Compressed& c) {
 /// KHR_meshopt_compression's filter COLOR: luma and two chrominances of K bits, and alpha of one bit less
 /// below a bit that tells K, become red, green, blue and alpha.
 template <class Unsigned>
-void decode_colours(std::span<std::byte> bytes) {
+void decode_colours(Bytes& bytes) {
     using Signed = std::make_signed_t<Unsigned>;
     constexpr double most = std::numeric_limits<Unsigned>::max();
     parallel_for(bytes.size() / (4 * sizeof(Unsigned)), [&](std::size_t i) {
@@ -73,42 +72,14 @@ void decode_colours(std::span<std::byte> bytes) {
     });
 }
 
-/// Puts the numbers that a filter makes of a view's in their place.
-void filter(std::span<std::byte> out, const Compressed& c) {
+/// The numbers that a filter makes of a view's.
+Bytes filtered(Bytes out, const Compressed& c) {
     if (c.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), c.count, c.stride);
     if (c.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), c.count, c.stride);
     if (c.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), c.count, c.stride);
     if (c.filter == "COLOR" && c.stride == 4) decode_colours<std::uint8_t>(out);
     if (c.filter == "COLOR" && c.stride == 8) decode_colours<std::uint16_t>(out);
-}
-
-Compressed checked(const Source& source, const Place& extension) {
-    Compressed c{source.range(extension), extension.at("count").natural(),
-                 extension.at("byteStride").natural(65536), extension.at("mode").text(),
-                 extension.text_or("filter", "NONE")};
-    check(extension, c);
-    return c;
-}
-
-bool is_own_stream(const Compressed& c) { return c.mode == "ATTRIBUTES" && is_attribute_stream_1(c.bytes); }
-
-/// Streams of version 1, which the library is too old for.
-Bytes decode_own(const Place& extension, const Compressed& c) {
-    auto decoded = decode_attribute_stream(c.bytes, c.count, c.stride);
-    if (!decoded) extension.fail("the compressed bytes are damaged", "E-MESHOPT");
-    return std::move(*decoded);
-}
-
-void decode_by_library(const Place& extension, const Compressed& c, std::span<std::byte> out) {
-    const auto* from = reinterpret_cast<const unsigned char*>(c.bytes.data());
-    const int failed = c.mode == "ATTRIBUTES"
-                           ? meshopt_decodeVertexBuffer(out.data(), c.count, c.stride, from, c.bytes.size())
-                       : c.mode == "TRIANGLES"
-                           ? meshopt_decodeIndexBuffer(out.data(), c.count, c.stride, from, c.bytes.size())
-                           : meshopt_decodeIndexSequence(out.data(), c.count, c.stride, from, c.bytes.size());
-    if (failed)
-        extension.fail(fmt::format("the compressed bytes are damaged (meshoptimizer says {})", failed),
-                       "E-MESHOPT");
+    return out;
 }
 
 } // namespace
@@ -121,28 +92,28 @@ std::optional<Place> meshopt_extension(const Place& owner) {
     return {};
 }
 
-std::size_t meshopt_size(const Source& source, const Place& extension) {
-    const Compressed c = checked(source, extension);
-    return c.count * c.stride;
-}
-
 Bytes decode_meshopt(Source& source, const Place& extension) {
-    const Compressed c = checked(source, extension);
+    const Compressed c{source.range(extension), extension.at("count").natural(),
+                       extension.at("byteStride").natural(65536), extension.at("mode").text(),
+                       extension.text_or("filter", "NONE")};
+    check(extension, c);
     source.need(static_cast<double>(c.count) * static_cast<double>(c.stride));
-    Bytes out = is_own_stream(c) ? decode_own(extension, c) : Bytes(c.count * c.stride);
-    if (!is_own_stream(c)) decode_by_library(extension, c, out);
-    filter(out, c);
-    return out;
-}
-
-void decode_meshopt(Source& source, const Place& extension, std::span<std::byte> to) {
-    const Compressed c = checked(source, extension);
-    source.need(static_cast<double>(c.count) * static_cast<double>(c.stride));
-    if (is_own_stream(c))
-        std::ranges::copy(decode_own(extension, c), to.begin());
-    else
-        decode_by_library(extension, c, to);
-    filter(to, c);
+    Bytes out(c.count * c.stride);
+    if (c.mode == "ATTRIBUTES" && is_attribute_stream_1(c.bytes)) {
+        auto decoded = decode_attribute_stream(c.bytes, c.count, c.stride);
+        if (!decoded) extension.fail("the compressed bytes are damaged", "E-MESHOPT");
+        return filtered(std::move(*decoded), c);
+    }
+    const auto* from = reinterpret_cast<const unsigned char*>(c.bytes.data());
+    const int failed = c.mode == "ATTRIBUTES"
+                           ? meshopt_decodeVertexBuffer(out.data(), c.count, c.stride, from, c.bytes.size())
+                       : c.mode == "TRIANGLES"
+                           ? meshopt_decodeIndexBuffer(out.data(), c.count, c.stride, from, c.bytes.size())
+                           : meshopt_decodeIndexSequence(out.data(), c.count, c.stride, from, c.bytes.size());
+    if (failed)
+        extension.fail(fmt::format("the compressed bytes are damaged (meshoptimizer says {})", failed),
+                       "E-MESHOPT");
+    return filtered(std::move(out), c);
 }
 
 } // namespace facetmill::io::gltf
