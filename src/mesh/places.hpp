@@ -54,29 +54,20 @@ class PlaceTable {
         parallel_chunks(slot.size(), [&](std::size_t begin, std::size_t end) {
             if (full.load(std::memory_order_relaxed)) return;
             Chunk chunk;
-            Recent recent;
-            constexpr std::size_t block = 24; // whose slots are asked from memory before they are needed
-            std::array<Unknown, block> unknown;
+            constexpr std::size_t block = 32; // whose slots are asked from memory before they are needed
+            std::array<std::pair<FloatBits, Index>, block> next;
             for (std::size_t at = begin; at < end; at += block) {
-                const std::size_t last = std::min(at + block, end);
-                std::size_t count = 0;
-                for (std::size_t i = at; i < last; ++i) {
-                    Unknown& next = unknown[count];
-                    next.key = point(i);
-                    next.hash = place_hash(next.key);
-                    next.point = static_cast<Index>(i);
-                    const Slot& known = recent.at(next.hash);
-                    slot[i] = known.first;
-                    __builtin_prefetch(&slots_[home(next.hash)]);
-                    count += known.first == none || !is_same(known.key, next.key);
+                const std::size_t count = std::min(block, end - at);
+                for (std::size_t k = 0; k < count; ++k) {
+                    next[k].first = point(at + k);
+                    next[k].second = home(place_hash(next[k].first));
+                    __builtin_prefetch(&slots_[next[k].second]);
                 }
                 for (std::size_t k = 0; k < count; ++k) {
-                    const Unknown& next = unknown[k];
-                    const Index i = next.point, there = put(i, home(next.hash), next.key, chunk);
-                    if (there == none) return full.store(true, std::memory_order_relaxed);
-                    slot[i] = there;
+                    const std::size_t i = at + k;
+                    slot[i] = put(static_cast<Index>(i), next[k].second, next[k].first, chunk);
+                    if (slot[i] == none) return full.store(true, std::memory_order_relaxed);
                     is_first[i / 64] |= std::uint64_t{chunk.was_first} << i % 64;
-                    recent.at(next.hash) = {there, next.key};
                 }
             }
             if constexpr (requires { point.done(begin, end); }) point.done(begin, end);
@@ -99,24 +90,6 @@ class PlaceTable {
         FloatBits key;
     };
     static constexpr Index busy = none - 1;
-
-    /// A point whose slot must be looked for.
-    struct Unknown {
-        FloatBits key;
-        Index point;
-        std::uint64_t hash;
-    };
-
-    /// Places that came shortly before in the same chunk, with their slots in the table: a corner's
-    /// neighbours mostly lie near it in the file, and need not be looked for. They are not the first there.
-    class Recent {
-      public:
-        Recent() { places_.fill({none, {}}); }
-        Slot& at(std::uint64_t hash) { return places_[hash % places_.size()]; }
-
-      private:
-        std::array<Slot, 1024> places_; // half of a processor's nearest memory
-    };
 
     /// What a thread remembers of the points of a chunk.
     struct Chunk {
