@@ -18,23 +18,14 @@ double rounding_of(std::initializer_list<double> sizes) {
     return 16 * 2.220446049250313e-16 * std::max(sizes);
 }
 
-/// Whether the line along an edge of a piece parts it from a segment, but for the rounding of points: as it
-/// does from the next segment behind the last cut, which by its rounded corners may seem to enter. Not said
-/// of pieces that are all on that line, such as faces seen edge-on. way: 1 for an anticlockwise piece, else
-/// -1.
-bool parts(const std::vector<Vec2>& piece, std::size_t edge, double way, double rounding,
-           const polygon::RingTree::Edge& e) {
-    const Vec2 &p = piece[edge], along = (piece[edge + 1 == piece.size() ? 0 : edge + 1] - p) * way;
-    const double most = rounding * length(along);
-    if (std::max(cross(along, e.a - p), cross(along, e.b - p)) > most) return false;
-    double low = 0, high = 0;
-    for (const Vec2& q : piece) {
-        const double off = cross(along, q - p);
-        low = std::min(low, off);
-        high = std::max(high, off);
-    }
-    return low >= -most && high > most;
-}
+/// What is asked of a piece, as it is seen, by one segment after the other.
+struct PieceShape {
+    double square = -1; ///< of its corner farthest from the origin; negative: nothing is known but parting
+    double way = 1;     ///< 1 for an anticlockwise piece, else -1
+    Index parting = 0;  ///< the edge, modulo their number, that last parted it from a segment
+    double low = 0, high = -1; ///< how far its corners reach behind and in front of that edge, times its
+                               ///< length; high negative: not known
+};
 
 /// A frame in which the pieces of a face have narrow boxes: its first axis is along the longest of the
 /// segments that enter the face, of which most run alike.
@@ -94,6 +85,8 @@ class SegmentCutter {
         if (!std::isfinite(wider)) return {-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
         return {box.x0 - wider, box.y0 - wider, box.x1 + wider, box.y1 + wider};
     }
+    /// Faces of which meeting is not exact, concave ones and those seen edge-on, have none of their own: what
+    /// their pieces are cut into would depend on which segment is the longest.
     void find_frames(const EnteredFaces& entered) {
         for (const Vec2& p : seen_) size_ = std::max(size_, length(p));
         frames_.resize(mesh_.face_count());
@@ -105,6 +98,11 @@ class SegmentCutter {
                     longest[f] = size;
                     frames_[f] = Frame(e.b - e.a);
                 }
+        }
+        for (Index f = 0; f < mesh_.face_count(); ++f) {
+            if (!(longest[f] > 0)) continue;
+            view_.gather(mesh_, f, face_);
+            if (!polygon::is_convex(face_) || polygon::orientation(face_) == 0) frames_[f] = {};
         }
     }
     const polygon::RingTree::Edge& segment(Index s) const { return view_.footprint().tree().edges()[s]; }
@@ -156,6 +154,8 @@ class SegmentCutter {
         });
         if (touched_.empty()) return;
         const std::size_t to_cut = touched_.size();
+        touched_for_.resize(pieces_.numbers(), none);
+        for (const Index piece : touched_) touched_for_[piece] = s;
         for (std::size_t i = 0; i < to_cut; ++i) find_neighbours(s, touched_[i]);
         if (is_plain(s, to_cut))
             cut_plain(s, to_cut);
@@ -167,52 +167,93 @@ class SegmentCutter {
         const auto& e = segment(s);
         for (const Index f : faces)
             pieces_.query(f, bounds(f, e), [&](Index piece) {
-                face_.clear();
-                for (const Index w : pieces_[piece].wedges) face_.push_back(seen_[vertex_of(w)]);
-                if (is_parted(piece, e) || meeting(face_, e.a, e.b) != OutlineMeeting::crossing) return;
+                if (is_parted(piece, e)) return;
+                gather(piece);
+                if (meeting(face_, e.a, e.b) != OutlineMeeting::crossing) return;
                 was_cut_[f] = 1;
                 touched_.push_back(piece);
             });
     }
+    /// As face_.
+    void gather(Index piece) {
+        face_.clear();
+        for (const Index w : pieces_[piece].wedges) face_.push_back(seen_[vertex_of(w)]);
+    }
 
-    /// Whether an edge parts the piece, seen as face_, from the segment: most often the one that parted it
-    /// from the last.
+    /// Whether the line along an edge parts a piece from a segment, but for the rounding of points: as it
+    /// does from the next segment behind the last cut, which by its rounded corners may seem to enter. Not
+    /// said of pieces that are all on that line, such as faces seen edge-on. Most often it is the edge that
+    /// parted the piece from the last segment.
     bool is_parted(Index piece, const polygon::RingTree::Edge& e) {
-        double square = std::max(dot(e.a, e.a), dot(e.b, e.b));
-        for (const Vec2& p : face_) square = std::max(square, dot(p, p));
-        const double rounding = rounding_of({std::sqrt(square)}),
-                     way = polygon::signed_area(face_) > 0 ? 1 : -1;
-        parting_.resize(std::max<std::size_t>(parting_.size(), piece + 1), 0);
-        const std::size_t n = face_.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::size_t edge = (parting_[piece] + i) % n;
-            if (!parts(face_, edge, way, rounding, e)) continue;
-            parting_[piece] = static_cast<Index>(edge);
-            return true;
-        }
+        PieceShape& shape = shape_of(piece);
+        const double rounding =
+            rounding_of({std::sqrt(std::max({shape.square, dot(e.a, e.a), dot(e.b, e.b)}))});
+        const std::size_t n = pieces_[piece].wedges.size();
+        for (std::size_t i = 0; i < n; ++i)
+            if (parts(piece, shape, (shape.parting + i) % n, rounding, e)) return true;
         return false;
+    }
+    /// Whether this edge does. That it does is noted.
+    bool parts(Index piece, PieceShape& shape, std::size_t edge, double rounding,
+               const polygon::RingTree::Edge& e) {
+        const auto& wedges = pieces_[piece].wedges;
+        const auto corner = [&](std::size_t i) -> const Vec2& { return seen_[vertex_of(wedges[i])]; };
+        const std::size_t n = wedges.size();
+        const Vec2 &p = corner(edge), along = (corner(edge + 1 == n ? 0 : edge + 1) - p) * shape.way;
+        const double most = rounding * length(along);
+        if (std::max(cross(along, e.a - p), cross(along, e.b - p)) > most) return false;
+        if (edge == shape.parting && shape.high >= 0) return shape.low >= -most && shape.high > most;
+        double low = 0, high = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double off = cross(along, corner(i) - p);
+            low = std::min(low, off);
+            high = std::max(high, off);
+        }
+        if (!(low >= -most && high > most)) return false;
+        shape.parting = static_cast<Index>(edge);
+        shape.low = low;
+        shape.high = high;
+        return true;
+    }
+    PieceShape& shape_of(Index piece) {
+        if (shapes_.size() <= piece) shapes_.resize(pieces_.numbers());
+        PieceShape& shape = shapes_[piece];
+        if (shape.square >= 0) return shape;
+        gather(piece);
+        for (const Vec2& p : face_) shape.square = std::max(shape.square, dot(p, p));
+        shape.way = polygon::signed_area(face_) > 0 ? 1 : -1;
+        return shape;
+    }
+    /// When a piece has other corners; the edge that parted it may still be there.
+    void forget_shape(Index piece) {
+        if (piece < shapes_.size()) shapes_[piece].square = shapes_[piece].high = -1;
     }
 
     /// Adds to what is touched the pieces that share an edge with this one at which that is cut: faces around
     /// that are whole still, and what has been cut before.
     void find_neighbours(Index s, Index piece) {
-        const Index face = pieces_[piece].face;
+        look_around(pieces_[piece].face);
+        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
+            const Index u = vertex_of(a), v = vertex_of(b);
+            if (sign_at(s, u) * sign_at(s, v) >= 0) return;
+            // A whole face is the piece of its number; that has not been added for its own edges.
+            if (std::max(u, v) < mesh_.vertex_count())
+                for (const Index f : around_) touch(f, s, u, v);
+            at_edges_.visit(u, v, [&](Index other) {
+                if (std::find(around_.begin(), around_.end(), pieces_[other].face) != around_.end())
+                    touch(other, s, u, v);
+            });
+        });
+    }
+    /// A face and those that share an edge with it, once each.
+    void look_around(Index face) {
+        if (!around_.empty() && around_[0] == face) return;
         around_.assign(1, face);
         for (Index c = mesh_.face_begin(face); c < mesh_.face_end(face); ++c)
             if (edges_.corner_edge[c] != none)
                 for (const Index other : edges_.corners_of(edges_.corner_edge[c]))
-                    around_.push_back(corner_face_[other]);
-        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
-            const Index u = vertex_of(a), v = vertex_of(b);
-            if (sign_at(s, u) * sign_at(s, v) >= 0) return;
-            const bool may_be_whole = std::max(u, v) < mesh_.vertex_count();
-            for (std::size_t i = 0; may_be_whole && i < around_.size(); ++i)
-                touch(around_[i], u, v); // a whole face is the piece of its number
-            at_edges_.visit(u, v, [&](Index other) {
-                if (std::find(around_.begin(), around_.end(), pieces_[other].face) != around_.end())
-                    touch(other, u, v);
-            });
-        });
+                    if (std::find(around_.begin(), around_.end(), corner_face_[other]) == around_.end())
+                        around_.push_back(corner_face_[other]);
     }
     /// Of a piece; with first_new only those with an end from that vertex on.
     void note_edges(Index piece, Index first_new = 0) {
@@ -221,14 +262,16 @@ class SegmentCutter {
             if (std::max(u, v) >= first_new) at_edges_.add(u, v, piece);
         });
     }
-    void touch(Index piece, Index u, Index v) {
-        bool shares = false;
-        for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
-            const Index from = vertex_of(a), to = vertex_of(b);
-            shares |= (from == u && to == v) || (from == v && to == u);
-        });
-        if (shares && std::find(touched_.begin(), touched_.end(), piece) == touched_.end())
+    void touch(Index piece, Index s, Index u, Index v) {
+        if (touched_for_[piece] == s) return;
+        const auto& wedges = pieces_[piece].wedges;
+        for (std::size_t i = 0, n = wedges.size(); i < n; ++i) {
+            const Index from = vertex_of(wedges[i]), to = vertex_of(wedges[i + 1 == n ? 0 : i + 1]);
+            if ((from != u || to != v) && (from != v || to != u)) continue;
+            touched_for_[piece] = s;
             touched_.push_back(piece);
+            return;
+        }
     }
 
     // --- a cut of which each piece falls in two, between vertices: nearly all are such
@@ -335,8 +378,11 @@ class SegmentCutter {
         for (std::size_t part = 0; part < 2; ++part) {
             auto& some = parts[part];
             const int side = sign(i);
+            std::size_t end = i;
+            while (end < begin + n && sign(end) == side) ++end;
+            some.reserve(end - i + 2);
             some.push_back(wedge_on(wedges[(i + n - 1) % n], wedges[i % n], first_made));
-            for (; i < begin + n && sign(i) == side; ++i) some.push_back(wedges[i % n]);
+            for (; i < end; ++i) some.push_back(wedges[i % n]);
             some.push_back(wedge_on(wedges[(i + n - 1) % n], wedges[i % n], first_made));
             boxes[part] = bounds(pieces_[piece].face, some);
         }
@@ -346,10 +392,12 @@ class SegmentCutter {
     void replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes) {
         const Index first = pieces_.numbers();
         pieces_.replace(piece, parts, boxes);
+        forget_shape(piece);
         for (Index part = first; part < pieces_.numbers(); ++part) note_edges(part);
     }
     std::vector<Index> with_points(Index s, Index piece, Index first_made) {
         std::vector<Index> wedges;
+        wedges.reserve(pieces_[piece].wedges.size() + 1); // most often one point
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             wedges.push_back(a);
             if (sign_at(s, vertex_of(a)) * sign_at(s, vertex_of(b)) < 0 &&
@@ -361,6 +409,7 @@ class SegmentCutter {
     void reshape(Index piece, std::vector<Index> wedges, Index first_new) {
         const Bounds box = bounds(pieces_[piece].face, wedges);
         pieces_.reshape(piece, std::move(wedges), box);
+        forget_shape(piece);
         note_edges(piece, first_new);
     }
 
@@ -508,7 +557,8 @@ class SegmentCutter {
     std::vector<double> sides_;         ///< [vertices] likewise, as side() has it
     std::vector<Index> signed_for_;     ///< [vertices] this says
     std::vector<std::uint8_t> was_cut_; ///< [faces]
-    std::vector<Index> parting_; ///< [pieces, as far as asked for] an edge that parted it from a segment
+    std::vector<PieceShape> shapes_;    ///< [pieces, as far as asked for]
+    std::vector<Index> touched_for_;    ///< [pieces, as far as needed] the last segment that touched it
     CutFaces made_;
     // Of the cut that is being made:
     std::vector<Index> touched_; ///< pieces: those to be cut, then those that share a cut edge

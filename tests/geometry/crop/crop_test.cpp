@@ -459,6 +459,24 @@ TEST_CASE("an edge that passes a corner of the outline is cut there once", "[geo
     CHECK(inspect(r.mesh).edge_manifold);
 }
 
+TEST_CASE("a face seen edge-on is cut along every segment that may enter it", "[geometry]") {
+    Mesh wall;
+    wall.positions = {{0, 0, 0}, {10, 10, 0}, {10, 10, 5}, {0, 0, 5}};
+    wall.corners = {0, 1, 2, 3};
+    wall.face_offsets = {0, 4};
+    // The longest segment runs along the wall, but for a little, and another is within its box, beside it.
+    const CropResult out =
+        cropped(wall, {{{1, 0}, {8, 2}, {7, 2.2}, {9, 10}}}, CropBy::cut, polygon::Keep::outside);
+    CHECK(out.mesh.face_count() == 3);
+    std::vector<double> ends;
+    for (const Vec3& p : out.mesh.positions)
+        if (p.z == 0) ends.push_back(p.x);
+    std::sort(ends.begin(), ends.end());
+    REQUIRE(ends.size() == 5);
+    CHECK(ends[1] == Approx(3)); // on the line of that segment
+    CHECK(ends[2] == Approx(5));
+}
+
 TEST_CASE("walls of moved, turned and mirrored parts stand in the world", "[geometry]") {
     Transform mirrored; // x -> 2 - x, y and z swapped
     mirrored.m[0][0] = -1;
