@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "geometry/crop/crop.hpp"
-#include "geometry/crop/folds.hpp"
 #include "geometry/crop/wall_panel.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "geometry/edit/surgery.hpp"
@@ -329,7 +328,6 @@ class Closer {
         if (panels_.empty()) return;
         merge_changes(result_.changes, append_walls(mesh_, {panels_, walls_, settings_, first_added_}));
         result_.wall_faces = mesh_.face_count() - faces;
-        result_.wall_faces -= remove_folds(mesh_, faces);
     }
 
     Mesh mesh_;
