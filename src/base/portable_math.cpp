@@ -123,7 +123,8 @@ namespace {
 double arc_tangent_series(double t) {
     constexpr double angles[] = {0, 0.24497866312686415417, 0.46364760900080611621, 0.64350110879328438680,
                                  pi / 4};
-    const auto quarter = static_cast<std::size_t>(t * 4 + 0.5); // rounded
+    const double beyond = t * 4 + 0.5; // t >= 0: without its fraction it is t * 4, rounded
+    const auto quarter = static_cast<std::size_t>(beyond);
     const double c = static_cast<double>(quarter) / 4, u = (t - c) / (1 + t * c), z = u * u;
     constexpr double k[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17};
     return angles[quarter] + (u + u * z * polynomial(z, k));
