@@ -554,11 +554,13 @@ std::span<const MessageId> message_ids() {
          "Use materials or objects if they are needed."},
         {"W-IMAGE",
          {},
-         "An image or texture that a file refers to is missing, outside the file's directory, or of an "
-         "unsupported kind.",
-         "Put the image beside the file, as PNG or JPEG. `../wood.png` is read below a folder that "
-         "`--asset-root DIR`, "
-         "or `load: {path: ..., asset_root: DIR}`, names."},
+         "An image or texture that a file refers to is missing, outside the file's directory, of an "
+         "unsupported kind, or broken: its header is wrong, or its data end early. A broken one is written "
+         "as "
+         "it is.",
+         "Put the image beside the file, as PNG or JPEG, and export a broken one again. `../wood.png` is "
+         "read "
+         "below a folder that `--asset-root DIR`, or `load: {path: ..., asset_root: DIR}`, names."},
         {"W-INCOMPLETE",
          {},
          "A glTF primitive has extra indices after its last triangle.",

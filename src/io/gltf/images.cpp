@@ -3,6 +3,8 @@
 #include "base/hash.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/patch.hpp"
+#include "io/gltf/textures.hpp"
+#include "io/image_faults.hpp"
 #include "io/image_files.hpp"
 
 #include <algorithm>
@@ -38,6 +40,28 @@ std::vector<FileImage> file_images(Patch& patch) {
 
 Json& image_json(Patch& patch, const FileImage& image) { return patch.builder.json()["images"][image.index]; }
 
+void warn_of_fault(Patch& patch, std::size_t index, const std::string& fault) {
+    if (fault.empty()) return;
+    patch.warn("W-IMAGE",
+               fmt::format("the image \"{}\" is written as it is, but viewers cannot show it: {}",
+                           name_of_image(patch.builder.json()["images"][index], index), fault),
+               "export the image again");
+}
+
+/// What is wrong with an image that stands in a buffer or in the document itself.
+std::string embedded_fault(Patch& patch, const Place& image) {
+    const auto uri = image.find("uri"), view = image.find("bufferView");
+    if (uri) return is_data_uri(uri->text()) ? image_fault(data_uri_bytes(uri->text())) : std::string();
+    if (!view) return {};
+    try { // reading a document looks no further than meshes
+        const std::size_t number = view->index(count_of(patch.builder.json(), "bufferViews"), "buffer view");
+        Source& now = patch.builder.current();
+        return now.without_bytes(number) ? std::string() : image_fault(now.view(number));
+    } catch (const Error& error) {
+        return error.diagnostics().front().message;
+    }
+}
+
 /// The name of the image's file, as a name of the image.
 void keep_name(Json& json, const std::string& uri) {
     const auto path = decoded_path(uri);
@@ -52,14 +76,7 @@ class Placer {
 
     void embed(const FileImage& image) {
         const std::string type = media_type(*image.bytes);
-        if (type.empty()) {
-            patch_.warn(
-                "W-IMAGE",
-                fmt::format("the image \"{}\" is of no kind that can be embedded and is copied beside "
-                            "the file",
-                            image.uri));
-            return copy(image);
-        }
+        if (type.empty()) return copy(image); // told as a fault
         const auto [view, fresh] = views_.try_emplace(sha256(*image.bytes), 0);
         if (fresh) view->second = patch_.builder.add_view(*image.bytes);
         Json& json =
@@ -115,6 +132,8 @@ void refer(Patch& patch, Placer& placer, const FileImage& image) {
 } // namespace
 
 std::vector<OutputFile> place_images(Patch& patch, const std::string& stem, Textures textures) {
+    for (std::size_t i = 0; i < count_of(patch.builder.json(), "images"); ++i)
+        warn_of_fault(patch, i, embedded_fault(patch, item(patch.builder.json(), "images", i)));
     Placer placer(patch, stem);
     for (const FileImage& image : file_images(patch)) {
         if (textures == Textures::reference)
@@ -123,10 +142,13 @@ std::vector<OutputFile> place_images(Patch& patch, const std::string& stem, Text
             patch.warn("W-IMAGE",
                        fmt::format("images[{}].uri: the image \"{}\" was not read and is not copied",
                                    image.index, image.uri));
-        else if (textures == Textures::embed)
-            placer.embed(image);
-        else
-            placer.copy(image);
+        else {
+            warn_of_fault(patch, image.index, image_fault(*image.bytes));
+            if (textures == Textures::embed)
+                placer.embed(image);
+            else
+                placer.copy(image);
+        }
     }
     return placer.files();
 }

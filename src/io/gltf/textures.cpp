@@ -164,15 +164,6 @@ Bytes bytes_of_image(const Document& document, Source& source, const Json& image
     return {bytes.begin(), bytes.end()};
 }
 
-std::string name_of_image(const Json& image, std::size_t index) {
-    if (image.is_object() && image.contains("name") && image["name"].is_string())
-        if (const auto name = image["name"].get<std::string>(); !name.empty()) return name;
-    if (image.is_object() && image.contains("uri") && image["uri"].is_string())
-        if (const auto uri = image["uri"].get<std::string>(); !is_data_uri(uri))
-            if (const auto path = decoded_path(uri)) return path->filename().string();
-    return fmt::format("images[{}]", index);
-}
-
 // --- other images
 
 std::string suffix_of(const std::string& type) {
@@ -342,6 +333,15 @@ std::vector<DocumentImage> document_images(const Document& document, const std::
     for (std::size_t i = 0; i < uses.size(); ++i)
         all.push_back({i, name_of_image(json["images"][i], i), std::move(bytes[i]), std::move(uses[i])});
     return all;
+}
+
+std::string name_of_image(const Json& image, std::size_t index) {
+    if (image.is_object() && image.contains("name") && image["name"].is_string())
+        if (const auto name = image["name"].get<std::string>(); !name.empty()) return name;
+    if (image.is_object() && image.contains("uri") && image["uri"].is_string())
+        if (const auto uri = image["uri"].get<std::string>(); !is_data_uri(uri))
+            if (const auto path = decoded_path(uri)) return path->filename().string();
+    return fmt::format("images[{}]", index);
 }
 
 std::vector<Bytes> image_bytes(const Document& document, const Json& json) {

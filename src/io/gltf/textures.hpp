@@ -39,6 +39,8 @@ struct DocumentImage {
 /// EXT_structural_metadata, EXT_mesh_features and EXT_lights_image_based read from images is held, too. A
 /// reference to nothing is passed over. Throws malformed when the document is no JSON.
 std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
+/// What messages call an image of a document: its own name, else its file's, else its place: "images[3]".
+std::string name_of_image(const Json& image, std::size_t index);
 /// The bytes of the images of the document, whose JSON is given parsed; none for those that were not read or
 /// are not there.
 std::vector<Bytes> image_bytes(const Document& document, const Json& json);

@@ -1,5 +1,6 @@
 // Images that a document names as files: in what is written, beside it, or left where they are.
 #include "io/image_files.hpp"
+#include "io/png.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/gltf.hpp"
@@ -153,6 +154,37 @@ TEST_CASE("an image that is missing is said, and what cannot be embedded is copi
     REQUIRE(other.files.size() == 2);
     CHECK(other.files[1].name == "out.b.tga");
     CHECK(other.warnings.at(0).id == "W-IMAGE");
+}
+
+TEST_CASE("a broken image is told where it is written, once", "[io]") {
+    const TemporaryDirectory dir;
+    const std::string cut = red_png().substr(0, red_png().size() - 6);
+    const auto told = [&](const std::string& uri, const char* format, const std::string& options = {}) {
+        put(dir / "a.gltf", triangle(uri));
+        const Scene scene = load(dir / "a.gltf");
+        if (!options.empty()) return write(scene, options).warnings();
+        std::vector<std::string> all;
+        for (const Diagnostic& d : written(scene, format).warnings) all.push_back(d.id + ": " + d.message);
+        return all;
+    };
+    const std::vector<std::string> once{"W-IMAGE: the image \"wood.png\" is written as it is, but viewers "
+                                        "cannot show it: its data end early"};
+    put(dir / "wood.png", cut);
+    CHECK(told("wood.png", "glb") == once);
+    CHECK(told("wood.png", "gltf") == once);
+    CHECK(
+        told("wood.png", "", fmt::format("{{path: {}/out/b.glb, textures: reference}}", dir.path().string()))
+            .empty()); // not written
+    const std::string base = io::base64(io::bytes_of_text(cut));
+    for (const char* format : {"glb", "gltf"})
+        CHECK(told("data:image/png;base64," + base, format).size() == 1);
+    put(dir / "wood.png", red_png());
+    CHECK(told("wood.png", "glb").empty());
+    // ... and where it was embedded before.
+    put(dir / "wood.png", cut);
+    put(dir / "a.gltf", triangle("wood.png"));
+    put(dir / "b.glb", std::string(io::as_text(written(load(dir / "a.gltf"), "glb").files.at(0).bytes)));
+    CHECK(written(load(dir / "b.glb"), "gltf").warnings.size() == 1);
 }
 
 TEST_CASE("names of images beside an output begin with its stem, once each", "[io]") {

@@ -1,0 +1,15 @@
+#pragma once
+// Images that no viewer will show, told by their header and their extent alone.
+
+#include "io/bytes.hpp"
+
+#include <string>
+
+namespace facetmill::io {
+
+/// What is wrong with an image file as far as that is seen without decoding it: "its header is broken", "its
+/// data end early", "it is of no known kind"; empty where nothing is. PNG, JPEG, WebP, KTX2 and DDS. What
+/// lies between the header and the end is not looked at.
+std::string image_fault(Span bytes);
+
+} // namespace facetmill::io
