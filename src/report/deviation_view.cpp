@@ -40,6 +40,7 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
     settings.attribute = std::string(distance_attribute);
     settings.range = {ColourRange::Kind::given, -view.limit, view.limit, true};
     settings.edges = EdgeLines::no;
+    if (settings.camera) settings.camera = camera_of(scene, settings); // as large as from behind
     view.picture = page_text(picture_of(scene, settings));
     settings.turn = pi;
     if (settings.camera) settings.camera = camera_of(scene, settings);

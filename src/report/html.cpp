@@ -18,9 +18,9 @@ template <class Diagnostics>
 std::string diagnostics(const Diagnostics& all, const char* kind) {
     std::string rows;
     for (const auto& d : all)
-        rows += fmt::format("<tr>{}{}{}{}</tr>\n",
+        rows += fmt::format("<tr>{}<td class=\"said\">{}</td>{}<td class=\"said\">{}</td></tr>\n",
                             cell(fmt::format("<span class=\"{}\">{}</span>", kind, escaped(d.id))),
-                            cell(escaped(d.message)), cell(code(to_string(d.where))), cell(escaped(d.hint)));
+                            escaped(d.message), cell(code(to_string(d.where))), escaped(d.hint));
     return rows;
 }
 

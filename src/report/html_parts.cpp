@@ -34,7 +34,7 @@ td.notes { min-width: 22rem; } .digest code { overflow-wrap: anywhere; display: 
 .verdict { font-weight: 600; padding: .75rem 1.1rem; background: var(--soft); border-left: .3rem solid;
   border-radius: .3rem; margin: 1.1rem 0 .4rem; }
 .stage, .check { border-top: 1px solid var(--line); padding: 1rem 0; } .stage { display: grid; gap: 0 2rem; }
-section.check { color: inherit; } .check.bad { border-top-color: var(--bad); } .stage > * { min-width: 0; } .stage p { margin: .1rem 0; }
+section.check { color: inherit; } .check.bad { border-top-color: var(--bad); } .stage > * { min-width: 0; } .stage > .wide { grid-column: 1 / -1; } .stage p { margin: .1rem 0; }
 figure { margin: .6rem 0; max-width: 30rem; background: var(--soft); border-radius: .5rem; overflow: hidden; }
 figure.wide { max-width: 60rem; } figcaption { padding: .45rem .8rem .55rem; font-size: .85rem; color: var(--quiet); }
 img { display: block; width: 100%; height: auto; } .layers { display: grid; } .layers img { grid-area: 1 / 1; }
@@ -55,7 +55,7 @@ td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height
 @media (min-width: 800px) { .stage.pictured { grid-template-columns: minmax(0, 26rem) minmax(0, 1fr); }
   .stage.pictured > .shown { grid-column: 1; } .stage.pictured > .told { grid-column: 2; } }
 @media (max-width: 480px) { body { padding: 1.2rem 1rem 3rem; } dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
-  dd { margin-bottom: .5rem; } tr > th[scope=row] { white-space: normal; width: auto; } }
+  dd { margin-bottom: .5rem; } tr > th[scope=row] { white-space: normal; width: auto; } td.said { min-width: 15rem; } }
 @media print { body { max-width: none; padding: 0; } details { display: none; } .scroll { overflow: visible; } }
 )";
 

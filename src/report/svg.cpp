@@ -56,17 +56,40 @@ std::string outline(const BarChart& chart, double most) {
     return fmt::format("<path class=\"before\" d=\"{}V{}\"/>", path, bars_bottom);
 }
 
+/// Where the text of a tick stands.
+struct TickText {
+    double x;
+    const char* anchor;
+    double begin, end;
+};
+
+TickText tick_text_at(const BarChart& chart, double at, const std::string& text) {
+    constexpr double character = 7.2; // of its 12 pixels, a wide digit
+    const double x = std::clamp(std::clamp(at, 0.0, 1.0) * width_of(chart), 0.5, width_of(chart) - 0.5);
+    const double wide = character * static_cast<double>(text.size());
+    if (at < 0.04) return {x, "start", x, x + wide};
+    if (at > 0.96) return {x, "end", x - wide, x};
+    return {x, "middle", x - wide / 2, x + wide / 2};
+}
+
+/// Texts between the two at the ends are left out where they would run into another.
 std::string ticks(const BarChart& chart) {
     const double below = bars_bottom + (chart.scale ? strip + 2 : 0);
     std::string out =
         fmt::format("<path class=\"axis\" d=\"M0 {0}H{1}\"/>", bars_bottom + 0.5, width_of(chart));
-    for (const auto& [at, text] : chart.ticks) {
-        const double x = std::clamp(at, 0.0, 1.0) * width_of(chart);
-        const char* anchor = at < 0.04 ? "start" : at > 0.96 ? "end" : "middle";
-        out +=
-            fmt::format("<path class=\"axis\" d=\"M{0:.1f} {1}v4\"/><text x=\"{0:.1f}\" y=\"{2}\" "
-                        "text-anchor=\"{3}\">{4}</text>",
-                        std::clamp(x, 0.5, width_of(chart) - 0.5), below, below + 16, anchor, escaped(text));
+    constexpr double apart = 4;
+    double free = -apart, last = width_of(chart);
+    if (!chart.ticks.empty())
+        last = tick_text_at(chart, chart.ticks.back().first, chart.ticks.back().second).begin;
+    for (std::size_t i = 0; i < chart.ticks.size(); ++i) {
+        const auto& [at, text] = chart.ticks[i];
+        const TickText stands = tick_text_at(chart, at, text);
+        out += fmt::format("<path class=\"axis\" d=\"M{:.1f} {}v4\"/>", stands.x, below);
+        const bool is_end = i == 0 || i + 1 == chart.ticks.size();
+        if (!is_end && (stands.begin < free + apart || stands.end > last - apart)) continue;
+        free = stands.end;
+        out += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text>", stands.x, below + 16,
+                           stands.anchor, escaped(text));
     }
     return out;
 }

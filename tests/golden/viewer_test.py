@@ -118,6 +118,9 @@ report: page.html
             self.assertEqual(labels, ["before: as loaded", "small.glb, small.ply", "smaller.ply"])
             self.choose(browser, "colours", "deviation")
             self.assertRegex(browser.do("document.querySelector('.viewer .scale').textContent"), r"largest [\d.]+ mm")
+            browser.size(1400, 900)  # the distances of a stage are below its picture and its words, as wide as both
+            self.assertEqual(browser.do("[...document.querySelectorAll('.stage.pictured > .wide')].map("
+                                        "(wide) => wide.offsetWidth === wide.parentElement.offsetWidth)"), [True, True])
             self.clean(browser)
 
     def test_report_without_output(self):

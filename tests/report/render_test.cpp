@@ -5,6 +5,7 @@
 #include "mesh/shapes.hpp"
 #include "report/check_text.hpp"
 #include "report/render.hpp"
+#include "report/svg.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
@@ -218,6 +219,22 @@ TEST_CASE("a terminal is not told again of what was told as it arose", "[report]
     good.peak_memory = 2'000'000;
     CHECK(to_terminal(good, true) ==
           "\033[1mp.yaml\033[0m\n\033[1;32mok\033[0m in 0.50 s, peak memory 2.0 MB\n");
+}
+
+TEST_CASE("numbers below a chart do not run into each other", "[report]") {
+    const auto texts = [](std::vector<std::pair<double, std::string>> ticks) {
+        const std::string svg =
+            svg_of({.id = "a", .title = "t", .heights = {1, 2}, .ticks = std::move(ticks)});
+        std::string all;
+        for (auto at = svg.find("<text"); at != svg.npos; at = svg.find("<text", at + 1))
+            all += svg.substr(svg.find('>', at) + 1, svg.find("</text>", at) - svg.find('>', at) - 1) + " ";
+        return all;
+    };
+    CHECK(texts({{0, "0.00657"}, {0.5, "0.0156"}, {1, "0.0442"}}) == "0.00657 0.0156 0.0442 ");
+    CHECK(texts({{0, "0.00657"}, {0.18, "0.00929"}, {0.45, "0.0156"}, {1, "0.0442"}}) ==
+          "0.00657 0.0156 0.0442 ");
+    CHECK(texts({{0, "1"}, {0.86, "0.00929"}, {1, "0.0442"}}) == "1 0.0442 "); // that at the end is kept
+    CHECK(texts({}).empty());
 }
 
 TEST_CASE("JUnit: checks and errors are cases", "[report]") {
