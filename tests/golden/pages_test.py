@@ -6,10 +6,11 @@ import html
 import json
 import re
 import shlex
+import struct
 import subprocess
 import unittest
 
-from support import SCAN, SLOW, Case, main
+from support import SCAN, SLOW, Case, main, png
 
 try:
     import jsonschema
@@ -268,6 +269,40 @@ class Pages(Case):
             self.assertNotRegex(shown(page), r"\bnan\b|-nan", name)
             run = self.mill("diff", name, "broken.ply", "--report", "d.html", expect=None)
             self.assertIn(run.returncode, (0, 1, 6), f"{name}\n{run.stderr}")
+
+    def test_pictures_are_the_same_for_any_number_of_threads(self):
+        """PNG files, byte for byte: shading, occlusion, wireframe, textures, transparency, a heat map, several views."""
+        self.mill("pipe", "-q", "generate", "icosphere", "--subdivisions", "4", "!", "write", "ball.gltf")
+        scene = json.loads((self.dir / "ball.gltf").read_text())
+        scene.update(images=[{"uri": "colours.png"}], textures=[{"source": 0}],
+                     materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 1, 1, 0.5]},
+                                 "alphaMode": "BLEND"}])
+        primitive = scene["meshes"][0]["primitives"][0]
+        primitive["material"] = 0
+        primitive["attributes"]["TEXCOORD_0"] = len(scene["accessors"])
+        count = scene["accessors"][primitive["attributes"]["POSITION"]]["count"]
+        uv = b"".join(struct.pack("<2f", i % 7 / 7, i % 11 / 11) for i in range(count))
+        scene["accessors"].append({"bufferView": len(scene["bufferViews"]), "componentType": 5126, "count": count, "type": "VEC2"})
+        scene["bufferViews"].append({"buffer": len(scene["buffers"]), "byteLength": len(uv)})
+        scene["buffers"].append({"byteLength": len(uv), "uri": "uv.bin"})
+        (self.dir / "uv.bin").write_bytes(uv)
+        (self.dir / "colours.png").write_bytes(png(200, 30, 120))
+        self.write("ball.gltf", json.dumps(scene))
+        modes = {"plain": (), "absolute": ("--shading", "absolute", "--normals", "smooth"), "bare": ("--no-occlusion",),
+                 "wires": ("--edges", "all", "--silhouettes"), "beside": ("--shading", "beside"),
+                 "curved": ("--attribute", "mean_curvature"), "around": ("--views", "turntable"), "deep": ("--perspective", "40")}
+        line = [word for name, options in modes.items()
+                for word in ("!", "render", f"{name}.png", "--width", "200", "--height", "150", *options)]
+        seen = []
+        for threads in (1, 2, 3):
+            for source, before in ((SCAN, ("!", "simplify", "20%", "!", "measure", "--curvature")), ("ball.gltf", ())):
+                there = [*line] if before else line[:line.index("curved.png") - 2] + line[line.index("around.png") - 2:]
+                self.mill("pipe", "-q", "-j", threads, "-o", f"{threads}/{'scan' if before else 'ball'}", "load", source, *before, *there)
+            seen.append({name: digest for name, digest in self.files(self.dir / str(threads)).items()})
+        self.assertEqual(len(seen[0]), 2 * len(modes) - 1)
+        self.assertEqual(len({digest for name, digest in seen[0].items() if name.startswith("scan/")}), len(modes))  # all differ
+        self.assertEqual(seen[0], seen[1])
+        self.assertEqual(seen[0], seen[2])
 
     def test_a_page_that_cannot_be_written(self):
         self.write("o.off", OPEN)

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import unittest
+from xml.etree import ElementTree
 
 from support import SOURCE, Case, main
 
@@ -146,6 +147,84 @@ class Completions(Case):
 
     def test_fish(self):
         self.check_shell("fish")
+
+
+class JUnit(Case):
+    """The rules that build servers hold JUnit files to: those of the schema junit-10.xsd of Jenkins' xUnit plugin, and what
+    Jenkins, GitLab and GitHub rely on beside them (counts that agree, names that are unique)."""
+
+    ATTRIBUTES = {  # of each element: those that it needs, and others that it may have
+        "testsuites": (set(), {"name", "time", "tests", "failures", "errors"}),
+        "testsuite": ({"name", "tests", "failures", "errors"}, {"group", "time", "skipped", "timestamp", "hostname", "id", "package",
+                                                               "file", "log", "url"}),
+        "testcase": ({"name"}, {"time", "classname", "group"}),
+        "failure": (set(), {"type", "message"}), "error": (set(), {"type", "message"}), "skipped": (set(), {"type", "message"}),
+        "system-out": (set(), set()), "system-err": (set(), set())}
+    CHILDREN = {"testsuites": {"testsuite"}, "testsuite": {"testcase", "properties", "system-out", "system-err"},
+                "testcase": {"skipped", "error", "failure", "system-out", "system-err"}}
+    OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+    def holds(self, element):
+        needed, allowed = self.ATTRIBUTES[element.tag]
+        self.assertLessEqual(needed, set(element.attrib), element.tag)
+        self.assertLessEqual(set(element.attrib), needed | allowed, element.tag)
+        self.assertLessEqual({child.tag for child in element}, self.CHILDREN.get(element.tag, set()), element.tag)
+        if element.tag in self.CHILDREN:  # no text between elements
+            for text in (element.text, *(child.tail for child in element)):
+                self.assertEqual((text or "").strip(), "")
+        for child in element:
+            self.holds(child)
+
+    def follows(self, name):
+        """The cases of a report, by class and name: what became of each."""
+        root = ElementTree.parse(self.dir / name).getroot()
+        self.assertEqual(root.tag, "testsuites")
+        self.holds(root)
+        suite, = root
+        cases = {}
+        for case in suite:
+            key = case.get("classname"), case.get("name")
+            self.assertNotIn(key, cases)
+            kinds = [child.tag for child in case if child.tag in ("failure", "error", "skipped")]
+            self.assertLessEqual(len(kinds), 1)
+            cases[key] = kinds[0] if kinds else case[0].tag if len(case) else "passed"
+        self.assertEqual(int(suite.get("tests")), len(cases))
+        for attribute, kind in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+            self.assertEqual(int(suite.get(attribute, 0)), list(cases.values()).count(kind), attribute)
+        return cases
+
+    def test_runs(self):
+        name = 'a<script>&"\x01'
+        self.write("t.off", self.OPEN)
+        self.write("s.obj", f"o {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.mill("pipe", "--report", "ok.xml", "load", "t.off", "!", "write", "t.ply")
+        self.assertEqual(self.follows("ok.xml"), {("run", "done"): "passed"})
+        self.mill("pipe", "--report", "checks.xml", "load", "s.obj", "!", "validate", "--closed", "--edges", "3", "--per", "part", "!",
+                  "validate", "--closed", "--severity", "warn", expect=1)
+        cases = self.follows("checks.xml")
+        self.assertEqual(sorted(cases.values()), ["failure", "passed", "system-out"])
+        self.assertTrue(any("a<script>&\"" in case for _, case in cases), cases)
+        self.mill("pipe", "--report", "error.xml", "load", "t.off", "!", "simplify", "--method", "quadric", "--faces", "1", "!",
+                  "thicken", "1", "!", "combine", "union", "!", "write", "t.ply", expect=None)
+        self.follows("error.xml")
+        self.write("bad.off", "OFF\nbroken")
+        self.mill("pipe", "--report", "bad.xml", "load", "bad.off", "!", "write", "t.ply", expect=6)
+        self.assertEqual(list(self.follows("bad.xml").values()), ["error"])
+        self.write("p.yaml", "facetmill: 1\nstages: [{load: t.off}, {validate: {closed: true, baseline: k.json}}]\n"
+                             "report: known.xml\n")
+        self.mill("run", "p.yaml", "--update-baseline")
+        self.mill("run", "p.yaml")
+        self.assertEqual(list(self.follows("known.xml").values()), ["system-out"])
+
+    def test_batches(self):
+        self.write("in/t.off", self.OPEN)
+        self.write("in/bad.off", "OFF\nbroken")
+        self.write("in/u.off", self.OPEN.replace("4 3 0", "4 4 0") + "3 0 2 1\n")
+        self.write("p.yaml", "facetmill: 1\nparams: {input: path}\n"
+                             "stages: [{load: '${input}'}, {validate: {closed: true}}, {write: '${input.stem}.ply'}]\n")
+        self.mill("batch", "p.yaml", "--input", "in/*.off", "-o", "out", "--keep-going", "--report", "all.xml", expect=None)
+        self.assertEqual(self.follows("out/all.xml"), {("asset", "in/t.off"): "failure", ("asset", "in/bad.off"): "error",
+                                                   ("asset", "in/u.off"): "passed"})
 
 
 if __name__ == "__main__":

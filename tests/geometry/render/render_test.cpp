@@ -243,20 +243,35 @@ TEST_CASE("pictures stand in rows", "[geometry]") {
     CHECK(at(sheet, 150, 150).a == 0);
 }
 
-TEST_CASE("the same bytes for any number of threads", "[geometry]") {
+TEST_CASE("the same bytes for any number of threads, however a scene is drawn", "[geometry]") {
     Scene scene = scene_of(shapes::icosphere(4));
+    Mesh& ball = scene.parts[0].mesh;
+    std::vector<float> heights;
+    for (const Vec3& p : ball.positions) heights.push_back(static_cast<float>(p.y));
+    ball.attributes.push_back({"height", Domain::vertex, Role::generic, 1, false, heights});
     scene.parts.push_back(square().parts[0]);
-    PictureSettings s;
-    s.silhouettes = true;
-    s.normals = ShadingNormals::smooth;
-    s.perspective = 0.6;
-    s.edges = EdgeLines::all;
+    std::vector<PictureSettings> all(11);
+    for (std::size_t i = 0; i < 6; ++i) {
+        all[i].shading = std::array{Shading::sides, Shading::one_sided, Shading::absolute}[i / 2];
+        all[i].normals = i % 2 == 0 ? ShadingNormals::flat : ShadingNormals::smooth;
+    }
+    all[6].perspective = 0.6;
+    all[6].silhouettes = true;
+    all[6].edges = EdgeLines::all; // a wireframe over the faces
+    all[7].occlusion = false;
+    all[8].coarse_occlusion = true;
+    all[9].paint = Paint::normal;
+    all[10].attribute = "height"; // a heat map
+    all[10].legend = true;
     const int before = threads();
-    set_threads(1);
-    const Picture one = picture_of(scene, s);
-    for (const int count : {2, 3}) {
-        set_threads(count);
-        CHECK(picture_of(scene, s).rgba == one.rgba);
+    for (const PictureSettings& s : all) {
+        set_threads(1);
+        const Picture one = picture_of(scene, s);
+        CHECK(covered(one) > 1000);
+        for (const int count : {2, 3}) {
+            set_threads(count);
+            CHECK(picture_of(scene, s).rgba == one.rgba);
+        }
     }
     set_threads(before);
 }
