@@ -151,7 +151,7 @@ def compared(mill, files, line, folder, repeat, loading):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("stages", nargs="*")
-    parser.add_argument("--mill", default=ROOT / "build/release/facetmill")
+    parser.add_argument("--mill", default=ROOT / "build/release/facetmill", type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--parts", type=int, default=10000)
     parser.add_argument("--instances", type=int, default=100)
     parser.add_argument("--repeat", type=int, default=2)

@@ -47,7 +47,11 @@ std::uint64_t image_views(const Json& document) {
 }
 
 ByteKinds of_document(std::string_view text, std::uint64_t size, bool has_own_buffer) {
-    const Json document = Json::parse(text.begin(), text.end(), nullptr, false);
+    // Most documents have neither images nor data URIs, which they cannot have without these words or
+    // escapes.
+    const auto has = [&](std::string_view word) { return text.find(word) != std::string_view::npos; };
+    const bool asked = has("\"images\"") || has("\"data:") || has("\\");
+    const Json document = asked ? parse_json(text, Broken::discarded) : Json();
     const std::uint64_t images = embedded(document, "images"), buffers = embedded(document, "buffers");
     ByteKinds kinds;
     kinds.textures = std::min(size, images + (has_own_buffer ? image_views(document) : 0));

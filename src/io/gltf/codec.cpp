@@ -405,9 +405,10 @@ void warn_of_losses(Patch& patch) {
 
 Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     Written written;
-    const int base = base_document(scene);
+    BaseDocument found = base_document(scene);
+    const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
-    Builder builder(document ? parse_document(document->json) : empty_document(),
+    Builder builder(document ? std::move(found.json) : empty_document(),
                     document ? &document->buffers : nullptr);
     std::map<std::size_t, Transform> skin_moves;
     const bool skins_moved = std::any_of(scene.parts.begin(), scene.parts.end(), [](const Part& part) {

@@ -114,10 +114,9 @@ Json MaterialContents::of(const Material& material) {
 }
 
 Json document_contents(const Scene& scene) {
-    const int base = base_document(scene);
+    const auto [base, json] = base_document(scene);
     if (base < 0) return nullptr;
     const Document& document = *scene.documents[static_cast<std::size_t>(base)];
-    const Json json = parse_document(document.json);
     Speller speller(json, document);
     Json out = {{"animations", Json::array()},
                 {"skins", Json::array()},

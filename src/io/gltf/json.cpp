@@ -1,5 +1,7 @@
 #include "io/gltf/json.hpp"
 
+#include "base/quick_json.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -42,6 +44,7 @@ std::string shown(const Json& json) {
 } // namespace
 
 Json parse_document(std::string_view text) {
+    if (auto read = quick_json(text, deepest)) return *std::move(read);
     check_depth(text);
     try {
         return parse_json(text);
@@ -56,8 +59,31 @@ std::string to_string(const Json& document) {
     return document.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string Place::path() const {
+    std::string path = above_;
+    for (std::size_t i = 0; i < step_count_; ++i) {
+        if (!steps_[i].key)
+            path += fmt::format("[{}]", steps_[i].item);
+        else
+            path += path.empty() ? *steps_[i].key : "." + *steps_[i].key;
+    }
+    return path;
+}
+
+Place Place::after(const Step& step, const Json& json) const {
+    const bool full = step_count_ == steps_.size();
+    Place next(json, full ? path() : above_);
+    if (!full) {
+        next.steps_ = steps_;
+        next.step_count_ = step_count_;
+    }
+    next.steps_[next.step_count_++] = step;
+    return next;
+}
+
 void Place::fail(const std::string& message, const char* id, std::string hint) const {
-    throw Error(ErrorKind::malformed, id, path_.empty() ? message : path_ + ": " + message, std::move(hint));
+    const std::string where = path();
+    throw Error(ErrorKind::malformed, id, where.empty() ? message : where + ": " + message, std::move(hint));
 }
 
 void Place::expected(const char* what) const {
@@ -66,9 +92,10 @@ void Place::expected(const char* what) const {
 
 std::optional<Place> Place::find(const char* key) const {
     if (!json_->is_object()) expected("an object");
-    const auto it = json_->find(key);
-    if (it == json_->end()) return std::nullopt;
-    return Place(*it, path_.empty() ? key : path_ + "." + key);
+    const std::string_view wanted(key);
+    for (const auto& member : json_->get_ref<const Json::object_t&>())
+        if (member.first == wanted) return after({&member.first, 0}, member.second);
+    return std::nullopt;
 }
 
 Place Place::at(const char* key) const {
@@ -79,7 +106,7 @@ Place Place::at(const char* key) const {
 
 Place Place::at(std::size_t i) const {
     if (i >= size()) fail(fmt::format("item {} of {} is missing", i, size()));
-    return Place((*json_)[i], fmt::format("{}[{}]", path_, i));
+    return after({nullptr, i}, (*json_)[i]);
 }
 
 std::size_t Place::size() const {

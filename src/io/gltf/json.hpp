@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,10 +21,10 @@ std::string to_string(const Json& document);
 /// A value of the document and where it stands. Every access checks and throws malformed (E-GLTF).
 class Place {
   public:
-    Place(const Json& json, std::string path) : json_(&json), path_(std::move(path)) {}
+    Place(const Json& json, std::string path) : json_(&json), above_(std::move(path)) {}
 
     const Json& json() const { return *json_; }
-    const std::string& path() const { return path_; }
+    std::string path() const; ///< "accessors[3].count"
 
     /// A member of an object; none when absent.
     std::optional<Place> find(const char* key) const;
@@ -45,9 +46,18 @@ class Place {
                            std::string hint = {}) const;
 
   private:
+    /// From an object to a member, by its key in the document, or from an array to an item.
+    struct Step {
+        const std::string* key = nullptr;
+        std::size_t item = 0;
+    };
     [[noreturn]] void expected(const char* what) const;
+    Place after(const Step& step, const Json& json) const;
+
     const Json* json_;
-    std::string path_;
+    std::string above_;           // the path of the value from which the steps lead to this one
+    std::array<Step, 6> steps_{}; // spelled only where somebody asks: most values are as they should be
+    std::size_t step_count_ = 0;
 };
 
 /// A top-level array of the document ("accessors"), or none when it is absent.

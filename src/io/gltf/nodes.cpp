@@ -205,13 +205,13 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
     return all;
 }
 
-int base_document(const Scene& scene) {
+BaseDocument base_document(const Scene& scene) {
     for (std::size_t d = 0; d < scene.documents.size(); ++d) {
-        const Json json = parse_document(scene.documents[d]->json);
+        Json json = parse_document(scene.documents[d]->json);
         for (const char* content : {"scenes", "nodes", "meshes"})
-            if (json.contains(content)) return static_cast<int>(d);
+            if (json.contains(content)) return {static_cast<int>(d), std::move(json)};
     }
-    return -1;
+    return {};
 }
 
 Json matrix(const Transform& t) {

@@ -59,9 +59,14 @@ bool makes_points(const Place& primitive);
 /// Whether a part is made of the mesh's lines: it has some, and no triangles.
 bool is_of_lines(const Place& mesh);
 
+/// A document of a scene.
+struct BaseDocument {
+    int index = -1; ///< in Scene::documents; -1: there is none
+    Json json{};
+};
 /// The first document of the scene with nodes or meshes; those that only tell the materials of another format
-/// have none. -1 when there is none.
-int base_document(const Scene& scene);
+/// have none.
+BaseDocument base_document(const Scene& scene);
 
 /// glTF's 16 numbers, column by column.
 Json matrix(const Transform& t);

@@ -1,0 +1,108 @@
+#include "base/quick_json.hpp"
+
+#include "base/random.hpp"
+
+#include "support/catch.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+/// Whether both are the same to their types: numbers of different types are equal for the library.
+bool same(const Json& a, const Json& b) {
+    if (a.type() != b.type() || a.size() != b.size()) return false;
+    if (a.is_object())
+        return std::equal(
+            a.items().begin(), a.items().end(), b.items().begin(),
+            [](const auto& x, const auto& y) { return x.key() == y.key() && same(x.value(), y.value()); });
+    if (a.is_array()) return std::equal(a.begin(), a.end(), b.begin(), same);
+    return a == b && a.dump() == b.dump();
+}
+
+Json by_library(std::string_view text) { return Json::parse(text.begin(), text.end(), nullptr, false); }
+
+std::string nested(int levels) {
+    return std::string(static_cast<std::size_t>(levels), '[') +
+           std::string(static_cast<std::size_t>(levels), ']');
+}
+
+constexpr const char* document =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "nodes": [{"name": "a\"\u00fc\n\\", "mesh": 0,)"
+    R"( "translation": [0.1, -2.5e-3, 1E+7]}, {"extras": {"x": null, "y": [true, false, -12, "é"]}}],)"
+    R"( "bufferViews": [], "big": [18446744073709551615, -9223372036854775808, 1e308], "empty": {} })";
+
+} // namespace
+
+TEST_CASE("JSON is read as the library reads it", "[base]") {
+    for (const std::string text : {document,
+                                   "{}",
+                                   "[]",
+                                   " [ ] \n",
+                                   "0",
+                                   "-0",
+                                   "-0.0",
+                                   "1.5",
+                                   "12345678901234567890",
+                                   "18446744073709551616",
+                                   "-9223372036854775809",
+                                   "9007199254740993.0",
+                                   "0.1",
+                                   "5e-324",
+                                   "1e5",
+                                   "null",
+                                   " true\t",
+                                   "\"\"",
+                                   R"("\ud83d\ude00 \/")",
+                                   "\"\xc3\xa9\"",
+                                   R"({"": {"a": [[], {}, [{}]]}})"}) {
+        INFO(text);
+        const auto read = quick_json(text);
+        REQUIRE(read);
+        CHECK(same(*read, by_library(text)));
+    }
+    CHECK(quick_json(nested(256)));
+    CHECK_FALSE(quick_json(nested(257)));
+    CHECK_FALSE(quick_json("[[]]", 1));
+}
+
+TEST_CASE("what only the library reads is left to it", "[base]") {
+    for (const std::string text : {R"({"a": 1, "b": 2, "a": 3})", "\xef\xbb\xbf{}"}) {
+        INFO(text);
+        CHECK_FALSE(quick_json(text));
+        CHECK_FALSE(by_library(text).is_discarded());
+        CHECK(same(parse_json(text), by_library(text)));
+    }
+    CHECK(same(parse_json("1e-400"), by_library("1e-400"))); // left to it by some standard libraries only
+}
+
+TEST_CASE("what is no JSON is refused", "[base]") {
+    for (const std::string text :
+         {"",         " ",       "{",           "}",           "[1,]",     "[1 2]",    "{\"a\" 1}",
+          "{\"a\":}", "{a: 1}",  "{\"a\": 1,}", "01",          "-",        "+1",       "1.",
+          ".5",       "1e",      "1e+",         "nul",         "nullx",    "tru",      "\"a",
+          "\"a\nb\"", "\"\\x\"", "\"\\\"",      "\"\\ud83d\"", "\"\xc3\"", "\"\xff\"", "[1] 2",
+          "1e400",    "NaN",     "{} // no"}) {
+        INFO(text);
+        CHECK_FALSE(quick_json(text));
+        CHECK(by_library(text).is_discarded());
+    }
+    CHECK_FALSE(quick_json(std::string("[]") + '\0'));
+}
+
+TEST_CASE("damaged JSON is read as the library reads it, or left to it", "[base]") {
+    constexpr std::string_view bytes("{}[]\",:\\ue0-.19t\n\x80\xc3", 20);
+    std::size_t accepted = 0;
+    for (std::uint64_t round = 0; round < 2000; ++round) {
+        std::string text(document);
+        for (std::uint64_t change = 0; change <= round % 3; ++change) {
+            const std::size_t at = hashed(2 * change + 1, round) % text.size();
+            text[at] = bytes[hashed(2 * change + 2, round) % bytes.size()];
+        }
+        INFO(text);
+        const auto read = quick_json(text);
+        const Json wanted = by_library(text);
+        if (read) CHECK(same(*read, wanted));
+        accepted += read.has_value();
+    }
+    CHECK(accepted > 100);
+}
