@@ -21,6 +21,9 @@ namespace {
 /// there is none.
 std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global_control>;
 int count = 0;
+/// Where more threads are wanted than there are cores: for loops of threads in TBB's own arenas, which have a
+/// thread for each core and no more. Never destroyed, as `control`.
+std::unique_ptr<tbb::task_arena>& wide = *new std::unique_ptr<tbb::task_arena>;
 
 /// TBB begins with requests for memory under locks that it takes again to tell that there was none, and so
 /// would wait for itself for ever (oneTBB 2022). So its own allocator is asked before, without them, for
@@ -38,6 +41,13 @@ void begin_tbb() {
     kept->initialize();
 }
 
+/// Whether a loop of this thread would have fewer threads than are wanted. An arena of one thread is meant
+/// so: a job of a batch that may have no more.
+bool is_in_narrow_arena() {
+    const int here = tbb::this_task_arena::max_concurrency();
+    return wide && here > 1 && here < count;
+}
+
 } // namespace
 
 void set_threads(int wanted) {
@@ -45,6 +55,10 @@ void set_threads(int wanted) {
     count = wanted > 0 ? wanted : default_threads();
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(count));
+    wide.reset();
+    if (count <= tbb::info::default_concurrency()) return;
+    wide = std::make_unique<tbb::task_arena>(count);
+    wide->initialize();
 }
 
 int threads() { return count > 0 ? count : tbb::info::default_concurrency(); }
@@ -59,7 +73,10 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
     // only some chunks have made.
     tbb::task_group_context whole(tbb::task_group_context::isolated);
     const auto run = [&](auto&& one) {
-        tbb::parallel_for(std::size_t{0}, chunks, one, tbb::simple_partitioner{}, whole);
+        const auto loop = [&] {
+            tbb::parallel_for(std::size_t{0}, chunks, one, tbb::simple_partitioner{}, whole);
+        };
+        is_in_narrow_arena() ? wide->execute(loop) : loop();
     };
     const auto work = [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); };
     const Share::Place place = Share::of_loop();

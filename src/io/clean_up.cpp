@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <unistd.h>
 
 namespace facetmill::io {
@@ -23,6 +24,7 @@ namespace {
 // Only lock-free atomics and async-signal-safe calls are used in the handler.
 enum State : int { idle, held, dying };
 std::atomic<int> state{idle};
+std::atomic<std::thread::id> holder; ///< the last that held signals off
 std::atomic<int> waiting_signal{0};
 std::atomic<CleanUp*> entries{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<CleanUp*>::is_always_lock_free);
@@ -101,10 +103,10 @@ void keep(CleanUp* entry) {
 }
 
 void end_at_once(int exit_code, std::string_view message) {
-    int expected = idle;
-    if (!state.compare_exchange_strong(expected, dying)) {
+    for (int expected = idle; !state.compare_exchange_strong(expected, dying); expected = idle) {
         if (expected == dying) wait_for_the_end();
-        return;
+        if (holder == std::this_thread::get_id()) return;
+        std::this_thread::yield(); // another gives outputs their names: all of them or none
     }
     undo_all();
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
@@ -117,6 +119,7 @@ std::mutex holders; ///< runs of several threads commit one after another
 
 HoldSignals::HoldSignals() {
     holders.lock();
+    holder = std::this_thread::get_id();
     int expected = idle;
     if (!state.compare_exchange_strong(expected, held)) wait_for_the_end();
 }

@@ -18,8 +18,8 @@ CleanUp* clean_up_directory(const std::filesystem::path& path);
 void keep(CleanUp* entry);
 
 /// Ends the process as a signal does, from where nothing can be thrown or allocated: removes what is staged,
-/// writes the message to standard error. Returns only while a commit renames: it will end by itself, or
-/// throws.
+/// writes the message to standard error. Waits while another thread gives outputs their names. Returns only
+/// to the thread that does so: it will end by itself, or throws.
 void end_at_once(int exit_code, std::string_view message);
 
 /// While one lives, a signal waits: the process ends when it goes. For the renames of a commit. A second

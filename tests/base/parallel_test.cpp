@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -56,4 +57,32 @@ TEST_CASE("an error ends its loop, and no loop inside of another chunk", "[base]
         CHECK_THROWS_AS(parallel_for(chunks, body, 1), std::runtime_error);
         CHECK(cut_short == 0);
     }
+}
+
+TEST_CASE("a loop has as many threads as are wanted, also on fewer cores, and inside of another", "[base]") {
+    constexpr std::size_t wanted = 5;
+    set_threads(wanted);
+    for (const bool nested : {false, true}) {
+        std::atomic<std::size_t> together{0};
+        const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        const auto meet = [&] {
+            ++together;
+            while (together < wanted && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+        };
+        const auto all = [&] {
+            parallel_for(
+                wanted, [&](std::size_t) { meet(); }, 1);
+        };
+        if (nested)
+            parallel_for(
+                2,
+                [&](std::size_t outer) {
+                    if (outer == 1) all();
+                },
+                1);
+        else
+            all();
+        CHECK(std::chrono::steady_clock::now() < until);
+    }
+    set_threads(0);
 }

@@ -422,9 +422,10 @@ class Process(Case):
         shutil.copy(self.dir / "a.off", self.dir / "b.off")
         run = ("run", "p.yaml", "-D", "input=a.off", "-o", "out")
         seen = set()
-        for command in ((*run, "-j1"), (*run, "-j3"), ("batch", "p.yaml", "--input", "*.off", "-j2", "-o", "out2")):
+        for command in ((*run, "-j1"), (*run, "-j3"), (*run, "-j64"), ("batch", "p.yaml", "--input", "*.off", "-j2", "-o", "out2")):
             before_main = range(26000, 32000, 150) if "-j1" in command else ()
-            for kib in (*before_main, *range(32000, 90000, 3000)):
+            many = range(90000, 900000, 15000) if "-j64" in command else ()
+            for kib in (*before_main, *range(32000, 90000, 3000), *many):
                 limit = kib << 10
                 limited = lambda *arguments: subprocess.run(
                     [str(FACETMILL), *arguments], cwd=self.dir, capture_output=True, text=True, timeout=600,

@@ -15,6 +15,8 @@ class task_arena {
 
 namespace this_task_arena {
 
+inline int max_concurrency() { return 1; }
+
 template <class Body>
 void isolate(const Body& body) {
     body();
