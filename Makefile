@@ -7,6 +7,7 @@
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
 #   make faults   make calls of the system fail, one in each of some thousand runs (tests/faults/faults.py)
+#   make schedules   stop threads at random instructions in 1,000 runs and compare bytes (tests/faults/schedules.py)
 #   make fuzz     random meshes through random chains of stages for a while (MINUTES=10, FIRST=1, the first seed);
 #                 TARGET=ply and such: libFuzzer over what reads bytes, with clang (TARGET=all: each for its share)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
@@ -28,7 +29,7 @@ TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults fuzz fuzz-stages fuzz-bytes bench site pictures install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb format check-layers check-style clean
 all: build
 
 deps:
@@ -65,6 +66,10 @@ faults: build
 	python3 tests/faults/faults.py
 	python3 tests/faults/faults.py --kill
 	python3 tests/faults/faults.py --stages
+
+schedules: build
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target facetmill_perturb
+	python3 tests/faults/schedules.py
 
 fuzz: $(if $(filter stages,$(TARGET)),fuzz-stages,fuzz-bytes)
 

@@ -1,4 +1,4 @@
-"""Calls of the system that fail, in a few runs; `make faults` takes every call of more."""
+"""Calls of the system that fail and threads that are stopped, in a few runs; `make faults` and `make schedules` take more."""
 
 import dataclasses
 import errno
@@ -7,6 +7,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 from support import main
 
@@ -14,6 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
 import faults  # noqa: E402
 import power  # noqa: E402
 import scenarios  # noqa: E402
+import schedules  # noqa: E402
 
 
 @unittest.skipUnless(os.environ.get("FACETMILL_INJECTOR"),
@@ -84,6 +86,25 @@ class Faults(unittest.TestCase):
                          ["neither old nor new: a.ply, b.ply"])
         self.assertEqual(list(trial.left_problems({"c.off": b"", ".a.ply.facetmill-1~": b""}, False)),
                          ["changed: c.off", "left: .a.ply.facetmill-1~"])
+
+
+@unittest.skipUnless(os.environ.get("FACETMILL_PERTURBER"), "no tests/faults/perturb.c in this build, as above")
+class Schedules(unittest.TestCase):
+    CHOSEN = ("scan", "many parts", "render", "cells")
+
+    def test_the_bytes_are_those_of_one_thread(self):
+        counts, names, findings = schedules.run(8, chosen=self.CHOSEN)
+        self.assertEqual(findings, [], "\n".join(findings))
+        self.assertEqual(names, set(self.CHOSEN))
+        self.assertGreater(counts["threads"], counts["runs"])
+        self.assertGreater(counts["stops"], counts["runs"])
+
+    def test_what_differs_is_found(self):
+        line = ["--timings", "t.json", "generate", "sphere", "!", "write", "o.ply"]
+        with unittest.mock.patch.object(schedules, "commands", lambda: [("with times", line)]):
+            _, _, findings = schedules.run(1)
+        self.assertEqual(len(findings), 1)
+        self.assertTrue(findings[0].endswith("seed 1: t.json"), findings)
 
 
 if __name__ == "__main__":
