@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """What facetmill, trimesh, pymeshlab and CGAL say of the same meshes, and where they disagree.
 
-verdicts.py FACETMILL [--cgal CGAL_VERDICTS] FILE_OR_FOLDER...
+verdicts.py FACETMILL [--cgal CGAL_VERDICTS] [--generated FIRST COUNT] FILE_OR_FOLDER...
 
-CGAL_VERDICTS is the program built from cgal_verdicts.cpp; without it CGAL is not asked.
+CGAL_VERDICTS is the program built from cgal_verdicts.cpp; without it CGAL is not asked. --generated takes the broken
+meshes of repair.py of these seeds, too.
 
 Every file is brought to triangles in one part by facetmill and written as OFF, so that all judge the same vertices
 and faces; what is compared is told by `compare`. Needs numpy, trimesh, pymeshlab. Prints a line for each file, with the
 disagreements; those that `explained` knows are named by their reason. Exit code 1 when one is left unexplained.
 """
+import argparse
 import collections
+import itertools
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,6 +24,8 @@ from fractions import Fraction
 import numpy as np
 import pymeshlab
 import trimesh
+
+import repair
 
 LIMIT = 400000  # faces; larger files take the peers too long
 
@@ -278,25 +284,40 @@ def judge(facetmill, cgal, path, scratch):
     return "agree" if not found else "differ", found
 
 
+def generated(first, count, scratch):
+    for seed in range(first, first + count):
+        vertices, faces, _ = repair.generated(seed)
+        path = scratch / f"{seed}.ply"
+        trimesh.Trimesh(vertices, faces, process=False).export(path)
+        yield path
+        path.unlink()
+
+
 def main():
-    facetmill, rest, cgal = sys.argv[1], sys.argv[2:], None
-    if rest[:1] == ["--cgal"]:
-        cgal, rest = rest[1], rest[2:]
-    roots = [pathlib.Path(p) for p in rest]
-    files = sorted(f for r in roots for f in ([r] if r.is_file() else r.rglob("*")) if f.is_file() and f.suffix != ".tsv")
+    ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ask.add_argument("facetmill")
+    ask.add_argument("--cgal")
+    ask.add_argument("--generated", nargs=2, type=int, metavar=("FIRST", "COUNT"), default=(0, 0))
+    ask.add_argument("roots", nargs="*", type=pathlib.Path)
+    given = ask.parse_args()
+    files = sorted(f for r in given.roots for f in ([r] if r.is_file() else r.rglob("*"))
+                   if f.is_file() and f.suffix != ".tsv")
     reasons, left = collections.Counter(), 0
     with tempfile.TemporaryDirectory() as folder:
-        for path in files:
-            verdict, found = judge(facetmill, cgal, path, pathlib.Path(folder))
+        scratch = pathlib.Path(folder)
+        for path in itertools.chain(files, generated(*given.generated, scratch)):
+            verdict, found = judge(given.facetmill, given.cgal, path, scratch)
             reasons[verdict.split(":")[0]] += 1
-            print(f"{path}: {verdict}", flush=True)
+            if verdict != "agree" or path in files:
+                print(f"{path}: {verdict}", flush=True)
             for name, ours, theirs, why in found:
                 print(f"    {name}: {ours}, theirs {theirs}{'  (' + why + ')' if why else '  UNEXPLAINED'}", flush=True)
-                reasons[why or "unexplained"] += 1
+                reasons[re.sub("[0-9]+", "N", why) if why else "unexplained"] += 1
                 left += not why
     for reason, count in reasons.most_common():
         print(f"{count:6} {reason}")
     return left > 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())
