@@ -241,7 +241,9 @@ class CellCleaning {
     /// With its mesh, the collar in it.
     CleanResult cleaned_part() {
         gather();
-        CleanResult part = clean(with_collar(), settings_);
+        Mesh unsound = unsound_faces();
+        unsound_area_ = area_of(unsound);
+        CleanResult part = clean(with_collar(std::move(unsound)), settings_);
         for (const char* own : {source_name, collar_name}) forget_change(part.changes, own);
         return part;
     }
@@ -315,12 +317,11 @@ class CellCleaning {
         return mesh;
     }
 
-    /// The faces at unsound places as a mesh, the collar after them.
-    Mesh with_collar() const {
+    /// The mesh of unsound_faces(), the collar after them.
+    Mesh with_collar(Mesh mesh) const {
         const Mesh& whole = whole_.mesh;
         std::vector<std::uint8_t> in_part(whole.face_count());
         for (Index f = 0; f < in_part.size(); ++f) in_part[f] = faces_.sheets[f] == no_sheet;
-        Mesh mesh = unsound_faces();
         std::vector<std::uint8_t> in_collar(mesh.face_count(), 0);
         std::vector<std::uint32_t> source(whole.vertex_count());
         for (Index v = 0; v < source.size(); ++v) source[v] = v;
@@ -366,7 +367,7 @@ class CellCleaning {
 
     void replace(const Mesh& cleaned) {
         Replacement by = replacement(cleaned);
-        area_ += area_of(by.come.mesh) - area_of(unsound_faces());
+        area_ += area_of(by.come.mesh) - unsound_area_;
         whole_ = {};
         faces_ = {};
         const auto faces = static_cast<std::uint32_t>(placed_->faces());
@@ -392,7 +393,8 @@ class CellCleaning {
     Piece whole_;            ///< what was gathered
     std::size_t spared_ = 0; ///< vertices at unsound places, less these places: clean counts what it welds
     Box bounds_;
-    double area_ = 0; ///< where the transform puts the mesh, as far as it is cleaned
+    double area_ = 0;         ///< where the transform puts the mesh, as far as it is cleaned
+    double unsound_area_ = 0; ///< of the faces at unsound places, as they came
 };
 
 } // namespace
