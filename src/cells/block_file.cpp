@@ -1,5 +1,6 @@
 #include "cells/block_file.hpp"
 
+#include "cells/packed_numbers.hpp"
 #include "cells/stream.hpp"
 #include "io/output_files.hpp"
 
@@ -147,13 +148,13 @@ io::Bytes BlockFile::get(const Block& block) const {
     return bytes;
 }
 
-Spool::Spool(const fs::path& folder, std::size_t lists, std::size_t memory)
-    : file_(std::make_unique<BlockFile>(folder)) {
+Spool::Spool(const fs::path& folder, std::size_t lists, std::size_t memory, Records records)
+    : file_(std::make_unique<BlockFile>(folder)), records_(records) {
     open_lists(lists, memory);
 }
 
 Spool::Spool(std::unique_ptr<BlockFile> file, const std::vector<Block>& lists) : file_(std::move(file)) {
-    for (const Block& block : lists) lists_.push_back({{}, {block}, block.size});
+    for (const Block& block : lists) lists_.push_back({{}, {{block, block.size}}, block.size});
 }
 
 Spool Spool::stored(const fs::path& file, const std::vector<std::size_t>& lists, bool sync,
@@ -184,8 +185,19 @@ void Spool::add(std::size_t number, io::Span record) {
 }
 
 void Spool::write(List& list) {
-    list.blocks.push_back(file_->put(list.waiting));
+    const Block block =
+        file_->put(records_ == Records::numbers ? packed_numbers(list.waiting) : io::Span(list.waiting));
+    list.parts.push_back({block, list.waiting.size()});
     list.waiting.clear();
+}
+
+io::Bytes Spool::read(const Part& part) const {
+    io::Bytes bytes = file_->get(part.block);
+    if (records_ == Records::bytes) return bytes;
+    io::Bytes records;
+    records.reserve(part.size);
+    if (!unpack_numbers(bytes, records) || records.size() != part.size) file_->refuse();
+    return records;
 }
 
 void Spool::flush() {
@@ -201,14 +213,14 @@ io::Bytes Spool::read(std::size_t number, std::uint64_t begin, std::uint64_t siz
     io::Bytes bytes;
     bytes.reserve(size);
     std::uint64_t at = 0;
-    for (const Block& block : lists_[number].blocks) {
-        const std::uint64_t from = std::max(begin, at), to = std::min(begin + size, at + block.size);
+    for (const Part& one : lists_[number].parts) {
+        const std::uint64_t from = std::max(begin, at), to = std::min(begin + size, at + one.size);
         if (from < to) {
-            const io::Bytes whole = file_->get(block);
+            const io::Bytes whole = read(one);
             const auto part = io::Span(whole).subspan(from - at, to - from);
             bytes.insert(bytes.end(), part.begin(), part.end());
         }
-        at += block.size;
+        at += one.size;
     }
     return bytes;
 }

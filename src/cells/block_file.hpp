@@ -55,6 +55,8 @@ class BlockFile {
     /// Any thread. to: block.size bytes. Throws output (E-SCRATCH) when they are not as they were written.
     void get(const Block& block, std::byte* to) const;
     io::Bytes get(const Block& block) const;
+    /// Throws output (E-SCRATCH): what was read is nothing that was written.
+    [[noreturn]] void refuse() const { unreadable_scratch(folder_); }
     /// Whether get would return.
     bool is_as_written(const Block& block) const;
     /// Waits until all is on the disk. Throws output (E-WRITE, E-SPACE).
@@ -71,8 +73,11 @@ class BlockFile {
 /// needs. Adding is for one thread; reading is for any number.
 class Spool {
   public:
-    /// memory: bytes for what is not written yet, of all lists together.
-    Spool(const std::filesystem::path& folder, std::size_t lists, std::size_t memory);
+    enum class Records { bytes, numbers };
+    /// memory: bytes for what is not written yet, of all lists together. records: numbers of 32 bits near
+    /// those before them are written in fewer bytes.
+    Spool(const std::filesystem::path& folder, std::size_t lists, std::size_t memory,
+          Records records = Records::bytes);
     /// Lists that a file has, a block each.
     Spool(std::unique_ptr<BlockFile> file, const std::vector<Block>& lists);
 
@@ -94,15 +99,21 @@ class Spool {
                  std::vector<Block>& blocks) const;
 
   private:
+    struct Part {
+        Block block;
+        std::uint64_t size; ///< of the records
+    };
     struct List {
         io::Bytes waiting;
-        std::vector<Block> blocks;
+        std::vector<Part> parts;
         std::uint64_t size = 0;
     };
     void write(List& list);
+    io::Bytes read(const Part& part) const;
 
     std::unique_ptr<BlockFile> file_;
-    std::size_t room_ = 0; ///< bytes of a list that wait
+    Records records_ = Records::bytes; ///< in the file
+    std::size_t room_ = 0;             ///< bytes of a list that wait
     std::vector<List> lists_;
 };
 

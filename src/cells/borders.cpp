@@ -1,7 +1,5 @@
 #include "cells/borders.hpp"
 
-#include "base/random.hpp"
-
 #include <algorithm>
 #include <cstring>
 #include <numeric>
@@ -9,15 +7,6 @@
 namespace facetmill::cells {
 
 namespace {
-
-/// A key of a leaf.
-struct Owned {
-    std::uint64_t key;
-    std::uint32_t leaf;
-    bool operator<(const Owned& other) const {
-        return key != other.key ? key < other.key : leaf < other.leaf;
-    }
-};
 
 /// A key that other leaves have too. No byte of it is padding: files that are kept depend on the mesh alone.
 struct Shared {
@@ -49,28 +38,41 @@ Borders::Borders(const Tree& tree, const std::filesystem::path& scratch, std::ui
         count_ = keys_of(0).size();
         return;
     }
-    const std::uint64_t size = estimate * 2 * sizeof(Owned); // with those that are shared
-    const std::uint64_t buckets = 1 + size / std::max<std::uint64_t>(1, memory / 8);
+    const std::uint64_t buckets = buckets_of_keys(estimate, memory);
     Spool owned(scratch, static_cast<std::size_t>(buckets), static_cast<std::size_t>(memory / 16));
     for (std::uint32_t leaf = 0; leaf < leaves; ++leaf)
         for (const std::uint64_t key : keys_of(leaf))
-            owned.add(static_cast<std::size_t>(hashed(0, key) % buckets), as_record(Owned{key, leaf}));
+            owned.add(static_cast<std::size_t>(bucket_of_key(key, buckets)), as_record(Owned{key, leaf}));
     owned.flush();
     for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
         auto all = records_of<Owned>(owned.read(bucket));
         std::sort(all.begin(), all.end());
-        for (auto first = all.begin(); first != all.end();) {
-            const auto last =
-                std::find_if(first, all.end(), [&](const Owned& o) { return o.key != first->key; });
-            ++count_;
-            if (last - first > 1) {
-                const Shared shared{first->key, tree.common_depth(first->leaf, std::prev(last)->leaf)};
-                for (auto one = first; one != last; ++one) shared_.add(one->leaf, as_record(shared));
-            }
-            first = last;
-        }
+        count_ += share(tree, all);
     }
     shared_.flush();
+}
+
+Borders::Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
+                 const NumberOwners& owners, const std::vector<std::uint32_t>& leaf_of)
+    : count_(owners.count()), shared_(scratch, tree.leaves.size(), static_cast<std::size_t>(memory / 16)) {
+    for (std::size_t bucket = 0; bucket < owners.buckets(); ++bucket)
+        share(tree, owners.leaves(bucket, leaf_of));
+    shared_.flush();
+}
+
+/// Those that several leaves have. Returns how many keys there are. all: in order.
+std::uint64_t Borders::share(const Tree& tree, const std::vector<Owned>& all) {
+    std::uint64_t count = 0;
+    for (auto first = all.begin(); first != all.end();) {
+        const auto last = std::find_if(first, all.end(), [&](const Owned& o) { return o.key != first->key; });
+        ++count;
+        if (last - first > 1) {
+            const Shared shared{first->key, tree.common_depth(first->leaf, std::prev(last)->leaf)};
+            for (auto one = first; one != last; ++one) shared_.add(one->leaf, as_record(shared));
+        }
+        first = last;
+    }
+    return count;
 }
 
 void Borders::store(const std::filesystem::path& file, bool sync, std::vector<Block>& blocks) {

@@ -2,6 +2,7 @@
 // What leaves of a tree have in common, found by sorting on disk.
 
 #include "cells/block_file.hpp"
+#include "cells/number_owners.hpp"
 #include "cells/tree.hpp"
 
 #include <functional>
@@ -19,6 +20,10 @@ class Borders {
     Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
             std::uint64_t estimate, const std::function<std::vector<std::uint64_t>(std::uint32_t)>& keys_of);
 
+    /// The same of keys that are numbers. leaf_of: see NumberOwners::leaves.
+    Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
+            const NumberOwners& owners, const std::vector<std::uint32_t>& leaf_of);
+
     /// As they were stored, of so many keys.
     Borders(std::uint64_t count, Spool shared) : count_(count), shared_(std::move(shared)) {}
 
@@ -31,6 +36,8 @@ class Borders {
     std::vector<std::uint8_t> homes(std::uint32_t leaf, const std::vector<std::uint64_t>& keys) const;
 
   private:
+    std::uint64_t share(const Tree& tree, const std::vector<Owned>& all);
+
     std::uint64_t count_ = 0;
     Spool shared_; ///< [leaves] keys and depths
 };

@@ -123,6 +123,18 @@ void CellFolder::remove(const std::string& name) const {
     fs::remove(file(name), ignored);
 }
 
+fs::file_time_type CellFolder::time_of(const std::string& name) const {
+    std::error_code error;
+    const fs::file_time_type time = fs::last_write_time(file(name), error);
+    return error ? fs::file_time_type::min() : time;
+}
+
+void CellFolder::set_time(const std::string& name, fs::file_time_type time) const {
+    std::error_code error;
+    fs::last_write_time(file(name), time, error);
+    if (error) cannot_keep(settings_.path, error.message());
+}
+
 void CellFolder::touch(const std::string& name) const {
     if (::utimensat(AT_FDCWD, file(name).c_str(), nullptr, 0) != 0)
         cannot_keep(settings_.path, std::strerror(errno));

@@ -48,6 +48,12 @@ class CellFolder {
     void remove(const std::string& name) const;
     /// Makes it as new as one that is written now. Throws output (E-WRITE).
     void touch(const std::string& name) const;
+    /// When it was written; the least time where it is not there.
+    std::filesystem::file_time_type time_of(const std::string& name) const;
+    /// Throws output (E-WRITE).
+    void set_time(const std::string& name, std::filesystem::file_time_type time) const;
+    /// Whether no other run is at work in it.
+    bool is_alone() const { return settings_.beside.empty(); }
 
   private:
     void take_lock(const std::string& name, int how);

@@ -36,16 +36,14 @@ class NumberedSource final : public FaceSource {
     std::size_t record_size() const override { return plain_->record_size() + number_size; }
 
     void each(const Take& take, std::size_t memory) override {
-        io::Bytes numbered(record_size());
-        std::uint32_t number = 0;
-        plain_->each(
-            [&](const Vec3& centre, io::Span record) {
-                std::copy(record.begin(), record.end(), numbered.begin());
-                std::memcpy(numbered.data() + record.size(), &number, number_size);
-                ++number;
-                take(centre, numbered);
-            },
-            memory);
+        Numbered numbered(record_size());
+        plain_->each([&](const Vec3& centre, io::Span record) { take(centre, numbered.next(record)); },
+                     memory);
+    }
+
+    void each_record(const TakeRecord& take, std::size_t memory) override {
+        Numbered numbered(record_size());
+        plain_->each_record([&](io::Span record) { take(numbered.next(record)); }, memory);
     }
 
     Piece piece(io::Span records) const override {
@@ -63,6 +61,22 @@ class NumberedSource final : public FaceSource {
     }
 
   private:
+    /// Records with their numbers behind them.
+    class Numbered {
+      public:
+        explicit Numbered(std::size_t size) : bytes_(size) {}
+        io::Span next(io::Span record) {
+            std::copy(record.begin(), record.end(), bytes_.begin());
+            std::memcpy(bytes_.data() + record.size(), &number_, number_size);
+            ++number_;
+            return bytes_;
+        }
+
+      private:
+        io::Bytes bytes_;
+        std::uint32_t number_ = 0;
+    };
+
     std::shared_ptr<FaceSource> plain_;
     bool by_place_;
 };
@@ -78,21 +92,23 @@ class ReplacedSource final : public FaceSource {
     std::size_t record_size() const override { return numbered_->record_size(); }
 
     void each(const Take& take, std::size_t memory) override {
-        auto gone = by_.gone.begin();
+        Gone gone(by_.gone);
         numbered_->each(
             [&](const Vec3& centre, io::Span record) {
-                if (gone == by_.gone.end() || *gone != number_in(record))
-                    take(centre, record);
-                else
-                    ++gone;
+                if (!gone.has(record)) take(centre, record);
             },
             memory);
-        io::Bytes record(record_size());
-        for (std::uint32_t f = 0; f < by_.come.mesh.face_count(); ++f) {
-            const std::uint32_t number = faces_ + f;
-            std::memcpy(record.data() + record.size() - number_size, &number, number_size);
-            take(centre_of(by_.come.mesh, f), record);
-        }
+        each_that_comes([&](Index face, io::Span record) { take(centre_of(by_.come.mesh, face), record); });
+    }
+
+    void each_record(const TakeRecord& take, std::size_t memory) override {
+        Gone gone(by_.gone);
+        numbered_->each_record(
+            [&](io::Span record) {
+                if (!gone.has(record)) take(record);
+            },
+            memory);
+        each_that_comes([&](Index, io::Span record) { take(record); });
     }
 
     Piece piece(io::Span records) const override {
@@ -119,6 +135,32 @@ class ReplacedSource final : public FaceSource {
     }
 
   private:
+    /// Whether faces are gone, asked in their order.
+    class Gone {
+      public:
+        explicit Gone(const std::vector<std::uint32_t>& numbers)
+            : next_(numbers.begin()), end_(numbers.end()) {}
+        bool has(io::Span record) {
+            const bool is_gone = next_ != end_ && *next_ == number_in(record);
+            if (is_gone) ++next_;
+            return is_gone;
+        }
+
+      private:
+        std::vector<std::uint32_t>::const_iterator next_, end_;
+    };
+
+    /// Calls take(face, record).
+    template <class TakeFace>
+    void each_that_comes(TakeFace&& take) const {
+        io::Bytes record(record_size());
+        for (Index f = 0; f < by_.come.mesh.face_count(); ++f) {
+            const std::uint32_t number = faces_ + f;
+            std::memcpy(record.data() + record.size() - number_size, &number, number_size);
+            take(f, record);
+        }
+    }
+
     /// Both, the faces in the order that `first` tells: where the next is of the first.
     static Piece mixed(Piece all, const Piece& more, const std::vector<bool>& first) {
         std::size_t of_first = 0, of_more = all.mesh.corners.size();

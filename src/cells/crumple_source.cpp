@@ -34,6 +34,10 @@ class CrumpleSource final : public FaceSource {
         });
     }
 
+    void each_record(const TakeRecord& take, std::size_t memory) override {
+        still_->each_record(take, memory);
+    }
+
     Piece piece(io::Span records) const override {
         Piece piece = still_->piece(records);
         std::erase_if(piece.mesh.attributes, follows_the_surface);
@@ -43,6 +47,7 @@ class CrumpleSource final : public FaceSource {
     }
 
     std::vector<std::uint64_t> names(io::Span records) const override { return still_->names(records); }
+    std::uint64_t vertex_numbers() const override { return still_->vertex_numbers(); }
 
   private:
     std::shared_ptr<FaceSource> still_;

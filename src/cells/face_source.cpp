@@ -150,6 +150,15 @@ std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, cons
 
 } // namespace
 
+void FaceSource::take_digests(const std::vector<std::string>& digests) {
+    for (std::size_t i = 0; i < digests.size(); ++i) contents_.files[i].sha256 = digests[i];
+}
+
+void FaceSource::restore(const Box& bounds, std::uint64_t skipped_faces) {
+    contents_.bounds = bounds;
+    contents_.skipped_faces = skipped_faces;
+}
+
 std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
     if (path == "-" || io::is_stream(path)) return "it is a stream, and is read more than once";
     if (is_packed(path)) return "it is compressed";

@@ -22,9 +22,8 @@ class FaceSource {
 
     struct File {
         io::Input input;
-        std::string sha256;
+        std::string sha256; ///< empty: not known yet
     };
-    /// What a scan of all files found.
     struct Contents {
         std::vector<File> files;
         Box bounds;
@@ -35,9 +34,20 @@ class FaceSource {
         Unit unit = Unit::unknown;
         UpAxis up = UpAxis::unknown;
     };
+    /// bounds are known after scan(), digests and skipped_faces after each(); digests after finish_digests(),
+    /// too. Where files are written as rows first, they are known from the beginning.
     const Contents& contents() const { return contents_; }
     /// The first file's name, for messages.
     const std::string& name() const { return contents_.files.front().input.name(); }
+
+    /// Reads what comes before the faces: bounds, and that all positions are finite. Throws malformed.
+    /// memory: what it may take, and hold for the first each().
+    virtual void scan(std::size_t memory) { static_cast<void>(memory); }
+    /// Reads the rest of the files where their digests are not known yet.
+    virtual void finish_digests() {}
+    /// In place of reading: what was found when the files were read, which are as they were.
+    void take_digests(const std::vector<std::string>& digests);
+    void restore(const Box& bounds, std::uint64_t skipped_faces);
 
     /// Bytes of a triangle's record.
     virtual std::size_t record_size() const = 0;
@@ -45,6 +55,12 @@ class FaceSource {
     /// it may take beside a few megabytes.
     using Take = std::function<void(const Vec3& centre, io::Span record)>;
     virtual void each(const Take& take, std::size_t memory) = 0;
+    /// The records alone, which needs fewer bytes of the files.
+    using TakeRecord = std::function<void(io::Span record)>;
+    virtual void each_record(const TakeRecord& take, std::size_t memory) = 0;
+    /// More than 0: records are the numbers of three vertices, 32 bits each and below this, which are their
+    /// names.
+    virtual std::uint64_t vertex_numbers() const { return 0; }
     /// The triangles of records as a mesh, in their order. Any thread.
     virtual Piece piece(io::Span records) const = 0;
     /// For each vertex of the records its name, each once, ascending. Any thread.
@@ -64,10 +80,11 @@ std::optional<std::string> why_not_streamed(const std::filesystem::path& path);
 /// Triangles of a file: about as many as its header says, else as its size does. 0 where that is not known.
 std::uint64_t estimated_faces(const std::filesystem::path& path);
 
-/// Opens files, scans them once: their digests, bounds, that all positions are finite. Several files, and
-/// parts of a file, become one mesh. Vertices of one place are one where the format needs it, within a file
-/// and part; with Weld::exact everywhere, with Weld::off nowhere. scratch: a folder for temporary data.
-/// Throws as io::read_scene, and usage (E-CELLS) where why_not_streamed would say why, or units differ.
+/// Opens files, see scan(); those that are not rows themselves are read and written as rows here. Several
+/// files, and parts of a file, become one mesh. Vertices of one place are one where the format needs it,
+/// within a file and part; with Weld::exact everywhere, with Weld::off nowhere. scratch: a folder for
+/// temporary data. Throws as io::read_scene, and usage (E-CELLS) where why_not_streamed would say why, or
+/// units differ.
 std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
                                        const io::ReadSettings& settings,
                                        const std::filesystem::path& scratch);

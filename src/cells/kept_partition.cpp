@@ -4,6 +4,7 @@
 #include "base/hash.hpp"
 #include "base/json.hpp"
 #include "base/words.hpp"
+#include "cells/input_stamps.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -39,6 +40,18 @@ Json box_json(const Box& box) {
     return {{"min", {box.min.x, box.min.y, box.min.z}}, {"max", {box.max.x, box.max.y, box.max.z}}};
 }
 
+/// What box_json made. Throws Json::exception for what it did not.
+Box box_from(const Json& json) {
+    const auto point = [&](const char* name) {
+        const auto p = json.at(name).get<std::array<double, 3>>();
+        return Vec3{p[0], p[1], p[2]};
+    };
+    Box box;
+    box.add(point("min"));
+    box.add(point("max"));
+    return box;
+}
+
 /// The digest of all that is said beside it.
 std::string digest_of(const Json& manifest) {
     Json rest = manifest;
@@ -50,9 +63,17 @@ std::string digest_of(const Json& manifest) {
 class PartitionKeeper {
   public:
     PartitionKeeper(std::shared_ptr<FaceSource> source, const Means& means, std::uint64_t most)
-        : source_(std::move(source)), means_(means), folder_(*means.kept), most_(most) {}
+        : source_(std::move(source)), means_(means), folder_(*means.kept), most_(most),
+          stamps_(source_->contents().files) {}
 
     std::unique_ptr<Partition> partition() {
+        auto partition = taken_or_made();
+        if (!knew_inputs_ && folder_.is_alone()) stamps_.store(folder_, source_->contents().files);
+        return partition;
+    }
+
+  private:
+    std::unique_ptr<Partition> taken_or_made() {
         std::string why;
         if (auto taken = take(why)) {
             folder_.tell(fmt::format("{} reused from '{}'", counted(taken->tree().leaves.size(), "cell"),
@@ -70,7 +91,6 @@ class PartitionKeeper {
         return make();
     }
 
-  private:
     bool is_beside_others() const { return means_.job && !means_.job->makes_cells(); }
 
     /// What the partition depends on.
@@ -80,7 +100,7 @@ class PartitionKeeper {
     }
 
     /// Why nothing is returned, in words; none where nothing is there.
-    std::unique_ptr<Partition> take(std::string& why) const {
+    std::unique_ptr<Partition> take(std::string& why) {
         const std::optional<io::Bytes> text = folder_.read(manifest_file);
         if (!text) return {};
         const Json manifest = parse_json(io::as_text(*text), Broken::discarded);
@@ -89,16 +109,34 @@ class PartitionKeeper {
             why = fmt::format("the manifest of the cells in '{}' is damaged", folder_.path().string());
             return {};
         }
+        find_digests();
         why = difference(manifest);
         if (!why.empty()) return {};
+        same_origin_ = manifest;
         try {
-            return restored(manifest, why);
+            auto partition = restored(manifest, why);
+            if (partition)
+                source_->restore(box_from(manifest.at("bounds")),
+                                 manifest.value("skipped_faces", std::uint64_t{0}));
+            return partition;
         } catch (const Json::exception&) {
         } catch (const std::logic_error&) {
         } catch (const Error&) { // a file is not there, or cannot be read
         }
         if (why.empty()) why = fmt::format("cells in '{}' cannot be read", folder_.path().string());
         return {};
+    }
+
+    /// The digests of the inputs, without reading those that are as they were.
+    void find_digests() {
+        const auto& files = source_->contents().files;
+        if (std::none_of(files.begin(), files.end(), [](const auto& f) { return f.sha256.empty(); })) return;
+        const std::vector<std::string> digests = stamps_.digests(folder_);
+        knew_inputs_ = !digests.empty();
+        if (knew_inputs_)
+            source_->take_digests(digests);
+        else
+            source_->finish_digests();
     }
 
     /// What of the origin is another, in words.
@@ -151,7 +189,9 @@ class PartitionKeeper {
             blocks.begin(), blocks.end(), [&](const Block& block) { return !file.is_as_written(block); }));
     }
 
-    std::unique_ptr<Partition> make() const {
+    std::unique_ptr<Partition> make() {
+        const auto written = folder_.time_of(manifest_file);
+        knew_inputs_ = false; // they are read
         for (const std::string& name : folder_.names(manifest_file)) folder_.remove(name);
         auto partition = std::make_unique<Partition>(source_, means_, most_);
         std::vector<Block> records, borders;
@@ -162,6 +202,8 @@ class PartitionKeeper {
         manifest["vertices"] = partition->vertices();
         manifest["bounds"] = box_json(source_->contents().bounds);
         manifest["record_bytes"] = source_->record_size();
+        if (source_->contents().skipped_faces > 0)
+            manifest["skipped_faces"] = source_->contents().skipped_faces;
         const std::vector<std::uint8_t> depths = partition->tree().depths();
         Json& cells = manifest["cells"] = Json::array();
         for (std::uint32_t leaf = 0; leaf < depths.size(); ++leaf) {
@@ -179,6 +221,9 @@ class PartitionKeeper {
         manifest["sha256"] = digest_of(manifest);
         const std::string text = manifest.dump(1) + "\n";
         folder_.write(manifest_file, {std::as_bytes(std::span(text))});
+        if (!means_.job &&
+            manifest == same_origin_) // what others made of them, in a workflow, is not due again
+            for (const char* name : kept_files) folder_.set_time(name, written);
         return partition;
     }
 
@@ -186,6 +231,9 @@ class PartitionKeeper {
     const Means& means_;
     const CellFolder& folder_;
     std::uint64_t most_;
+    InputStamps stamps_;
+    bool knew_inputs_ = false; ///< their digests, without reading them
+    Json same_origin_;         ///< a manifest of the same origin, whose cells are damaged
 };
 
 } // namespace

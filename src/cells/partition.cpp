@@ -1,12 +1,18 @@
 #include "cells/partition.hpp"
 
 #include "base/progress.hpp"
+#include "cells/number_owners.hpp"
 #include "cells/pieces.hpp"
+#include "cells/place_file.hpp"
 #include "cells/unite.hpp"
+#include "io/text.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <fmt/format.h>
 #include <numeric>
+#include <optional>
 
 namespace facetmill::cells {
 
@@ -16,11 +22,83 @@ constexpr std::uint32_t resolution = 128; // of the grid: 2 million places, 8 MB
 
 } // namespace
 
+/// What is needed while faces are put into lists.
+class Partition::Distribution {
+  public:
+    Distribution(FaceSource& source, const Means& means)
+        : source_(source), means_(means), memory_(static_cast<std::size_t>(means.memory / 4)),
+          places_(means.scratch) {
+        source.scan(memory_);
+        grid_.emplace(source.contents().bounds, resolution);
+    }
+    const Means& means() const { return means_; }
+
+    /// Finds the tree. Returns how many faces there are.
+    std::uint64_t count(Tree& tree, std::uint64_t most) {
+        std::uint64_t faces = 0;
+        const Share share(0.05, 0.1);
+        source_.each(
+            [&](const Vec3& centre, io::Span) {
+                const std::size_t place = grid_->cell_of(centre);
+                grid_->count(place);
+                places_.add(place);
+                ++faces;
+            },
+            memory_);
+        if (faces > 0) tree = grid_->split(most);
+        return faces;
+    }
+
+    /// Gives each face to a list, that of its leaf, and learns which of their vertices several lists have.
+    void give(Spool& records, std::uint64_t faces) {
+        const std::uint64_t numbers = source_.vertex_numbers();
+        if (numbers > 0 && NumberOwners::fits(numbers, means_.memory))
+            owners_.emplace(numbers, means_.scratch, buckets_of_keys(faces, means_.memory), means_.memory);
+        PlaceFile::Reader places = places_.finish();
+        std::uint64_t given = 0;
+        source_.each_record(
+            [&](io::Span record) {
+                if (given++ == faces) return;
+                const std::uint32_t leaf = grid_->leaf_of(places.next(grid_->cells()));
+                records.add(leaf, record);
+                if (!owners_) return;
+                std::array<std::uint32_t, 3> corners;
+                std::memcpy(corners.data(), record.data(), sizeof corners);
+                for (const std::uint32_t corner : corners) owners_->add(corner, leaf);
+            },
+            memory_ / 4);
+        if (given != faces)
+            io::malformed(
+                source_.name(), 0, "E-CHANGED",
+                fmt::format("there were {} triangles, and are {} when they are read again", faces, given),
+                "run it again while no other program writes to the file");
+        grid_.reset();
+        records.flush();
+    }
+
+    std::optional<NumberOwners>& owners() { return owners_; }
+    void end_lists(std::size_t lists) { lists_ = lists; }
+    /// Whether a list is none of those that faces were given to: a leaf of the grid was divided.
+    bool is_divided(std::size_t list) const { return list >= lists_; }
+
+  private:
+    FaceSource& source_;
+    const Means& means_;
+    std::size_t memory_;
+    PlaceFile places_;
+    std::optional<Grid> grid_;
+    std::optional<NumberOwners> owners_;
+    std::size_t lists_ = 0;
+};
+
 Partition::Partition(std::shared_ptr<FaceSource> source, const Means& means, std::uint64_t most)
-    : source_(std::move(source)), records_(means.scratch, 0, 0) {
-    distribute(means, most);
+    : source_(std::move(source)),
+      records_(means.scratch, 0, 0,
+               source_->vertex_numbers() > 0 ? Spool::Records::numbers : Spool::Records::bytes) {
+    Distribution work(*source_, means);
+    distribute(work, most);
     refine(most);
-    find_shared(means);
+    find_shared(work);
 }
 
 Partition::Partition(std::shared_ptr<FaceSource> source, Stored stored)
@@ -36,28 +114,16 @@ void Partition::store(const std::filesystem::path& records, const std::filesyste
     borders_->store(borders, sync, border_blocks);
 }
 
-void Partition::distribute(const Means& means, std::uint64_t most) {
-    Grid grid(source_->contents().bounds, resolution);
-    const auto memory = static_cast<std::size_t>(means.memory / 4);
-    {
-        const Share share(0.05, 0.1);
-        source_->each(
-            [&](const Vec3& centre, io::Span) {
-                grid.count(centre);
-                ++faces_;
-            },
-            memory);
-    }
+void Partition::distribute(Distribution& work, std::uint64_t most) {
+    faces_ = work.count(tree_, most);
     if (faces_ == 0)
         throw Error(ErrorKind::malformed, "E-EMPTY", fmt::format("'{}' has no faces", source_->name()));
-    tree_ = grid.split(most);
     // Half of the waiting bytes is of lists that are full.
-    records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(means.memory / 16));
-    source_->each([&](const Vec3& centre, io::Span record) { records_.add(grid.leaf_of(centre), record); },
-                  memory);
-    records_.flush();
+    records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(work.means().memory / 16));
+    work.give(records_, faces_);
     list_.resize(tree_.leaves.size());
     std::iota(list_.begin(), list_.end(), std::size_t{0});
+    work.end_lists(list_.size());
 }
 
 /// As below, of some faces of a list: those that are too many for that are halved in their order.
@@ -147,9 +213,24 @@ void Partition::refine(std::uint64_t most) {
 }
 
 /// Finds vertices of several leaves.
-void Partition::find_shared(const Means& means) {
-    borders_ = std::make_unique<Borders>(tree_, means.scratch, means.memory, faces_,
-                                         [&](std::uint32_t leaf) { return source_->names(records(leaf)); });
+void Partition::find_shared(Distribution& work) {
+    const Means& means = work.means();
+    if (!work.owners()) {
+        borders_ =
+            std::make_unique<Borders>(tree_, means.scratch, means.memory, faces_,
+                                      [&](std::uint32_t leaf) { return source_->names(records(leaf)); });
+        return;
+    }
+    NumberOwners& owners = *work.owners();
+    std::vector<std::uint32_t> leaf_of(records_.lists(), NumberOwners::nobody);
+    for (std::uint32_t leaf = 0; leaf < list_.size(); ++leaf) {
+        leaf_of[list_[leaf]] = leaf;
+        if (!work.is_divided(list_[leaf])) continue;
+        for (const std::uint64_t name : source_->names(records(leaf)))
+            owners.add_another(static_cast<std::uint32_t>(name), static_cast<std::uint32_t>(list_[leaf]));
+    }
+    owners.finish();
+    borders_ = std::make_unique<Borders>(tree_, means.scratch, means.memory, owners, leaf_of);
 }
 
 Cell Partition::cell(std::uint32_t leaf) const {

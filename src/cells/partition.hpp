@@ -35,8 +35,8 @@ inline constexpr std::uint64_t faces_of_cell = std::uint64_t{1} << 16;
 
 class Partition {
   public:
-    /// Reads the source twice (it was scanned once before). The cells depend on the mesh and `most` only,
-    /// never on memory.
+    /// Scans the source and reads its faces twice. The cells depend on the mesh and `most` only, never on
+    /// memory.
     Partition(std::shared_ptr<FaceSource> source, const Means& means, std::uint64_t most = faces_of_cell);
 
     /// What there is of a partition beside its source.
@@ -66,14 +66,15 @@ class Partition {
     Cell cell(std::uint32_t leaf) const;
 
   private:
-    void distribute(const Means& means, std::uint64_t most);
+    class Distribution;
+    void distribute(Distribution& work, std::uint64_t most);
     struct Range {
         std::uint64_t begin, end;
     };
     void divide(std::uint32_t node, std::size_t list, const Range& faces, std::uint64_t most);
     void divide(std::uint32_t node, io::Bytes records, std::uint64_t most);
     void refine(std::uint64_t most);
-    void find_shared(const Means& means);
+    void find_shared(Distribution& work);
 
     std::shared_ptr<FaceSource> source_;
     Tree tree_;

@@ -49,8 +49,8 @@ void each_batch(FaceSource& source, std::size_t memory, const std::function<void
     constexpr std::size_t at_once = 1 << 15; // faces
     const std::size_t full = at_once * source.record_size();
     io::Bytes waiting;
-    source.each(
-        [&](const Vec3&, io::Span record) {
+    source.each_record(
+        [&](io::Span record) {
             waiting.insert(waiting.end(), record.begin(), record.end());
             if (waiting.size() < full) return;
             use(waiting);

@@ -62,23 +62,6 @@ void name_dropped(const ply::Header& header, std::vector<std::string>& dropped) 
     }
 }
 
-/// Calls take(position, row) for each vertex; sum gets the file up to them.
-template <class Take>
-void each_vertex(const io::Input& input, const Rows& rows, Stream& all, Take&& take) {
-    const Coordinates coordinates(rows, input.name());
-    const std::size_t stride = row_size(rows.vertex);
-    all.skip(rows.vertices_at);
-    for (std::uint64_t v = 0; v < rows.vertex_count; ++v) {
-        const std::byte* row = all.take(stride);
-        const Vec3 p = coordinates.of(row);
-        if (!is_finite(p))
-            io::malformed(
-                input.name(), 0, "E-NAN",
-                fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers", v, p.x, p.y, p.z));
-        take(p, row);
-    }
-}
-
 bool is_coordinate(const ply::Property& p) { return p.name == "x" || p.name == "y" || p.name == "z"; }
 
 /// Properties of vertices beside the position.
@@ -117,7 +100,12 @@ class PlyReader final : public RowReader {
         Sha256 sum;
         Stream all(*rows.vertices, 0, input_.bytes().size(), &sum);
         io::Bytes more;
-        each_vertex(input_, rows, all, [&](const Vec3& p, const std::byte* row) {
+        const Coordinates coordinates(rows, input_.name());
+        const std::size_t stride = row_size(rows.vertex);
+        all.skip(rows.vertices_at);
+        for (std::uint64_t v = 0; v < rows.vertex_count; ++v) {
+            const std::byte* row = all.take(stride);
+            const Vec3 p = finite_place(coordinates, row, v, input_.name());
             more.clear();
             for (const auto& property : rows.vertex) {
                 const std::size_t size = ply::size_of(property.type);
@@ -128,7 +116,7 @@ class PlyReader final : public RowReader {
                 row += size;
             }
             out.vertex(p, more);
-        });
+        }
         all.skip(rows.faces_at - rows.vertices_at - rows.vertex_count * row_size(rows.vertex));
         std::vector<std::uint32_t> corners;
         for (std::uint64_t f = 0; f < rows.face_count; ++f) {
@@ -276,11 +264,7 @@ std::unique_ptr<FaceSource> open_ply(const io::Input& input, const io::ReadSetti
     const ply::Header header = ply::read_header(input);
     Rows rows = rows_of(input, header);
     name_dropped(header, contents.dropped);
-    Sha256 sum;
-    Stream all(*rows.vertices, 0, input.bytes().size(), &sum);
-    each_vertex(input, rows, all, [&](const Vec3& p, const std::byte*) { contents.bounds.add(p); });
-    all.skip(all.left());
-    contents.files.push_back({input, sum.digest()});
+    contents.files.push_back({input, {}});
     return source_of(std::move(rows), std::move(contents), settings);
 }
 

@@ -86,6 +86,16 @@ Vec3 Coordinates::of(const std::byte* row) const {
     return p;
 }
 
+Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uint64_t number,
+                  const std::string& file) {
+    const Vec3 p = coordinates.of(row);
+    if (!is_finite(p))
+        io::malformed(
+            file, 0, "E-NAN",
+            fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers", number, p.x, p.y, p.z));
+    return p;
+}
+
 void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
                std::vector<std::uint32_t>& corners) {
     const auto take = [&](std::uint64_t n) {
@@ -166,7 +176,8 @@ class RowSource final : public FaceSource {
   public:
     RowSource(Rows rows, Contents contents, const io::ReadSettings& settings)
         : FaceSource(std::move(contents)), rows_(std::move(rows)), settings_(settings),
-          coordinates_(rows_, name()), stride_(row_size(rows_.vertex)) {
+          coordinates_(rows_, name()), stride_(row_size(rows_.vertex)),
+          is_file_(this->contents().files.front().sha256.empty()) {
         settings_.weld = io::Weld::off;
         for (const auto& group : rows_.groups) by_place_ |= group.identity != Identity::number;
         if (!by_place_) own_contents().vertices = rows_.vertex_count;
@@ -174,22 +185,52 @@ class RowSource final : public FaceSource {
 
     std::size_t record_size() const override { return sizeof(Corners); }
 
-    void each(const Take& take, std::size_t memory) override {
-        RecordCache vertices(*rows_.vertices, rows_.vertices_at, stride_, rows_.vertex_count, memory);
-        Stream faces(*rows_.faces, rows_.faces_at, rows_.faces_end);
-        std::vector<std::uint32_t> corners;
-        std::uint64_t skipped = 0;
-        for (std::uint64_t f = 0; f < rows_.face_count; ++f) {
-            read_face(rows_, name(), f, faces, corners);
-            if (corners.size() < 3)
-                ++skipped;
-            else if (corners.size() == 3)
-                give({corners[0], corners[1], corners[2]}, vertices, take);
-            else
-                give_polygon(corners, vertices, take);
+    void scan(std::size_t memory) override {
+        if (!is_file_ || scanned_) return;
+        auto sum = std::make_unique<Sha256>();
+        auto vertices = cache_of(memory);
+        const bool held = vertices->holds_all();
+        Box bounds;
+        Stream head(*rows_.vertices, 0, rows_.faces_at, sum.get());
+        head.skip(rows_.vertices_at);
+        for (std::uint64_t v = 0; v < rows_.vertex_count; ++v) {
+            const std::byte* const row = head.take(stride_);
+            bounds.add(finite_place(coordinates_, row, v, name()));
+            if (held) vertices->append(row);
         }
-        if (skipped > 0) own_contents().skipped_faces = skipped;
+        head.skip(head.left());
+        own_contents().bounds = bounds;
+        scanned_ = true;
+        begun_ = std::move(sum);
+        if (held) held_ = std::move(vertices);
     }
+
+    void finish_digests() override {
+        std::string& digest = own_contents().files.front().sha256;
+        if (!digest.empty()) return;
+        std::unique_ptr<Sha256> sum = std::move(begun_);
+        const std::uint64_t from = sum ? rows_.faces_at : 0;
+        if (!sum) sum = std::make_unique<Sha256>();
+        Stream rest(*rows_.faces, from, rows_.faces_end, sum.get());
+        rest.skip(rest.left());
+        digest = sum->digest();
+    }
+
+    void each(const Take& take, std::size_t memory) override {
+        const auto vertices = held_ ? std::move(held_) : cache_of(memory);
+        each_triangle(*vertices, [&](const Corners& corners) {
+            Vec3 sum;
+            for (const std::uint32_t corner : corners) sum = sum + coordinates_.of(vertices->at(corner)) / 3;
+            take(sum, std::as_bytes(std::span(corners)));
+        });
+    }
+
+    void each_record(const TakeRecord& take, std::size_t memory) override {
+        each_triangle(*cache_of(memory),
+                      [&](const Corners& corners) { take(std::as_bytes(std::span(corners))); });
+    }
+
+    std::uint64_t vertex_numbers() const override { return by_place_ ? 0 : rows_.vertex_count; }
 
     Piece piece(io::Span records) const override {
         const Ranks ranks = ranks_of(records);
@@ -227,15 +268,36 @@ class RowSource final : public FaceSource {
         return name_of_place(p, group.identity == Identity::place ? 0 : group.first);
     }
 
-    void give(const Corners& corners, RecordCache& vertices, const Take& take) const {
-        Vec3 sum;
-        for (const std::uint32_t corner : corners) sum = sum + coordinates_.of(vertices.at(corner)) / 3;
-        take(sum, std::as_bytes(std::span(corners)));
+    std::unique_ptr<RecordCache> cache_of(std::size_t memory) const {
+        return std::make_unique<RecordCache>(*rows_.vertices, rows_.vertices_at, stride_, rows_.vertex_count,
+                                             memory);
+    }
+
+    /// Calls give(corners) for each triangle. vertices: for those that polygons become.
+    template <class Give>
+    void each_triangle(RecordCache& vertices, Give&& give) {
+        const std::unique_ptr<Sha256> sum = std::move(begun_);
+        Stream faces(*rows_.faces, rows_.faces_at, rows_.faces_end, sum.get());
+        std::vector<std::uint32_t> corners;
+        std::uint64_t skipped = 0;
+        for (std::uint64_t f = 0; f < rows_.face_count; ++f) {
+            read_face(rows_, name(), f, faces, corners);
+            if (corners.size() < 3)
+                ++skipped;
+            else if (corners.size() == 3)
+                give(Corners{corners[0], corners[1], corners[2]});
+            else
+                give_polygon(corners, vertices, give);
+        }
+        if (skipped > 0) own_contents().skipped_faces = skipped;
+        if (!sum) return;
+        faces.skip(faces.left());
+        own_contents().files.front().sha256 = sum->digest();
     }
 
     /// As the same file read whole is triangulated.
-    void give_polygon(const std::vector<std::uint32_t>& corners, RecordCache& vertices,
-                      const Take& take) const {
+    template <class Give>
+    void give_polygon(const std::vector<std::uint32_t>& corners, RecordCache& vertices, Give&& give) const {
         Mesh polygon;
         std::vector<Index> wedges;
         for (const std::uint32_t corner : corners) {
@@ -245,9 +307,8 @@ class RowSource final : public FaceSource {
         add_face(polygon, wedges);
         polygon = triangulated(polygon);
         for (std::size_t c = 0; c + 2 < polygon.corners.size(); c += 3)
-            give({corners[polygon.corners[c]], corners[polygon.corners[c + 1]],
-                  corners[polygon.corners[c + 2]]},
-                 vertices, take);
+            give(Corners{corners[polygon.corners[c]], corners[polygon.corners[c + 1]],
+                         corners[polygon.corners[c + 2]]});
     }
 
     /// The rows of some corners.
@@ -336,7 +397,11 @@ class RowSource final : public FaceSource {
     io::ReadSettings settings_;
     Coordinates coordinates_;
     std::size_t stride_;
-    bool by_place_ = false; ///< some vertices are known by their place
+    bool is_file_;                      ///< the rows are the first file, whose digest is taken on the way
+    bool scanned_ = false;              ///< by scan()
+    std::unique_ptr<Sha256> begun_;     ///< after scan(): of the file up to its faces
+    std::unique_ptr<RecordCache> held_; ///< after scan(): the vertices, where there is room for all
+    bool by_place_ = false;             ///< some vertices are known by their place
 };
 
 } // namespace

@@ -49,6 +49,10 @@ class Coordinates {
     bool swap_;
 };
 
+/// The position of a vertex of a file; its number is for messages. Throws malformed (E-NAN) when it is not
+/// finite.
+Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uint64_t number,
+                  const std::string& file);
 /// The corners of the next face; its number is for messages. Throws malformed (E-PLY).
 void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
                std::vector<std::uint32_t>& corners);
@@ -105,7 +109,7 @@ std::unique_ptr<RowReader> off_rows(const io::Input& input, const io::ReadSettin
 std::unique_ptr<RowReader> ply_rows(const io::Input& input, const io::ReadSettings& settings);
 std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings);
 
-/// A source of rows.
+/// A source of rows. Where the digest of the first file is not known, the rows are this file.
 std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,
                                       const io::ReadSettings& settings);
 

@@ -72,6 +72,17 @@ class SplitSource final : public FaceSource {
         give(waiting, number, take);
     }
 
+    void each_record(const TakeRecord& take, std::size_t memory) override {
+        std::uint32_t number = 0;
+        io::Bytes piece(head_ + 1);
+        whole_->each_record(
+            [&](io::Span record) {
+                for (std::size_t i = 0; i < how_.pieces(); ++i) take(as_record(record, number, i, piece));
+                ++number;
+            },
+            memory);
+    }
+
     Piece piece(io::Span records) const override {
         io::Bytes parents; // each once where it comes several times in a row
         std::vector<std::uint32_t> numbers;
@@ -99,17 +110,24 @@ class SplitSource final : public FaceSource {
     }
 
   private:
+    /// The record of a piece of a face.
+    const io::Bytes& as_record(io::Span parent, std::uint32_t number, std::size_t piece,
+                               io::Bytes& to) const {
+        std::memcpy(to.data(), parent.data(), size_);
+        std::memcpy(to.data() + size_, &number, head_ - size_);
+        to[head_] = static_cast<std::byte>(piece);
+        return to;
+    }
+
     void give(const io::Bytes& parents, std::uint32_t number, const Take& take) const {
         if (parents.empty()) return;
         const Mesh mesh = cut(whole_->piece(parents).mesh, how_);
         io::Bytes record(head_ + 1);
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
             const std::size_t parent = f / how_.pieces();
-            std::memcpy(record.data(), parents.data() + parent * size_, size_);
-            const std::uint32_t its = number + static_cast<std::uint32_t>(parent);
-            std::memcpy(record.data() + size_, &its, head_ - size_);
-            record[head_] = static_cast<std::byte>(f % how_.pieces());
-            take(centre_of(mesh, f), record);
+            take(centre_of(mesh, f),
+                 as_record(io::Span(parents).subspan(parent * size_, size_),
+                           number + static_cast<std::uint32_t>(parent), f % how_.pieces(), record));
         }
     }
 

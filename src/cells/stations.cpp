@@ -3,9 +3,11 @@
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "cache/fields.hpp"
+#include "cells/packed_numbers.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace facetmill::cells {
@@ -51,6 +53,45 @@ class StationMaker {
 void archive_left(auto& archive, auto& left) {
     archive(left.vertices, left.faces, left.work.error, left.work.area, left.work.collapses,
             left.work.turned);
+}
+
+/// Of those vertices that have a home: most are inner ones, of which names say nothing.
+struct HomesOfSome {
+    std::vector<Index> vertices;
+    std::vector<std::uint64_t> names;
+    std::vector<std::uint8_t> homes;
+};
+
+/// A cell as it is written and read. The mesh's corners are taken.
+void write_cell(cache::ByteWriter& writer, Cell cell) {
+    HomesOfSome some;
+    for (Index v = 0; v < cell.home.size(); ++v) {
+        if (cell.home[v] == Cell::inner) continue;
+        some.vertices.push_back(v);
+        some.names.push_back(cell.names[v]);
+        some.homes.push_back(cell.home[v]);
+    }
+    const io::Bytes corners = packed_numbers(std::as_bytes(std::span(cell.mesh.corners)));
+    cell.mesh.corners = {};
+    writer(cell.mesh, corners, some.vertices, some.names, some.homes);
+}
+
+Cell read_cell(cache::ByteReader& reader) {
+    Cell cell;
+    io::Bytes corners;
+    HomesOfSome some;
+    reader(cell.mesh, corners, some.vertices, some.names, some.homes);
+    io::Bytes numbers;
+    if (!unpack_numbers(corners, numbers)) throw cache::Corrupt();
+    cell.mesh.corners.resize(numbers.size() / sizeof(Index));
+    if (!numbers.empty()) std::memcpy(cell.mesh.corners.data(), numbers.data(), numbers.size());
+    cell.names.assign(cell.mesh.vertex_count(), 0);
+    cell.home.assign(cell.mesh.vertex_count(), Cell::inner);
+    for (std::size_t i = 0; i < some.vertices.size(); ++i) {
+        cell.names[some.vertices[i]] = some.names[i];
+        cell.home[some.vertices[i]] = some.homes[i];
+    }
+    return cell;
 }
 
 constexpr std::string_view kept_begin = "facetmill-simplified.";
@@ -147,14 +188,14 @@ LeftCells::LeftCells(const std::vector<Station>& stations, const Means& means, b
     : stations_(stations), kept_(kept ? means.kept : nullptr), key_(means.key), file_(means.scratch),
       left_(stations.size()) {}
 
-void LeftCells::put(std::size_t station, const Cell& cell, const StationWork& work) {
+void LeftCells::put(std::size_t station, Cell cell, const StationWork& work) {
     Left& left = left_[station];
     left.vertices = cell.mesh.vertex_count();
     left.faces = cell.mesh.face_count();
     left.work = work;
     cache::ByteWriter writer;
     archive_left(writer, left);
-    writer(cell.mesh, cell.names, cell.home);
+    write_cell(writer, std::move(cell));
     if (kept_)
         kept_->put(kept_name(key_, station), key_, writer.bytes);
     else
@@ -219,8 +260,7 @@ Cell LeftCells::joined_at(std::size_t station, const Tree& tree) const {
         cache::ByteReader reader(bytes);
         Left ignored;
         archive_left(reader, ignored);
-        Cell& cell = cells.emplace_back();
-        reader(cell.mesh, cell.names, cell.home);
+        cells.push_back(read_cell(reader));
     }
     return joined(std::move(cells), tree.nodes[s.node].depth);
 }

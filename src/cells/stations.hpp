@@ -51,7 +51,7 @@ class LeftCells {
     /// was kept with another key is removed.
     std::vector<std::uint8_t> take_up(const std::vector<std::uint8_t>& among, bool others_go);
     /// Any thread. Throws output (E-WRITE, E-SPACE).
-    void put(std::size_t station, const Cell& cell, const StationWork& work = {});
+    void put(std::size_t station, Cell cell, const StationWork& work = {});
     const StationWork& work(std::size_t station) const { return left_[station].work; }
     /// The children of the station as one. Any thread. Throws output (E-SCRATCH).
     Cell joined_at(std::size_t station, const Tree& tree) const;

@@ -66,22 +66,37 @@ class StlSource final : public FaceSource {
     StlSource(const io::Input& input, const io::ReadSettings& settings, Contents contents)
         : FaceSource(std::move(contents)), settings_(settings), file_(input.path()),
           count_(stl_faces(input)) {
-        const std::string sum = each_triangle(input, file_, [&](const std::array<Point, 3>& corners) {
-            for (const Point& p : corners) own_contents().bounds.add(as_vector(p));
+        own_contents().files.push_back({input, {}});
+    }
+
+    void scan(std::size_t) override {
+        Box bounds;
+        FaceSource::File& file = own_contents().files.front();
+        file.sha256 = each_triangle(file.input, file_, [&](const std::array<Point, 3>& corners) {
+            for (const Point& p : corners) bounds.add(as_vector(p));
         });
-        own_contents().files.push_back({input, sum});
+        own_contents().bounds = bounds;
+    }
+
+    void finish_digests() override {
+        if (contents().files.front().sha256.empty()) scan(0);
     }
 
     std::size_t record_size() const override { return stl_record; }
 
-    void each(const Take& take, std::size_t) override {
+    void each(const Take& take, std::size_t memory) override {
+        each_record(
+            [&](io::Span record) {
+                Vec3 centre;
+                for (const Point& p : corners_of(record.data())) centre = centre + as_vector(p) / 3;
+                take(centre, record);
+            },
+            memory);
+    }
+
+    void each_record(const TakeRecord& take, std::size_t) override {
         Stream faces(file_, stl_head, stl_head + count_ * stl_record);
-        for (std::uint64_t f = 0; f < count_; ++f) {
-            const std::byte* const record = faces.take(stl_record);
-            Vec3 centre;
-            for (const Point& p : corners_of(record)) centre = centre + as_vector(p) / 3;
-            take(centre, {record, stl_record});
-        }
+        for (std::uint64_t f = 0; f < count_; ++f) take({faces.take(stl_record), stl_record});
     }
 
     Piece piece(io::Span records) const override {

@@ -85,6 +85,15 @@ RecordCache::RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t 
     memory_.reserve(slots_ * block_size_); // pages count when they are written to
 }
 
+void RecordCache::append(const std::byte* record) {
+    if (memory_.size() % block_size_ == 0) { // the next block begins
+        slot_of_[block_in_.size()] = static_cast<std::uint32_t>(block_in_.size());
+        block_in_.push_back(block_in_.size());
+        used_.push_back(1);
+    }
+    memory_.insert(memory_.end(), record, record + size_);
+}
+
 const std::byte* RecordCache::load(std::uint64_t record) {
     const std::uint64_t block = record / per_block_;
     std::size_t slot = block_in_.size();

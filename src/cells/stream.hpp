@@ -55,6 +55,10 @@ class RecordCache {
   public:
     RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t size, std::uint64_t count,
                 std::size_t memory);
+    /// Whether there is room for all records, so that none is read twice.
+    bool holds_all() const { return slots_ == slot_of_.size(); }
+    /// Takes the next record, from the first on, from who has read it; holds_all().
+    void append(const std::byte* record);
     /// Valid until the next call.
     const std::byte* at(std::uint64_t record) {
         const std::uint64_t block = record / per_block_;

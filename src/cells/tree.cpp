@@ -67,7 +67,7 @@ Grid::Grid(const Box& bounds, std::uint32_t resolution) : origin_(bounds.min) {
     counts_.assign(std::size_t{size_[0]} * size_[1] * size_[2], 0);
 }
 
-std::size_t Grid::index(const Vec3& p) const {
+std::size_t Grid::cell_of(const Vec3& p) const {
     std::array<std::size_t, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x =

@@ -41,15 +41,17 @@ class Grid {
   public:
     /// resolution: cells along the longest side, also the most along any other.
     explicit Grid(const Box& bounds, std::uint32_t resolution);
-    void count(const Vec3& p) { ++counts_[index(p)]; }
+    /// The number of the cell of the grid that a place is in, from 0.
+    std::size_t cell_of(const Vec3& p) const;
+    std::size_t cells() const { return counts_.size(); }
+    void count(std::size_t cell) { ++counts_[cell]; }
     /// Splits the grid at its planes: no leaf has more than `most`, but where a single cell of the grid has.
     /// The counts are then those leaves' numbers, see leaf_of.
     Tree split(std::uint64_t most);
-    std::uint32_t leaf_of(const Vec3& p) const { return counts_[index(p)]; }
+    std::uint32_t leaf_of(std::size_t cell) const { return counts_[cell]; }
 
   private:
     using Range = std::array<std::uint32_t, 6>; ///< first and end along x, y, z
-    std::size_t index(const Vec3& p) const;
     std::vector<std::uint64_t> slabs(const Range& r, std::size_t axis) const;
     void split(Tree& tree, std::uint32_t node, const Range& range, std::uint64_t all, std::uint64_t most);
     void label(const Range& range, std::uint32_t leaf);

@@ -5,6 +5,8 @@
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
+#include <array>
+
 using namespace facetmill;
 using namespace facetmill::cells;
 
@@ -28,6 +30,31 @@ TEST_CASE("a spool gives each list what it was given", "[cells]") {
         CHECK(spool.read(list, 600, 300) == io::Bytes(part.begin(), part.end()));
     }
     CHECK(folder.names().empty());
+}
+
+TEST_CASE("a spool of numbers gives what it was given, in fewer bytes", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Spool spool(folder.path(), 2, 4000, Spool::Records::numbers);
+    std::vector<io::Bytes> given(2);
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const std::array<std::uint32_t, 3> record{i, i + 1,
+                                                  i % 2 ? i + 20 : static_cast<std::uint32_t>(hashed(1, i))};
+        const auto bytes = std::as_bytes(std::span(record));
+        spool.add(i % 3 == 0, bytes);
+        given[i % 3 == 0].insert(given[i % 3 == 0].end(), bytes.begin(), bytes.end());
+    }
+    spool.flush();
+    for (std::size_t list = 0; list < 2; ++list) {
+        CHECK(spool.size(list) == given[list].size());
+        CHECK(spool.read(list) == given[list]);
+        const auto part = io::Span(given[list]).subspan(4800, 12000);
+        CHECK(spool.read(list, 4800, 12000) == io::Bytes(part.begin(), part.end()));
+    }
+    std::vector<Block> blocks;
+    const Spool stored = spool.stored(folder / "kept", {1, 0}, false, blocks); // as they are
+    CHECK(std::filesystem::file_size(folder / "kept") == given[0].size() + given[1].size());
+    CHECK(stored.read(0) == given[1]);
+    CHECK(stored.read(1) == given[0]);
 }
 
 TEST_CASE("a block that is not as it was written is refused", "[cells]") {

@@ -1,6 +1,9 @@
 #include "cells/face_source.hpp"
 
+#include "cells/clean_source.hpp"
+#include "cells/crumple_source.hpp"
 #include "cells/partition.hpp"
+#include "cells/split_source.hpp"
 #include "io/outputs.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -221,5 +224,71 @@ TEST_CASE("what cells do not carry of lines is named", "[cells]") {
         io::write_now(path, written.files[0].bytes);
         const auto source = open_faces({path}, {}, folder.path());
         CHECK(source->contents().dropped == std::vector<std::string>{wanted});
+    }
+}
+
+TEST_CASE("digests are those of the files, however far they were read", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    scene.parts.emplace_back().mesh = test::noisy_icosphere(3, 0.01, 7);
+    Scene with_lines = scene; // a PLY has them behind the faces
+    with_lines.parts.emplace_back().mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+    with_lines.parts.back().mesh.lines = {0, 1};
+    for (const char* name : {"m.ply", "lines.ply", "m.stl", "m.obj"}) {
+        const auto path = folder / name;
+        const Scene& its = name == std::string_view("lines.ply") ? with_lines : scene;
+        io::write_now(path, io::codec_for(path)->write(its, {}).files.front().bytes);
+        const std::string expected = sha256(io::Input::open(path).bytes());
+        const auto opened = [&] { return open_faces({path}, {}, folder.path()); };
+        const auto digest = [](const auto& source) {
+            source->finish_digests();
+            return source->contents().files.front().sha256;
+        };
+        const auto unread = opened(), scanned = opened(), read = opened(), taken = opened();
+        CHECK(digest(unread) == expected);
+        scanned->scan(1 << 16);
+        CHECK(digest(scanned) == expected);
+        read->scan(1 << 16);
+        read->each([](const Vec3&, io::Span) {}, 1 << 16);
+        CHECK(read->contents().files.front().sha256 == expected);
+        taken->take_digests({"known"});
+        CHECK(digest(taken) == "known");
+        unread->scan(1 << 16); // after all
+        unread->each([](const Vec3&, io::Span) {}, 1 << 16);
+        CHECK(digest(unread) == expected);
+        CHECK(unread->contents().bounds.min == read->contents().bounds.min);
+    }
+}
+
+TEST_CASE("records alone are those that come with centres", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    Mesh& mesh = scene.parts.emplace_back().mesh;
+    mesh = test::noisy_icosphere(3, 0.01, 7);
+    add_face(mesh, std::vector<Index>{0, 5, 9, 12, 30}); // a polygon
+    for (const char* name : {"m.ply", "m.stl", "m.off"}) {
+        const auto path = folder / name;
+        io::write_now(path, io::codec_for(path)->write(scene, {}).files.front().bytes);
+        const std::shared_ptr<FaceSource> plain = open_faces({path}, {}, folder.path());
+        plain->scan(1 << 16);
+        const auto numbered = numbered_source(plain, false);
+        io::Bytes records;
+        plain->each_record([&](io::Span r) { records.insert(records.end(), r.begin(), r.end()); }, 1 << 16);
+        const std::size_t size = plain->record_size();
+        const auto faces = static_cast<std::uint32_t>(records.size() / size);
+        Replacement by;
+        by.come = plain->piece(io::Span(records).first(2 * size));
+        by.gone = {1, 3, 4};
+        const std::vector<std::shared_ptr<FaceSource>> sources{
+            plain, numbered, split_source(plain, FaceCut{.grid = 3}), crumple_source(plain, {}),
+            replaced_source(numbered, faces, std::move(by))};
+        for (const auto& source : sources) {
+            io::Bytes with, alone;
+            source->each([&](const Vec3&, io::Span r) { with.insert(with.end(), r.begin(), r.end()); },
+                         1 << 16);
+            source->each_record([&](io::Span r) { alone.insert(alone.end(), r.begin(), r.end()); }, 1 << 16);
+            CHECK(with.size() > 1000 * source->record_size());
+            CHECK(with == alone);
+        }
     }
 }

@@ -1,6 +1,8 @@
 #include "cells/kept_partition.hpp"
 
+#include "base/hash.hpp"
 #include "cells/hierarchy.hpp"
+#include "cells/input_stamps.hpp"
 #include "cells/stations.hpp"
 #include "geometry/edit/moved.hpp"
 #include "io/outputs.hpp"
@@ -135,4 +137,59 @@ TEST_CASE("jobs leave what a single run makes", "[cells]") {
     CHECK(last.result.area_before == expected.area_before);
     REQUIRE(last.told.size() == 2);
     CHECK(last.told.back().find("simplified cells reused") != std::string::npos);
+}
+
+TEST_CASE("inputs that are as they were are not read for their digests", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    Mesh& mesh = scene.parts.emplace_back().mesh;
+    mesh = test::noisy_icosphere(5, 0.01, 7);
+    for (const char* name : {"m.ply", "m.stl"}) {
+        const auto path = folder / name, kept = folder / (std::string(name) + ".kept");
+        io::write_now(path, io::codec_for(path)->write(scene, {}).files.front().bytes);
+        const KeptRun first = run_kept(path, kept);
+        const auto stamp = [&](const std::string& digest) {
+            const CellFolder opened({kept, false});
+            const std::vector<FaceSource::File> files{{io::Input::open(path), digest}};
+            InputStamps(files, InputStamps::now() + std::int64_t{10000000000}).store(opened, files);
+        };
+        stamp(sha256(io::Input::open(path).bytes()));
+        KeptRun again = run_kept(path, kept);
+        REQUIRE(again.told.size() == 2);
+        CHECK(again.told[0].find("cells reused from") != std::string::npos);
+        CHECK(is_same(again.result, first.result));
+        stamp(std::string(64, '0')); // it is believed, and then told by those who read
+        again = run_kept(path, kept);
+        REQUIRE(again.told.size() >= 1);
+        CHECK(again.told[0].find("of other inputs: they are made again") != std::string::npos);
+        again = run_kept(path, kept); // the file was read, so its digest is known again
+        REQUIRE(again.told.size() == 2);
+        CHECK(again.told[0].find("cells reused from") != std::string::npos);
+        CHECK(is_same(again.result, first.result));
+    }
+}
+
+TEST_CASE("what was found when cells were made is known when they are taken up", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    scene.parts.emplace_back().mesh = test::noisy_icosphere(3, 0.01, 7);
+    const auto ply = folder / "m.ply";
+    io::write_now(ply, io::codec_for(ply)->write(scene, {.double_positions = true}).files.front().bytes);
+    // A face of two corners behind the others.
+    const io::Bytes bytes = *CellFolder({folder.path(), false}).read("m.ply");
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto at = text.find("element face 1280");
+    REQUIRE(at != std::string::npos);
+    text.replace(at, 17, "element face 1281");
+    text += std::string("\2\0\0\0\0\1\0\0\0", 9);
+    test::put(ply, text);
+    for (int run = 0; run < 2; ++run) {
+        Means means{folder.path(), std::uint64_t{1} << 30};
+        means.kept = std::make_shared<CellFolder>(CellFolder::Settings{folder / "kept", false});
+        const std::shared_ptr<FaceSource> source = open_faces({ply}, {}, folder.path());
+        const auto partition = kept_partition(source, means, 700);
+        CHECK(source->contents().skipped_faces == 1);
+        CHECK(source->contents().bounds.min == scene.bounds().min);
+        CHECK(source->contents().bounds.max == scene.bounds().max);
+    }
 }

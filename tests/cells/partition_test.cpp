@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 using namespace facetmill;
 using namespace facetmill::cells;
@@ -32,6 +33,31 @@ std::filesystem::path as_file(const test::TemporaryDirectory& folder, const char
 std::unique_ptr<Partition> partition_of(const std::filesystem::path& path, std::uint64_t most) {
     return std::make_unique<Partition>(open_faces({path}, {}, path.parent_path()),
                                        Means{path.parent_path(), test_memory}, most);
+}
+
+/// One triangle 3000 times, and 3000 that share a corner.
+std::vector<Mesh> heap_and_star() {
+    Mesh heap, star;
+    for (Index f = 0; f < 3000; ++f) {
+        for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}) heap.positions.push_back(p);
+        add_face(heap, std::vector<Index>{3 * f, 3 * f + 1, 3 * f + 2});
+        const double x = f;
+        if (f == 0) star.positions.push_back({0, 0, 0});
+        star.positions.push_back({1, x, 0});
+        star.positions.push_back({1, x, 1});
+        add_face(star, std::vector<Index>{0, 2 * f + 1, 2 * f + 2});
+    }
+    return {heap, star};
+}
+
+/// Bytes that this process has read from files of any kind.
+std::uint64_t bytes_read() {
+    std::ifstream io("/proc/self/io");
+    std::string name;
+    std::uint64_t bytes = 0;
+    io >> name >> bytes;
+    REQUIRE(name == "rchar:");
+    return bytes;
 }
 
 } // namespace
@@ -114,17 +140,7 @@ TEST_CASE("polygons become the triangles that they are in memory", "[cells]") {
 
 TEST_CASE("many faces at one place, or at one vertex, are divided all the same", "[cells]") {
     const test::TemporaryDirectory folder;
-    Mesh heap, star;
-    for (Index f = 0; f < 3000; ++f) { // one triangle 3000 times, and 3000 that share a corner
-        for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}) heap.positions.push_back(p);
-        add_face(heap, std::vector<Index>{3 * f, 3 * f + 1, 3 * f + 2});
-        const double x = f;
-        if (f == 0) star.positions.push_back({0, 0, 0});
-        star.positions.push_back({1, x, 0});
-        star.positions.push_back({1, x, 1});
-        add_face(star, std::vector<Index>{0, 2 * f + 1, 2 * f + 2});
-    }
-    for (const Mesh& mesh : {heap, star}) {
+    for (const Mesh& mesh : heap_and_star()) {
         const auto partition = partition_of(as_file(folder, "m.ply", mesh), 100);
         for (std::uint32_t leaf = 0; leaf < partition->tree().leaves.size(); ++leaf)
             CHECK(partition->faces_of(leaf) <= 100);
@@ -136,17 +152,34 @@ TEST_CASE("many faces at one place, or at one vertex, are divided all the same",
 
 TEST_CASE("cells do not depend on memory", "[cells]") {
     const test::TemporaryDirectory folder;
-    const auto path = as_file(folder, "m.ply", test::noisy_torus(120, 60, 0.001, 3));
-    const Partition small(open_faces({path}, {}, path.parent_path()), {folder.path(), 1 << 12}, 500);
-    const Partition large(open_faces({path}, {}, path.parent_path()), {folder.path(), 1 << 28}, 500);
-    REQUIRE(small.tree().leaves.size() == large.tree().leaves.size());
-    for (std::uint32_t leaf = 0; leaf < small.tree().leaves.size(); ++leaf) {
-        const Cell a = small.cell(leaf), b = large.cell(leaf);
-        CHECK(a.names == b.names);
-        CHECK(a.home == b.home);
-        CHECK(a.mesh.positions == b.mesh.positions);
-        CHECK(a.mesh.corners == b.mesh.corners);
+    std::vector<Mesh> meshes = heap_and_star();
+    meshes.push_back(test::noisy_torus(120, 60, 0.001, 3));
+    for (std::size_t i = 0; i < 3; ++i) meshes.back().positions.push_back({0, 0, double(i)}); // no face's
+    for (const Mesh& mesh : meshes) {
+        const auto path = as_file(folder, "m.ply", mesh);
+        const Partition small(open_faces({path}, {}, path.parent_path()), {folder.path(), 1 << 12}, 500);
+        const Partition large(open_faces({path}, {}, path.parent_path()), {folder.path(), 1 << 28}, 500);
+        REQUIRE(small.tree().leaves.size() == large.tree().leaves.size());
+        CHECK(small.vertices() == large.vertices());
+        for (std::uint32_t leaf = 0; leaf < small.tree().leaves.size(); ++leaf) {
+            const Cell a = small.cell(leaf), b = large.cell(leaf);
+            CHECK(a.names == b.names);
+            CHECK(a.home == b.home);
+            CHECK(a.mesh.positions == b.mesh.positions);
+            CHECK(a.mesh.corners == b.mesh.corners);
+        }
     }
+}
+
+TEST_CASE("a PLY is read once and its faces once more", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const auto path = as_file(folder, "m.ply", test::noisy_torus(600, 300, 0.001, 3), {});
+    const auto size = static_cast<double>(std::filesystem::file_size(path));
+    const std::shared_ptr<FaceSource> source = open_faces({path}, {}, folder.path());
+    const std::uint64_t before = bytes_read();
+    const Partition partition(source, {folder.path(), test_memory}, 20000);
+    CHECK(static_cast<double>(bytes_read() - before) < 1.85 * size); // temporary data with it
+    CHECK(source->contents().files.front().sha256 == sha256(io::Input::open(path).bytes()));
 }
 
 TEST_CASE("a malformed file is refused as elsewhere", "[cells]") {

@@ -75,3 +75,18 @@ TEST_CASE("a file that got shorter is refused", "[cells]") {
     CHECK(test::failure_id([&] { file.read(4 * stream_numbers, bytes); }) == "E-CHANGED");
     CHECK(test::failure_id([&] { ReadFile(folder / "none"); }) == "E-FILE");
 }
+
+TEST_CASE("records that somebody has read are not read again", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const ReadFile file(file_of_numbers(folder));
+    CHECK_FALSE(RecordCache(file, 4, 4, stream_numbers, 4 * stream_numbers / 2).holds_all());
+    RecordCache records(file, 4, 4, stream_numbers, 8 * stream_numbers);
+    REQUIRE(records.holds_all());
+    for (std::uint32_t i = 0; i < stream_numbers; ++i) {
+        const std::uint32_t other = 3 * i; // which the file has not
+        records.append(reinterpret_cast<const std::byte*>(&other));
+    }
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < stream_numbers; ++i) wrong += number_of(records.at(i)) != 3 * i;
+    CHECK(wrong == 0);
+}

@@ -18,10 +18,10 @@ TEST_CASE("the tree halves counts until none is above the most", "[cells]") {
         box.add(p);
     }
     Grid grid(box, 128);
-    for (const Vec3& p : points) grid.count(p);
+    for (const Vec3& p : points) grid.count(grid.cell_of(p));
     const Tree tree = grid.split(300);
     std::map<std::uint32_t, std::size_t> counts;
-    for (const Vec3& p : points) ++counts[grid.leaf_of(p)];
+    for (const Vec3& p : points) ++counts[grid.leaf_of(grid.cell_of(p))];
     CHECK(counts.size() == tree.leaves.size());
     for (const auto& [leaf, count] : counts) {
         CHECK(count <= 300);
@@ -54,13 +54,13 @@ TEST_CASE("a grid over nothing, over a point and over infinity has one leaf or s
     Box point;
     point.add(Vec3{1, 2, 3});
     Grid grid(point, 128);
-    for (int i = 0; i < 10; ++i) grid.count({1, 2, 3});
+    for (int i = 0; i < 10; ++i) grid.count(grid.cell_of({1, 2, 3}));
     CHECK(grid.split(2).leaves.size() == 1);
     Box huge;
     huge.add(Vec3{-1e308, 0, 0});
     huge.add(Vec3{1e308, 1, 0});
     Grid wide(huge, 128);
-    wide.count({-1e308, 0, 0});
-    wide.count({1e308, 1, 0});
+    wide.count(wide.cell_of({-1e308, 0, 0}));
+    wide.count(wide.cell_of({1e308, 1, 0}));
     CHECK(wide.split(1).leaves.size() <= 2);
 }

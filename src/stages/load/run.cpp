@@ -136,13 +136,22 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     std::shared_ptr<cells::FaceSource> source =
         cells::open_faces(paths, read_settings(o, context.places()), flow.means.scratch);
     const cells::FaceSource::Contents& contents = source->contents();
-    for (const auto& file : contents.files)
-        record_input(context, file.input.name(), file.input.bytes().size(), file.sha256);
+    const auto record_inputs = [&] {
+        source->finish_digests();
+        for (const auto& file : contents.files)
+            record_input(context, file.input.name(), file.input.bytes().size(), file.sha256);
+    };
+    try {
+        flow.partition = cells::kept_partition(source, flow.means);
+    } catch (const Error&) { // a report of what failed names the inputs, too
+        record_inputs();
+        throw;
+    }
+    record_inputs();
     flow.part = contents.name;
     flow.unit = contents.unit;
     flow.up = contents.up;
     flow.box = contents.bounds;
-    flow.partition = cells::kept_partition(source, flow.means);
     if (contents.vertices > flow.partition->vertices())
         context.warn(
             "W-CELLS",

@@ -1,0 +1,83 @@
+#include "cells/input_stamps.hpp"
+
+#include "base/hash.hpp"
+#include "base/json.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <sys/stat.h>
+
+namespace facetmill::cells {
+
+namespace {
+
+constexpr std::int64_t nanoseconds = 1000000000; // of a second
+
+std::int64_t time_in(const timespec& time) {
+    return std::int64_t{time.tv_sec} * nanoseconds + std::int64_t{time.tv_nsec};
+}
+
+std::string digest_of_text(const std::string& text) { return sha256(std::as_bytes(std::span(text))); }
+
+Json stamp_json(const InputStamp& stamp) {
+    return {{"bytes", stamp.bytes},
+            {"inode", stamp.inode},
+            {"modified", stamp.modified},
+            {"changed", stamp.changed}};
+}
+
+} // namespace
+
+std::optional<InputStamp> InputStamp::of(const std::filesystem::path& path) {
+    struct stat about {};
+    if (::stat(path.c_str(), &about) != 0) return {};
+    return InputStamp{static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_ino),
+                      time_in(about.st_mtim), time_in(about.st_ctim)};
+}
+
+bool InputStamp::is_settled(std::int64_t now) const {
+    constexpr std::int64_t coarsest = 2 * nanoseconds; // FAT
+    return std::max(modified, changed) + coarsest < now;
+}
+
+std::int64_t InputStamps::now() {
+    const auto since = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+}
+
+InputStamps::InputStamps(const std::vector<FaceSource::File>& files, std::int64_t now) : now_(now) {
+    for (const auto& each : files)
+        if (const auto stamp = InputStamp::of(each.input.path())) stamps_.push_back(*stamp);
+}
+
+std::vector<std::string> InputStamps::digests(const CellFolder& folder) const {
+    const std::optional<io::Bytes> text = folder.read(file);
+    if (!text) return {};
+    const Json all = parse_json(io::as_text(*text), Broken::discarded);
+    if (!all.is_object() || !all.contains("files") || !all["files"].is_array() || !all.contains("sha256") ||
+        all["sha256"] != digest_of_text(all["files"].dump()) || all["files"].size() != stamps_.size())
+        return {};
+    std::vector<std::string> digests;
+    for (std::size_t i = 0; i < stamps_.size(); ++i) {
+        const Json& its = all["files"][i];
+        if (!its.is_object() || its.value("stamp", Json()) != stamp_json(stamps_[i])) return {};
+        digests.push_back(its.value("sha256", std::string()));
+    }
+    return digests;
+}
+
+void InputStamps::store(const CellFolder& folder, const std::vector<FaceSource::File>& files) const {
+    const InputStamps after(files);
+    if (stamps_.size() != files.size() || after.stamps_ != stamps_ ||
+        !std::all_of(stamps_.begin(), stamps_.end(),
+                     [&](const InputStamp& stamp) { return stamp.is_settled(now_); }))
+        return folder.remove(file);
+    Json all;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        all["files"].push_back({{"stamp", stamp_json(stamps_[i])}, {"sha256", files[i].sha256}});
+    all["sha256"] = digest_of_text(all["files"].dump());
+    const std::string text = all.dump(1) + "\n";
+    folder.write(file, {std::as_bytes(std::span(text))});
+}
+
+} // namespace facetmill::cells

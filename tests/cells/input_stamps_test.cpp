@@ -1,0 +1,64 @@
+#include "cells/input_stamps.hpp"
+
+#include "support/catch.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using namespace facetmill::cells;
+
+namespace {
+
+constexpr std::int64_t long_since = 10000000000; // 10 s
+
+/// What is stored of the file 10 s from now, as if nothing had happened to it.
+std::vector<std::string> stamped(const CellFolder& folder, const std::filesystem::path& path) {
+    const std::vector<FaceSource::File> files{{io::Input::open(path), std::string(64, 'd')}};
+    InputStamps(files, InputStamps::now() + long_since).store(folder, files);
+    return InputStamps(files).digests(folder);
+}
+
+} // namespace
+
+TEST_CASE("a digest is taken from a stamp as long as the file is as it was", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const auto path = folder / "m.ply";
+    const CellFolder kept({folder / "kept", false});
+    test::put(path, "contents");
+    const std::vector<std::string> digests{std::string(64, 'd')};
+    CHECK(stamped(kept, path) == digests);
+
+    const std::vector<FaceSource::File> files{{io::Input::open(path), {}}};
+    const auto modified = std::filesystem::last_write_time(path);
+    test::put(path, "CONTENTS"); // as long, and as old as far as one sees
+    std::filesystem::last_write_time(path, modified);
+    CHECK(InputStamps(files).digests(kept).empty());
+
+    CHECK(stamped(kept, path) == digests);
+    test::put(folder / "other", "CONTENTS");
+    std::filesystem::rename(folder / "other", path); // another file of that name
+    CHECK(InputStamps(files).digests(kept).empty());
+
+    CHECK(stamped(kept, path) == digests);
+    const io::Bytes stored = *kept.read("facetmill-cells.inputs");
+    std::string text(reinterpret_cast<const char*>(stored.data()), stored.size());
+    text[text.find("dddd")] = 'e';
+    test::put(folder / "kept/facetmill-cells.inputs", text);
+    CHECK(InputStamps(files).digests(kept).empty());
+}
+
+TEST_CASE("a file that was just written, or is written to, gets no stamp", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const auto path = folder / "m.ply";
+    const CellFolder kept({folder / "kept", false});
+    test::put(path, "contents");
+    CHECK(stamped(kept, path).size() == 1);
+    const std::vector<FaceSource::File> files{{io::Input::open(path), std::string(64, 'd')}};
+    InputStamps(files).store(kept, files); // at once
+    CHECK_FALSE(std::filesystem::exists(folder / "kept/facetmill-cells.inputs"));
+
+    const InputStamps before(files, InputStamps::now() + long_since);
+    test::put(path, "more contents");
+    before.store(kept, files);
+    CHECK_FALSE(std::filesystem::exists(folder / "kept/facetmill-cells.inputs"));
+    CHECK_FALSE(InputStamp::of(folder / "none"));
+}
