@@ -91,8 +91,8 @@ def crossing_length(path):
 def pipeline(options):
     counts = {"validate": {name: {"min": 0} for name in COUNTED}}
     return {"facetmill": 1, "report": ["r.json"], "allow": ["W-CLEAN", "W-UNITS", "W-SURFACE-LOST", "W-FANS"], "stages": [
-        {"load": {"path": "a.ply", "weld": "exact"}}, counts, {"clean": options}, counts, {"write": "b.ply"},
-        {"clean": options}, {"write": "c.ply"}]}
+        {"load": {"path": "a.ply", "weld": "exact"}}, counts, {"clean": options}, counts, {"write": {"path": "b.ply", "precision": "full"}},
+        {"clean": options}, {"write": {"path": "c.ply", "precision": "full"}}]}  # not rounded: what was counted
 
 
 def judged(program, folder, options):

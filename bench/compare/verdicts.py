@@ -55,14 +55,14 @@ def by_pymeshlab(path):
     m = meshes.get_topological_measures()
     try:
         meshes.compute_selection_by_self_intersections_per_face()
-        crossing = meshes.current_mesh().selected_face_number() > 0
+        selected = np.nonzero(meshes.current_mesh().face_selection_array())[0]
     except pymeshlab.PyMeshLabException:  # it refuses meshes whose faces have no area
-        crossing = None
+        selected = None
     return {"boundary_edges": m["boundary_edges"], "components": m["connected_components_number"],
             "edge_manifold": m["non_two_manifold_edges"] == 0, "vertex_manifold": m["non_two_manifold_vertices"] == 0,
             "isolated_vertices": m["unreferenced_vertices"], "edges": m["edges_number"],
             "genus": m["genus"] if m["genus"] >= 0 else None,
-            "crossing": crossing}
+            "crossing": None if selected is None else len(selected) > 0, "selected": selected}
 
 
 def by_cgal(program, path):
@@ -223,6 +223,17 @@ def crosses(points, f, g):
     return any(through(p, q, b) for p, q in edges(a)) or any(through(p, q, a) for p, q in edges(b))
 
 
+def rounding_reason(off, selected):
+    """Nothing when one of the faces that MeshLab selects does meet another, elsewhere than in what they share."""
+    mesh = trimesh.load(off, process=False)
+    low, high = mesh.vertices[mesh.faces].min(1), mesh.vertices[mesh.faces].max(1)
+    for f in selected:
+        near = np.nonzero(((low <= high[f]) & (low[f] <= high)).all(1))[0]
+        if any(pair_meets(mesh.vertices, list(mesh.faces[f]), list(mesh.faces[g]))[0] for g in near if g != f):
+            return None
+    return "no face that MeshLab selects meets another in rational numbers"
+
+
 def crossing_reason(facetmill, off, scratch):
     """What the pairs are that facetmill finds and MeshLab does not; nothing when one is not true."""
     report = scratch / "report.json"
@@ -240,7 +251,7 @@ def crossing_reason(facetmill, off, scratch):
     return "MeshLab leaves out faces " + " or ".join(names[s] for s in sorted(shares)) + "; checked in rational numbers"
 
 
-def explained(name, ours, tri, lab, find_crossings):
+def explained(name, ours, tri, lab, off, find_crossings):
     """The reason for a disagreement, from what the words mean; or nothing."""
     repeats = tri["repeating"] > 0
     if repeats and (name in ("edge_manifold", "vertex_manifold", "boundary_edges", "oriented", "components",
@@ -259,6 +270,8 @@ def explained(name, ours, tri, lab, find_crossings):
         return find_crossings()
     if name == "self_intersections" and ours["touching"] > 0:
         return "pairs that only touch are `touching` here; MeshLab counts some of them"
+    if name == "self_intersections" and lab["crossing"]:
+        return rounding_reason(off, lab["selected"])
     return None
 
 
@@ -277,7 +290,7 @@ def judge(facetmill, cgal, path, scratch):
     except Exception as error:  # a peer that gives up is an answer, too
         return f"a peer gave up: {str(error)[:80]}", []
     reason = lambda: crossing_reason(facetmill, off, scratch)
-    found = [(n, a, b, explained(n, ours, tri, lab, reason)) for n, a, b in compare(ours, tri, lab)]
+    found = [(n, a, b, explained(n, ours, tri, lab, off, reason)) for n, a, b in compare(ours, tri, lab)]
     if cgal:
         answer = by_cgal(cgal, off)
         found += [(n, a, b, explained_cgal(n, ours, answer, off)) for n, a, b in compare_cgal(ours, answer, facetmill, off)]
@@ -299,7 +312,7 @@ def main():
     ask.add_argument("--cgal")
     ask.add_argument("--generated", nargs=2, type=int, metavar=("FIRST", "COUNT"), default=(0, 0))
     ask.add_argument("roots", nargs="*", type=pathlib.Path)
-    given = ask.parse_args()
+    given = ask.parse_intermixed_args()
     files = sorted(f for r in given.roots for f in ([r] if r.is_file() else r.rglob("*"))
                    if f.is_file() and f.suffix != ".tsv")
     reasons, left = collections.Counter(), 0
