@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "io/image_files.hpp"
 
+#include <array>
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
@@ -25,8 +26,10 @@ struct PngWriter {
     png_structp state = ::png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
     png_infop info = state ? ::png_create_info_struct(state) : nullptr;
     Bytes out{};
+    const std::size_t most; ///< bytes: where there are more, the image is not wanted, and no more is done
+    bool too_many = false;
 
-    PngWriter() = default;
+    explicit PngWriter(std::size_t bytes) : most(bytes) {}
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
     ~PngWriter() { ::png_destroy_write_struct(&state, &info); }
@@ -34,7 +37,10 @@ struct PngWriter {
     [[noreturn]] static void leave(png_structp state, png_const_charp) { ::png_longjmp(state, 1); }
     static void ignore(png_structp, png_const_charp) {}
     static void append(png_structp png, png_bytep data, std::size_t count) {
-        Bytes& out = static_cast<PngWriter*>(::png_get_io_ptr(png))->out;
+        PngWriter& writer = *static_cast<PngWriter*>(::png_get_io_ptr(png));
+        Bytes& out = writer.out;
+        writer.too_many = count > writer.most - out.size();
+        if (writer.too_many) ::png_error(png, "size");
         const auto* bytes = reinterpret_cast<const std::byte*>(data);
         try {
             out.insert(out.end(), bytes, bytes + count);
@@ -138,23 +144,28 @@ Bytes bytes_from(const std::uint8_t* data, std::size_t size) {
 
 // --- JPEG again
 
-/// A JPEG read as coefficients and written as such.
+/// What a JPEG's coefficients are written to.
+struct JpegTarget {
+    jpeg_compress_struct state{};
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+};
+
+/// A JPEG read as coefficients and written as such: in several scans and in one.
 struct JpegCopy {
     jpeg_decompress_struct from{};
-    jpeg_compress_struct to{};
+    std::array<JpegTarget, 2> to{};
     jpeg_error_mgr from_errors{}, to_errors{};
     jpeg_progress_mgr progress{};
     std::jmp_buf back{};
-    unsigned char* bytes = nullptr;
-    unsigned long size = 0;
 
     JpegCopy() = default;
     JpegCopy(const JpegCopy&) = delete;
     JpegCopy& operator=(const JpegCopy&) = delete;
     ~JpegCopy() {
-        ::jpeg_destroy_compress(&to);
+        for (JpegTarget& target : to) ::jpeg_destroy_compress(&target.state);
         ::jpeg_destroy_decompress(&from);
-        std::free(bytes);
+        for (JpegTarget& target : to) std::free(target.bytes);
     }
     [[noreturn]] static void leave(j_common_ptr state) {
         std::longjmp(static_cast<JpegCopy*>(state->client_data)->back, 1);
@@ -182,41 +193,53 @@ bool writes_itself(const jpeg_compress_struct& to, const jpeg_marker_struct& mar
            (to.write_Adobe_marker && marker.marker == JPEG_APP0 + 14 && begins("Adobe", 5));
 }
 
-/// False where the file is broken. Nothing here may need a destructor when the library jumps.
-bool copy_jpeg(JpegCopy& copy, Span bytes, bool progressive) {
+/// Reads the coefficients; null where the file is broken. Nothing here may need a destructor when the library
+/// jumps.
+jvirt_barray_ptr* read_coefficients(JpegCopy& copy, Span bytes) {
     copy.from.err = JpegCopy::quiet(copy.from_errors);
-    copy.to.err = JpegCopy::quiet(copy.to_errors);
-    copy.from.client_data = copy.to.client_data = &copy;
+    copy.from.client_data = &copy;
     copy.progress.progress_monitor = JpegCopy::limit_scans;
-    if (setjmp(copy.back) != 0) return false;
+    if (setjmp(copy.back) != 0) return nullptr;
     ::jpeg_create_decompress(&copy.from);
-    ::jpeg_create_compress(&copy.to);
     ::jpeg_mem_src(&copy.from, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     ::jpeg_save_markers(&copy.from, JPEG_COM, 0xFFFF);
     for (int n = 0; n < 16; ++n) ::jpeg_save_markers(&copy.from, JPEG_APP0 + n, 0xFFFF);
-    if (::jpeg_read_header(&copy.from, TRUE) != JPEG_HEADER_OK) return false;
+    if (::jpeg_read_header(&copy.from, TRUE) != JPEG_HEADER_OK) return nullptr;
     copy.from.progress = &copy.progress;
     jvirt_barray_ptr* coefficients = ::jpeg_read_coefficients(&copy.from);
-    if (copy.from_errors.num_warnings > 0) return false;
-    ::jpeg_copy_critical_parameters(&copy.from, &copy.to);
-    copy.to.optimize_coding = TRUE;
-    if (progressive) ::jpeg_simple_progression(&copy.to);
-    ::jpeg_mem_dest(&copy.to, &copy.bytes, &copy.size);
-    ::jpeg_write_coefficients(&copy.to, coefficients);
+    return copy.from_errors.num_warnings > 0 ? nullptr : coefficients;
+}
+
+/// False where they cannot be written. Nothing here may need a destructor when the library jumps.
+bool write_coefficients(JpegCopy& copy, JpegTarget& target, jvirt_barray_ptr* coefficients,
+                        bool progressive) {
+    jpeg_compress_struct& to = target.state;
+    to.err = JpegCopy::quiet(copy.to_errors);
+    to.client_data = &copy;
+    if (setjmp(copy.back) != 0) return false;
+    ::jpeg_create_compress(&to);
+    ::jpeg_copy_critical_parameters(&copy.from, &to);
+    to.optimize_coding = TRUE;
+    if (progressive) ::jpeg_simple_progression(&to);
+    ::jpeg_mem_dest(&to, &target.bytes, &target.size);
+    ::jpeg_write_coefficients(&to, coefficients);
     for (const jpeg_marker_struct* m = copy.from.marker_list; m; m = m->next)
-        if (!writes_itself(copy.to, *m)) ::jpeg_write_marker(&copy.to, m->marker, m->data, m->data_length);
-    ::jpeg_finish_compress(&copy.to);
+        if (!writes_itself(to, *m)) ::jpeg_write_marker(&to, m->marker, m->data, m->data_length);
+    ::jpeg_finish_compress(&to);
     return true;
 }
 
 Bytes repacked_jpeg(Span bytes) {
-    Bytes best;
-    for (const bool progressive : {true, false}) {
-        JpegCopy copy;
-        if (copy_jpeg(copy, bytes, progressive) && (best.empty() || copy.size < best.size()))
-            best = bytes_from(copy.bytes, copy.size);
+    JpegCopy copy;
+    jvirt_barray_ptr* const coefficients = read_coefficients(copy, bytes);
+    const JpegTarget* best = nullptr;
+    for (JpegTarget& target : copy.to) {
+        const bool progressive = &target == &copy.to.front();
+        if (coefficients && write_coefficients(copy, target, coefficients, progressive) &&
+            (!best || target.size < best->size))
+            best = &target;
     }
-    return best;
+    return best ? bytes_from(best->bytes, best->size) : Bytes{};
 }
 
 // --- WebP
@@ -246,10 +269,13 @@ namespace {
 
 constexpr int smallest = 9, fastest = 1; // levels of zlib
 
-Bytes png_of_type(const Pixels& image, int colour_type, int level) {
-    PngWriter writer;
+/// Nothing where it would have more than so many bytes.
+Bytes png_of_type(const Pixels& image, int colour_type, int level, std::size_t most = SIZE_MAX) {
+    PngWriter writer(most);
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
-    if (!writer.info || !write_png(writer, image, colour_type, level, channels)) no_memory_for("PNG");
+    const bool whole = writer.info && write_png(writer, image, colour_type, level, channels);
+    if (writer.too_many) return {};
+    if (!whole) no_memory_for("PNG");
     return std::move(writer.out);
 }
 
@@ -257,14 +283,15 @@ int alpha_type(const Pixels& image) { return is_opaque(image) ? 0 : PNG_COLOR_MA
 
 int type_of(const Pixels& image) { return (is_grey(image) ? 0 : PNG_COLOR_MASK_COLOR) | alpha_type(image); }
 
-/// The PNG, unless it will hardly be smaller than the given one: where a large image takes half as much again
-/// at the fastest level, as the colours of a palette do, the slowest seldom makes up for it. Else nothing.
+/// The PNG, unless it is not smaller than the given one, or hardly will be: where a large image takes more
+/// than half as much again at the fastest level, as the colours of a palette do, the slowest seldom makes up
+/// for it. Else nothing.
 Bytes repacked_png(const Pixels& image, std::size_t given) {
     constexpr std::size_t large = std::size_t{1} << 20; // pixels
     const int type = type_of(image);
-    if (image.width * image.height >= large && png_of_type(image, type, fastest).size() > given + given / 2)
+    if (image.width * image.height >= large && png_of_type(image, type, fastest, given + given / 2).empty())
         return {};
-    return png_of_type(image, type, smallest);
+    return png_of_type(image, type, smallest, given);
 }
 
 } // namespace

@@ -207,10 +207,22 @@ bool has_embedded_images(const Json& document) {
     return false;
 }
 
+/// Whether points have morph targets, which are not read.
+bool points_have_targets(const Json& document) {
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
+        const Place primitives = item(document, "meshes", m).at("primitives");
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            if (makes_points(primitives.at(i)) && primitives.at(i).find("targets")) return true;
+    }
+    return false;
+}
+
 /// The document's materials with their textures, and nothing that stands somewhere. Warns of what moves or
 /// looks.
 std::shared_ptr<const Document> materials_of(Json json, const Document& document, ReadLog& log) {
-    const std::vector<std::string> lost = keep_materials_only(json);
+    const bool targets = points_have_targets(json);
+    std::vector<std::string> lost = keep_materials_only(json);
+    if (targets) lost.emplace_back("morph targets");
     if (!lost.empty())
         log.warnings.push_back(
             {Severity::warning,

@@ -382,6 +382,12 @@ TEST_CASE("lines beside points are parts, and both keep their materials", "[io]"
     test::read_text(weights, &log);
     REQUIRE(log.warnings.size() == 1);
     CHECK(log.warnings[0].message == "morph weights of a document of points cannot be kept: skipped");
+    log.warnings.clear();
+    std::string targets = text("");
+    targets.replace(targets.find("\"mode\":0"), 8, R"("mode":0,"targets":[{"POSITION":0}])");
+    test::read_text(targets, &log);
+    REQUIRE(log.warnings.size() == 1);
+    CHECK(log.warnings[0].message == "morph targets of a document of points cannot be kept: skipped");
 }
 
 TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own", "[io]") {
