@@ -66,6 +66,14 @@ double Walls::along(Index wall, const Vec2& p) const {
     return dot(p - e.a, e.b - e.a) / lengths_[wall];
 }
 
+double Walls::spread_of_corner(Index wall) const {
+    const auto &e = edges()[wall], &f = edges()[e.next];
+    const double shorter = std::min(lengths_[wall], lengths_[e.next]),
+                 longer = std::max(lengths_[wall], lengths_[e.next]),
+                 sine = std::fabs(cross(e.b - e.a, f.b - f.a)) / shorter / longer;
+    return std::max(rounding_, std::min(rounding_ / sine, shorter * 0x1p-20));
+}
+
 const Walls::Stand& Walls::nearest_stand(Index wall, const Vec2& p) const {
     const auto& stands = stands_[wall];
     const auto after = std::lower_bound(stands.begin(), stands.end(), along(wall, p),

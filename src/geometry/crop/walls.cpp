@@ -126,6 +126,28 @@ AttributeChanges append_walls(Mesh& mesh, const WallFaces& faces) {
         "crop without cap, or move the outline a little");
 }
 
+/// The walls of the boundary's edges at each vertex.
+class WallsAtVertices {
+  public:
+    WallsAtVertices(std::span<const WallEdge> edges, std::size_t vertices) : begins_(vertices + 1) {
+        for (const WallEdge& e : edges)
+            for (const Index v : {e.low, e.high}) ++begins_[v];
+        walls_.resize(exclusive_scan(begins_));
+        std::vector<std::size_t> ends = begins_;
+        for (const WallEdge& e : edges)
+            for (const Index v : {e.low, e.high}) walls_[ends[v]++] = e.wall;
+    }
+    bool has(Index vertex, Index wall) const {
+        const std::span<const Index> walls(walls_.data() + begins_[vertex],
+                                           walls_.data() + begins_[vertex + 1]);
+        return std::find(walls.begin(), walls.end(), wall) != walls.end();
+    }
+
+  private:
+    std::vector<std::size_t> begins_; ///< [vertices + 1]
+    std::vector<Index> walls_;
+};
+
 class Closer {
   public:
     Closer(Mesh kept, const Footprint& footprint, const WallSettings& settings)
@@ -186,11 +208,14 @@ class Closer {
         std::vector<Insertion> insertions;
         std::vector<Lineage::Edge> added;
         const double rounding = walls_.rounding();
+        const WallsAtVertices around(edges_, mesh_.vertex_count());
         for (const WallEdge& e : edges_) {
             const double a = walls_.along(e.wall, view_.seen[e.low]),
                          b = walls_.along(e.wall, view_.seen[e.high]);
             for (const auto& stand : walls_.stands(e.wall)) {
                 if (!(stand.at > std::min(a, b) + rounding && stand.at < std::max(a, b) - rounding)) continue;
+                const bool at_low = std::fabs(stand.at - a) < std::fabs(stand.at - b);
+                if (is_corner(around, e.wall, stand, at_low ? e.low : e.high, at_low ? a : b)) continue;
                 const auto vertex = static_cast<Index>(mesh_.vertex_count() + added.size());
                 added.push_back(a < b ? Lineage::Edge{e.low, e.high, (stand.at - a) / (b - a)}
                                       : Lineage::Edge{e.high, e.low, (stand.at - b) / (a - b)});
@@ -201,6 +226,17 @@ class Closer {
         if (added.empty()) return false;
         insert_all(std::move(insertions), added);
         return true;
+    }
+    /// Whether the boundary passes to the wall's neighbour at a vertex, which is beyond the corner by no more
+    /// than rounding may have put it: it is the corner then. Another point there would be that of a sliver,
+    /// of which the wall might take the other face.
+    bool is_corner(const WallsAtVertices& around, Index wall, const Walls::Stand& stand, Index vertex,
+                   double at) const {
+        const auto& e = walls_.edges()[wall];
+        const bool ends = stand.at == walls_.length_of(wall);
+        if (!ends && stand.at != 0) return false;
+        return std::fabs(at - stand.at) <= walls_.spread_of_corner(ends ? wall : e.previous) &&
+               around.has(vertex, ends ? e.next : e.previous);
     }
     /// Puts a vertex on an edge of the boundary, at the place that at tells.
     void insert(std::vector<Insertion>& insertions, const WallEdge& e, const Lineage::Edge& at,
