@@ -15,6 +15,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
+#include <span>
 
 namespace facetmill::io {
 
@@ -71,10 +72,11 @@ VertexChanges vertex_changes(const Scene& before, const Scene& after) {
 
 namespace {
 
-/// A scene in world space: the points of all parts and the points of all corners, in order.
+/// A scene in world space: the points of all parts and the points of all corners, in order. The scene has to
+/// outlive it: what is there as it is wanted, as that of a scene of one part is, is not copied.
 struct Flat {
-    std::vector<Vec3> points;
-    std::vector<Index> corners;
+    std::span<const Vec3> points;
+    std::span<const Index> corners;
     std::vector<Vec3> ends; ///< of lines, in order
 
     /// degenerate: with the faces of fewer than three different vertices.
@@ -84,57 +86,86 @@ struct Flat {
                 ends.push_back(in_world(part, part.mesh.positions[part.mesh.vertex_of_wedge(w)]));
         if (!degenerate) {
             add_sound_faces(scene);
-            return;
+        } else if (scene.parts.size() == 1) {
+            const Part& part = scene.parts.front();
+            if (part.transform.identity())
+                points = part.mesh.positions;
+            else
+                add_points(part);
+            if (part.mesh.has_seams())
+                add_corners(part.mesh, 0);
+            else
+                corners = part.mesh.corners;
+        } else {
+            for (const auto& part : scene.parts) add_corners(part.mesh, add_points(part));
         }
-        for (const auto& part : scene.parts) {
-            const Transform to_world = part.transform;
-            const std::size_t first = points.size(), first_corner = corners.size();
-            points.resize(first + part.mesh.vertex_count());
-            corners.resize(first_corner + part.mesh.corner_count());
-            parallel_for(part.mesh.vertex_count(),
-                         [&](std::size_t v) { points[first + v] = to_world.point(part.mesh.positions[v]); });
-            parallel_for(part.mesh.corner_count(), [&](std::size_t c) {
-                corners[first_corner + c] =
-                    static_cast<Index>(first) + part.mesh.vertex(static_cast<Index>(c));
-            });
-        }
+        if (points.empty()) points = made_points_;
+        if (corners.empty()) corners = made_corners_;
+    }
+    Flat(const Flat&) = delete;
+    Flat& operator=(const Flat&) = delete;
+
+    /// The points that faces use; all points when there are neither faces nor lines.
+    std::vector<Vec3> used() const {
+        if (corners.empty())
+            return ends.empty() ? std::vector(points.begin(), points.end()) : std::vector<Vec3>{};
+        std::vector<std::uint8_t> is_used(points.size());
+        for (const Index p : corners) is_used[p] = 1;
+        std::vector<Vec3> found;
+        found.reserve(points.size());
+        for (std::size_t p = 0; p < points.size(); ++p)
+            if (is_used[p]) found.push_back(points[p]);
+        return found;
+    }
+
+  private:
+    /// Returns the number of the first.
+    Index add_points(const Part& part) {
+        const Transform to_world = part.transform;
+        const std::size_t first = made_points_.size();
+        made_points_.resize(first + part.mesh.vertex_count());
+        parallel_for(part.mesh.vertex_count(), [&](std::size_t v) {
+            made_points_[first + v] = to_world.point(part.mesh.positions[v]);
+        });
+        return static_cast<Index>(first);
+    }
+
+    void add_corners(const Mesh& mesh, Index first) {
+        const std::size_t before = made_corners_.size();
+        made_corners_.resize(before + mesh.corner_count());
+        parallel_for(mesh.corner_count(), [&](std::size_t c) {
+            made_corners_[before + c] = first + mesh.vertex(static_cast<Index>(c));
+        });
     }
 
     /// The faces of three different vertices and more, from every part.
     void add_sound_faces(const Scene& scene) {
         for (const auto& part : scene.parts) {
             const Mesh& mesh = part.mesh;
-            const std::size_t first = points.size();
-            for (const Vec3& p : mesh.positions) points.push_back(in_world(part, p));
+            const std::size_t first = made_points_.size();
+            for (const Vec3& p : mesh.positions) made_points_.push_back(in_world(part, p));
             for (Index f = 0; f < mesh.face_count(); ++f) {
                 std::set<Index> vertices;
                 for (const Index w : mesh.face_wedges(f)) vertices.insert(mesh.vertex_of_wedge(w));
                 if (vertices.size() < 3) continue;
                 for (const Index w : mesh.face_wedges(f))
-                    corners.push_back(static_cast<Index>(first) + mesh.vertex_of_wedge(w));
+                    made_corners_.push_back(static_cast<Index>(first) + mesh.vertex_of_wedge(w));
             }
         }
     }
 
-    /// The points that faces use; all points when there are neither faces nor lines.
-    std::vector<Vec3> used() const {
-        if (corners.empty()) return ends.empty() ? points : std::vector<Vec3>{};
-        std::vector<std::uint8_t> is_used(points.size());
-        for (const Index p : corners) is_used[p] = 1;
-        std::vector<Vec3> found;
-        for (std::size_t p = 0; p < points.size(); ++p)
-            if (is_used[p]) found.push_back(points[p]);
-        return found;
-    }
+    std::vector<Vec3> made_points_;
+    std::vector<Index> made_corners_;
 };
 
+/// The largest distance; where it is above the tolerance, one that is.
 template <class Distance>
-double largest(std::size_t count, Distance&& distance) {
+double largest(std::size_t count, double tolerance, Distance&& distance) {
     return parallel_reduce(
         count, 0.0,
         [&](std::size_t begin, std::size_t end) {
             double most = 0;
-            for (std::size_t i = begin; i < end; ++i) most = std::max(most, distance(i));
+            for (std::size_t i = begin; i < end && most <= tolerance; ++i) most = std::max(most, distance(i));
             return most;
         },
         [](double a, double b) { return std::max(a, b); });
@@ -255,8 +286,9 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to, doub
 /// The same for the ends of lines.
 double error_of_lines(const Flat& wanted, const Flat& found, double tolerance) {
     if (wanted.ends.size() == found.ends.size()) {
-        const double in_order = largest(
-            wanted.ends.size(), [&](std::size_t i) { return length(wanted.ends[i] - found.ends[i]); });
+        const double in_order = largest(wanted.ends.size(), tolerance, [&](std::size_t i) {
+            return length(wanted.ends[i] - found.ends[i]);
+        });
         if (in_order <= tolerance) return in_order;
     }
     return std::max(farthest(wanted.ends, found.ends, tolerance),
@@ -266,7 +298,7 @@ double error_of_lines(const Flat& wanted, const Flat& found, double tolerance) {
 /// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
 double position_error(const Flat& wanted, const Flat& found, double tolerance) {
     if (wanted.corners.size() == found.corners.size() && !wanted.corners.empty()) {
-        const double in_order = largest(wanted.corners.size(), [&](std::size_t c) {
+        const double in_order = largest(wanted.corners.size(), tolerance, [&](std::size_t c) {
             return length(wanted.points[wanted.corners[c]] - found.points[found.corners[c]]);
         });
         if (in_order <= tolerance) return in_order;
