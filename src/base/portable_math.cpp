@@ -1,5 +1,7 @@
 #include "base/portable_math.hpp"
 
+#include "base/arc_tangents.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -130,7 +132,22 @@ double arc_tangent_series(double t) {
     return angles[quarter] + (u + u * z * polynomial(z, k));
 }
 
+/// The angle of (x, y), whose smaller coordinate is t times the larger one, by amount.
+double angle_of(double t, double y, double x) {
+    double angle = arc_tangent_series(t);
+    if (std::abs(y) > std::abs(x)) angle = pi / 2 - angle;
+    if (std::signbit(x)) angle = pi - angle;
+    return std::copysign(angle, y);
+}
+
 } // namespace
+
+void arc_tangents(std::span<const double> y, std::span<const double> x, std::span<double> angles) {
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const double ax = std::abs(x[i]), ay = std::abs(y[i]);
+        angles[i] = angle_of(std::min(ax, ay) / std::max(ax, ay), y[i], x[i]);
+    }
+}
 
 double arc_tangent(double y, double x) {
     if (std::isnan(x) || std::isnan(y)) return not_a_number;
@@ -138,10 +155,7 @@ double arc_tangent(double y, double x) {
     // Equal infinities are at 45 degrees; two zeros lie on the x axis, by the signs of both (as atan2 has
     // it).
     const double t = large == 0 ? 0 : std::isinf(large) ? (std::isinf(small) ? 1 : 0) : small / large;
-    double angle = arc_tangent_series(t);
-    if (ay > ax) angle = pi / 2 - angle;
-    if (std::signbit(x)) angle = pi - angle;
-    return std::copysign(angle, y);
+    return angle_of(t, y, x);
 }
 
 double arc_cosine(double x) {

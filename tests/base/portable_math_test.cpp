@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "base/arc_tangents.hpp"
 #include "base/portable_math.hpp"
 #include "base/random.hpp"
 
@@ -88,6 +89,20 @@ TEST_CASE("arc_tangent and arc_cosine keep their accuracy in all quadrants", "[b
     CHECK(arc_cosine(1.5) == 0);
 }
 
+TEST_CASE("arc tangents side by side are those one by one, to the last bit", "[base]") {
+    std::vector<double> y, x;
+    for (double a = -40; a < 40; a += 0.37)
+        for (const double b : {-1e9, -3.0, -1.0, -1e-7, -0.0, 0.0, 1e-200, 0.5, 1.0, a, 2e5}) {
+            y.push_back(a);
+            x.push_back(b);
+        }
+    std::vector<double> angles(y.size());
+    arc_tangents(y, x, angles);
+    for (std::size_t i = 0; i < y.size(); ++i) CHECK(angles[i] == arc_tangent(y[i], x[i]));
+    arc_tangents(y, x, y); // in place
+    CHECK(y == angles);
+}
+
 TEST_CASE("inverse_normal keeps its relative accuracy from the middle to the tails", "[base]") {
     CHECK(worst([](auto i) {
               const double p = i % 4 == 0   ? between(0, 1, i)
@@ -109,3 +124,4 @@ TEST_CASE("inverse_normal keeps its relative accuracy from the middle to the tai
     CHECK(inverse_normal(0) == -HUGE_VAL);
     CHECK(inverse_normal(1) == HUGE_VAL);
 }
+#include <vector>

@@ -1,11 +1,14 @@
 #include "geometry/measure/shape_histograms.hpp"
 
+#include "base/arc_tangents.hpp"
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
+#include "base/simd.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -87,13 +90,63 @@ double cosine_between(const Vec3& edge, double its_length, const Vec3& next, dou
                        : 1; // a corner without sides has no angle
 }
 
-/// The angle there. twice: the area of the triangle, which gives it without a root of its own.
-double angle_between(const Vec3& edge, double its_length, const Vec3& next, double next_length,
-                     double twice) {
-    if (twice > 1e-140 && twice < 1e140) return arc_tangent(twice, -dot(edge, next));
-    // Flat, or squares of squares are beyond all numbers; where those of lengths are, too, it is -1.
-    return arc_cosine(std::max(-1.0, cosine_between(edge, its_length, next, next_length)));
+/// smallest: the smallest angle; worst: the aspect.
+void add_shape(double smallest, double worst, Shapes& out) {
+    const double angle = smallest * 180 / pi;
+    out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
+    if (std::isfinite(worst))
+        out.aspects.add(power_bin(worst, 0), worst);
+    else
+        ++out.flat;
 }
+
+/// Triangles that follow each other. What they are measured by is gathered first, angles are computed side by
+/// side, and then all is counted, in order: none of the three waits for what another decides.
+class TriangleBatch {
+  public:
+    bool is_full() const { return count_ == most; }
+
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+        const std::array<Vec3, 3> sides{b - a, c - b, a - c};
+        const std::array<double, 3> lengths{length(sides[0]), length(sides[1]), length(sides[2])};
+        const double twice = length(cross(sides[0], sides[2])); // the area
+        const std::array<double, 3> along{-dot(sides[1], sides[2]), -dot(sides[2], sides[0]),
+                                          -dot(sides[0], sides[1])};
+        // The smallest angle is opposite the shortest edge.
+        const auto [x, y, z] = lengths;
+        const bool is_x = static_cast<int>(x <= y) & static_cast<int>(x <= z); // no branch: none is likelier
+        const std::size_t shortest = static_cast<std::size_t>(!is_x) * (y <= z ? 1U : 2U);
+        const std::size_t i = count_++;
+        for (std::size_t k = 0; k < 3; ++k) edges_[3 * i + k] = lengths[k];
+        aspects_[i] = aspect_ratio(x, y, z, twice / 2);
+        y_[i] = twice;
+        x_[i] = along[shortest];
+        if (twice > 1e-140 && twice < 1e140) return; // the area gives the angle without a root of its own
+        // Flat, or squares of squares are beyond all numbers; where those of lengths are, too, it is -1.
+        const std::size_t first = (shortest + 1) % 3, second = (shortest + 2) % 3;
+        odd_.emplace_back(i, arc_cosine(std::max(-1.0, cosine_between(sides[first], lengths[first],
+                                                                      sides[second], lengths[second]))));
+        y_[i] = x_[i] = 1;
+    }
+
+    void count(Shapes& out) {
+        arc_tangents(std::span(y_).first(count_), std::span(x_).first(count_), std::span(y_).first(count_));
+        for (const auto& [i, angle] : odd_) y_[i] = angle;
+        for (std::size_t i = 0; i < 3 * count_; ++i)
+            out.edges.add(power_bin(edges_[i], lowest_octave), edges_[i]);
+        for (std::size_t i = 0; i < count_; ++i) add_shape(y_[i], aspects_[i], out);
+        count_ = 0;
+        odd_.clear();
+    }
+
+  private:
+    static constexpr std::size_t most = 128;
+
+    std::size_t count_ = 0;
+    std::array<double, 3 * most> edges_;
+    std::array<double, most> y_, x_, aspects_;        ///< y and x: of the smallest angle
+    std::vector<std::pair<std::size_t, double>> odd_; ///< those whose angles come from elsewhere
+};
 
 class ShapesOfFaces {
   public:
@@ -103,43 +156,31 @@ class ShapesOfFaces {
     Shapes operator()(std::size_t begin, std::size_t end) const {
         Shapes out;
         Outline outline;
-        for (std::size_t f = begin; f < end; ++f)
-            if (mesh_.face_size(static_cast<Index>(f)) == 3)
-                add_triangle(static_cast<Index>(f), out);
+        TriangleBatch triangles;
+        for (auto f = static_cast<Index>(begin); f < end; ++f) {
+            constexpr Index ahead = 24;
+            if (f + ahead < end) fetch_soon(mesh_.point(mesh_.face_begin(f + ahead)));
+            const bool is_triangle = mesh_.face_size(f) == 3;
+            if (triangles.is_full() || !is_triangle) triangles.count(out);
+            if (is_triangle)
+                add_triangle(f, triangles);
             else
-                add(static_cast<Index>(f), outline, out);
+                add(f, outline, out);
+        }
+        triangles.count(out);
         return out;
     }
 
   private:
     /// As add, without arrays of unknown size: most faces are triangles.
-    void add_triangle(Index f, Shapes& out) const {
+    void add_triangle(Index f, TriangleBatch& triangles) const {
         const Index first = mesh_.face_begin(f);
         const Vec3 a = point(first), b = point(first + 1), c = point(first + 2);
-        if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return;
-        const Vec3 ab = b - a, bc = c - b, ca = a - c;
-        const double x = length(ab), y = length(bc), z = length(ca);
-        for (const double edge : {x, y, z}) out.edges.add(power_bin(edge, lowest_octave), edge);
-        const double twice = length(cross(ab, ca)); // the area
-        // The smallest angle is opposite the shortest edge.
-        const double angle = x <= y && x <= z ? angle_between(bc, y, ca, z, twice)
-                             : y <= z         ? angle_between(ca, z, ab, x, twice)
-                                              : angle_between(ab, x, bc, y, twice);
-        add_shape(angle, aspect_ratio(x, y, z, twice / 2), out);
+        if (is_finite(a) && is_finite(b) && is_finite(c)) triangles.add(a, b, c);
     }
     Vec3 point(Index corner) const {
         const Vec3& p = mesh_.point(corner);
         return is_moved_ ? to_world_.point(p) : p;
-    }
-
-    /// smallest: the smallest angle; worst: the aspect.
-    static void add_shape(double smallest, double worst, Shapes& out) {
-        const double angle = smallest * 180 / pi;
-        out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
-        if (std::isfinite(worst))
-            out.aspects.add(power_bin(worst, 0), worst);
-        else
-            ++out.flat;
     }
 
     /// A face in the world: its points, the edges from each of them to the next, and their lengths.

@@ -19,16 +19,21 @@ bool is_finite(const Surface& surface, std::size_t t) {
            facetmill::is_finite(surface.point(t, 2));
 }
 
+/// Whether all vertices are finite, corners or not.
+bool is_finite(const Surface& surface) {
+    std::atomic<bool> all = true;
+    parallel_for(surface.positions.size(), [&](std::size_t v) {
+        if (!facetmill::is_finite(surface.positions[v])) all = false;
+    });
+    return all;
+}
+
 /// The numbers of the triangles with finite corners, ascending.
 std::vector<Index> finite_triangles(const Surface& surface) {
     std::vector<Index> kept;
     resize_large(kept, surface.size());
-    std::atomic<bool> all = true;
-    parallel_for(surface.size(), [&](std::size_t t) {
-        kept[t] = static_cast<Index>(t);
-        if (!is_finite(surface, t)) all = false;
-    });
-    if (!all) std::erase_if(kept, [&](Index t) { return !is_finite(surface, t); });
+    parallel_for(surface.size(), [&](std::size_t t) { kept[t] = static_cast<Index>(t); });
+    if (!is_finite(surface)) std::erase_if(kept, [&](Index t) { return !is_finite(surface, t); });
     return kept;
 }
 

@@ -81,6 +81,60 @@ TEST_CASE("the smallest angle of a triangle, whichever corner it is at", "[geome
     }
 }
 
+TEST_CASE("faces of all kinds are counted together as one by one", "[geometry]") {
+    // Triangles in runs of any length between quads, some of them flat, tiny, huge or nowhere.
+    Mesh all;
+    all.face_offsets = {0};
+    const auto add = [&](std::initializer_list<Vec3> points) {
+        for (const Vec3& p : points) {
+            all.corners.push_back(static_cast<Index>(all.positions.size()));
+            all.positions.push_back(p);
+        }
+        all.face_offsets.push_back(static_cast<Index>(all.corners.size()));
+    };
+    std::size_t flat = 0, nowhere = 0;
+    for (int i = 0; i < 700; ++i) {
+        const double s = i % 50 == 7 ? 1e-75 : i % 50 == 9 ? 1e75 : 1 + i % 13;
+        const bool is_quad = i % 200 == 60, is_flat = i % 90 == 11 && !is_quad,
+                   is_nowhere = i % 90 == 12 && !is_quad;
+        flat += is_flat;
+        nowhere += is_nowhere;
+        if (is_quad)
+            add({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}});
+        else if (is_flat || is_nowhere)
+            add({{0, 0, 0}, {s, is_nowhere ? NAN : 0, 0}, {2 * s, 0, 0}});
+        else
+            add({{0, 0, 0}, {s, 0, s * (i % 3)}, {s * (i % 7), s * (1 + i % 5), 0}});
+    }
+    const auto together = shape_histograms(scene_of_mesh(all));
+    CHECK(together.flat_faces == flat);
+    CHECK(together.smallest_angle.total == 700 - nowhere);
+    ShapeHistograms summed;
+    double angles = 0, edges = 0;
+    for (Index f = 0; f < all.face_count(); ++f) {
+        Mesh one;
+        one.face_offsets = {0, all.face_size(f)};
+        for (Index c = all.face_begin(f); c < all.face_end(f); ++c) {
+            one.corners.push_back(static_cast<Index>(one.positions.size()));
+            one.positions.push_back(all.point(c));
+        }
+        const auto h = shape_histograms(scene_of_mesh(one));
+        for (const auto& [sum_of, part] : {std::pair(&summed.edge_length, &h.edge_length),
+                                           std::pair(&summed.smallest_angle, &h.smallest_angle),
+                                           std::pair(&summed.aspect_ratio, &h.aspect_ratio)}) {
+            sum_of->counts.resize(part->counts.size());
+            for (std::size_t i = 0; i < part->counts.size(); ++i) sum_of->counts[i] += part->counts[i];
+        }
+        angles += h.smallest_angle.mean * static_cast<double>(h.smallest_angle.total);
+        edges = std::max(edges, h.edge_length.maximum);
+    }
+    CHECK(together.edge_length.counts == summed.edge_length.counts);
+    CHECK(together.smallest_angle.counts == summed.smallest_angle.counts);
+    CHECK(together.aspect_ratio.counts == summed.aspect_ratio.counts);
+    CHECK(together.smallest_angle.mean == Approx(angles / static_cast<double>(700 - nowhere)).epsilon(1e-12));
+    CHECK(together.edge_length.maximum == edges);
+}
+
 TEST_CASE("two histograms are trimmed to what both need", "[geometry]") {
     Histogram a{{0, 1, 2, 3, 4, 5, 6}, {0, 1, 2, 0, 0, 0}, 3, 1, 3, 2};
     Histogram b{{0, 1, 2, 3, 4, 5, 6}, {0, 0, 0, 4, 5, 0}, 9, 3, 5, 4};
