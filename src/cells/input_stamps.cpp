@@ -21,6 +21,7 @@ std::string digest_of_text(const std::string& text) { return sha256(std::as_byte
 
 Json stamp_json(const InputStamp& stamp) {
     return {{"bytes", stamp.bytes},
+            {"device", stamp.device},
             {"inode", stamp.inode},
             {"modified", stamp.modified},
             {"changed", stamp.changed}};
@@ -31,8 +32,9 @@ Json stamp_json(const InputStamp& stamp) {
 std::optional<InputStamp> InputStamp::of(const std::filesystem::path& path) {
     struct stat about {};
     if (::stat(path.c_str(), &about) != 0) return {};
-    return InputStamp{static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_ino),
-                      time_in(about.st_mtim), time_in(about.st_ctim)};
+    return InputStamp{static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_dev),
+                      static_cast<std::uint64_t>(about.st_ino), time_in(about.st_mtim),
+                      time_in(about.st_ctim)};
 }
 
 bool InputStamp::is_settled(std::int64_t now) const {
@@ -61,7 +63,9 @@ std::vector<std::string> InputStamps::digests(const CellFolder& folder) const {
     for (std::size_t i = 0; i < stamps_.size(); ++i) {
         const Json& its = all["files"][i];
         if (!its.is_object() || its.value("stamp", Json()) != stamp_json(stamps_[i])) return {};
-        digests.push_back(its.value("sha256", std::string()));
+        const Json digest = its.value("sha256", Json());
+        if (!digest.is_string()) return {};
+        digests.push_back(digest.get<std::string>());
     }
     return digests;
 }
@@ -77,7 +81,12 @@ void InputStamps::store(const CellFolder& folder, const std::vector<FaceSource::
         all["files"].push_back({{"stamp", stamp_json(stamps_[i])}, {"sha256", files[i].sha256}});
     all["sha256"] = digest_of_text(all["files"].dump());
     const std::string text = all.dump(1) + "\n";
-    folder.write(file, {std::as_bytes(std::span(text))});
+    try {
+        folder.write(file, {std::as_bytes(std::span(text))});
+    } catch (const Error&) { // a full disk: the next run reads the files
+        folder.remove(std::string(file) + ".part");
+        folder.remove(file);
+    }
 }
 
 } // namespace facetmill::cells

@@ -8,7 +8,7 @@ namespace facetmill::cells {
 
 /// What the system says of a file that is read.
 struct InputStamp {
-    std::uint64_t bytes = 0, inode = 0;
+    std::uint64_t bytes = 0, device = 0, inode = 0;
     std::int64_t modified = 0, changed = 0; ///< nanoseconds since 1970, of its contents and of anything of it
     bool operator==(const InputStamp&) const = default;
 
@@ -30,7 +30,7 @@ class InputStamps {
     /// The digests of the files, where they are as they were when they were stored; else none.
     std::vector<std::string> digests(const CellFolder& folder) const;
     /// Stores the digests, which were taken after this was made; nothing where files changed since, or
-    /// just before. Throws output (E-WRITE, E-SPACE).
+    /// just before, or it cannot be written.
     void store(const CellFolder& folder, const std::vector<FaceSource::File>& files) const;
 
   private:

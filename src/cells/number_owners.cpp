@@ -32,17 +32,28 @@ std::uint64_t NumberOwners::count() const {
 }
 
 std::vector<Owned> NumberOwners::leaves(std::size_t bucket, const std::vector<std::uint32_t>& leaf_of) const {
-    const io::Bytes bytes = others_.read(bucket);
+    // A vertex of very many faces is there as often as they alternate between lists: what is there twice is
+    // dropped whenever it could be half of all.
+    constexpr std::uint64_t part = (std::uint64_t{1} << 20) / sizeof(Other) * sizeof(Other);
+    constexpr std::size_t few = 1 << 16;
     std::vector<Owned> all;
-    all.reserve(2 * (bytes.size() / sizeof(Other)));
-    for (std::size_t at = 0; at < bytes.size(); at += sizeof(Other)) {
-        Other other;
-        std::memcpy(&other, bytes.data() + at, sizeof other);
-        for (const std::uint32_t list : {first_[other.number], other.list})
-            if (leaf_of[list] != nobody) all.push_back({other.number, leaf_of[list]});
+    std::size_t most = few;
+    const auto drop_repeated = [&] {
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        most = std::max(few, 2 * all.size());
+    };
+    for (std::uint64_t begin = 0; begin < others_.size(bucket); begin += part) {
+        const io::Bytes bytes = others_.read(bucket, begin, std::min(part, others_.size(bucket) - begin));
+        for (std::size_t at = 0; at < bytes.size(); at += sizeof(Other)) {
+            Other other;
+            std::memcpy(&other, bytes.data() + at, sizeof other);
+            for (const std::uint32_t list : {first_[other.number], other.list})
+                if (leaf_of[list] != nobody) all.push_back({other.number, leaf_of[list]});
+            if (all.size() >= most) drop_repeated();
+        }
     }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    drop_repeated();
     return all;
 }
 

@@ -3,6 +3,8 @@
 
 #include "cells/block_file.hpp"
 
+#include <algorithm>
+
 namespace facetmill::cells {
 
 /// A key of a leaf.
@@ -23,9 +25,12 @@ class NumberOwners {
   public:
     static constexpr std::uint32_t nobody = UINT32_MAX;
 
-    /// Whether memory is enough for so many numbers.
+    /// Whether memory is enough for so many numbers, beside what dividing a leaf takes, which is the same
+    /// for any memory.
     static bool fits(std::uint64_t numbers, std::uint64_t memory) {
-        return numbers * sizeof(std::uint32_t) <= memory / 3;
+        constexpr std::uint64_t dividing = std::uint64_t{64} << 20;
+        const std::uint64_t third = memory / 3;
+        return numbers * sizeof(std::uint32_t) <= std::max(memory / 6, third - std::min(third, dividing));
     }
     /// Of numbers below `numbers`. buckets: see buckets_of_keys. memory: bytes, for everything that the
     /// process does. Throws output (E-WRITE, E-SPACE).

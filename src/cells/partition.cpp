@@ -58,7 +58,7 @@ class Partition::Distribution {
         std::uint64_t given = 0;
         source_.each_record(
             [&](io::Span record) {
-                if (given++ == faces) return;
+                if (given++ >= faces) return;
                 const std::uint32_t leaf = grid_->leaf_of(places.next(grid_->cells()));
                 records.add(leaf, record);
                 if (!owners_) return;

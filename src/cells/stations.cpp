@@ -82,9 +82,16 @@ Cell read_cell(cache::ByteReader& reader) {
     HomesOfSome some;
     reader(cell.mesh, corners, some.vertices, some.names, some.homes);
     io::Bytes numbers;
-    if (!unpack_numbers(corners, numbers)) throw cache::Corrupt();
+    const std::size_t vertices = cell.mesh.vertex_count(), shared = some.vertices.size();
+    if (!unpack_numbers(corners, numbers) || numbers.size() % sizeof(Index) != 0 ||
+        some.names.size() != shared || some.homes.size() != shared ||
+        std::any_of(some.vertices.begin(), some.vertices.end(), [&](auto v) { return v >= vertices; }))
+        throw cache::Corrupt();
     cell.mesh.corners.resize(numbers.size() / sizeof(Index));
     if (!numbers.empty()) std::memcpy(cell.mesh.corners.data(), numbers.data(), numbers.size());
+    if (std::any_of(cell.mesh.corners.begin(), cell.mesh.corners.end(),
+                    [&](Index v) { return v >= vertices; }))
+        throw cache::Corrupt();
     cell.names.assign(cell.mesh.vertex_count(), 0);
     cell.home.assign(cell.mesh.vertex_count(), Cell::inner);
     for (std::size_t i = 0; i < some.vertices.size(); ++i) {

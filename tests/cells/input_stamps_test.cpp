@@ -62,3 +62,13 @@ TEST_CASE("a file that was just written, or is written to, gets no stamp", "[cel
     CHECK_FALSE(std::filesystem::exists(folder / "kept/facetmill-cells.inputs"));
     CHECK_FALSE(InputStamp::of(folder / "none"));
 }
+
+TEST_CASE("a stamp that cannot be written is no error", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const CellFolder kept({folder / "kept", false});
+    test::put(folder / "m.ply", "contents");
+    CHECK(stamped(kept, folder / "m.ply").size() == 1);
+    std::filesystem::create_directories(folder / "kept/facetmill-cells.inputs.part/in the way");
+    CHECK(stamped(kept, folder / "m.ply").empty());
+    CHECK_FALSE(std::filesystem::exists(folder / "kept/facetmill-cells.inputs"));
+}

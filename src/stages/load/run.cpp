@@ -144,7 +144,10 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     try {
         flow.partition = cells::kept_partition(source, flow.means);
     } catch (const Error&) { // a report of what failed names the inputs, too
-        record_inputs();
+        try {
+            record_inputs();
+        } catch (const Error&) { // they cannot be read: what failed is told, and not this
+        }
         throw;
     }
     record_inputs();
