@@ -19,6 +19,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from fractions import Fraction
 
 import numpy as np
 import trimesh
@@ -50,9 +51,21 @@ def wrong_length(path):
                if ways[a, b] != 1 or ways[b, a] != 1)
 
 
+def exact_volume(a, b, c, d):
+    a, b, c, d = ([Fraction(float(x)) for x in p] for p in (a, b, c, d))
+    (ux, uy, uz), (vx, vy, vz), (wx, wy, wz) = ([x - y for x, y in zip(p, a)] for p in (b, c, d))
+    return float(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx))
+
+
 def volumes(a, b, c, d):
-    """Of each row, six times: the signs say on which side of a, b, c the point d lies."""
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
+    """Of each row, six times: the signs say on which side of a, b, c the point d lies. Rational where rounding could
+    have made the sign: 1e-13 of the largest coordinate cubed is many times what it can amount to."""
+    u, v, w = b - a, c - a, d - a
+    found = np.einsum("ij,ij->i", np.cross(u, v), w)
+    largest = np.abs(np.array([a, b, c, d])).max((0, 2))
+    for i in np.nonzero(np.abs(found) <= 1e-13 * largest**3)[0]:
+        found[i] = exact_volume(a[i], b[i], c[i], d[i])
+    return found
 
 
 def crossing_length(path):

@@ -234,6 +234,25 @@ def rounding_reason(off, selected):
     return "no face that MeshLab selects meets another in rational numbers"
 
 
+def crowded_reason(off):
+    """Nothing when a vertex of several fans is at no edge of more than two faces."""
+    faces = [list(map(int, f)) for f in trimesh.load(off, process=False).faces]
+    edges = collections.Counter(frozenset((f[i], f[(i + 1) % 3])) for f in faces for i in range(3))
+    crowded = {v for edge, count in edges.items() if count > 2 for v in edge}
+    around = collections.defaultdict(list)  # of each vertex not at such an edge, the edges across from it
+    for f in faces:
+        for v in set(f) - crowded:
+            around[v].append(set(f) - {v})
+    for fan in around.values():
+        reached, rest = set(fan[0]), fan[1:]
+        while any(reached & ends for ends in rest):
+            reached |= set().union(*(ends for ends in rest if reached & ends))
+            rest = [ends for ends in rest if not reached >= ends]
+        if rest:
+            return None
+    return "MeshLab does not look at vertices on edges of more than two faces"
+
+
 def crossing_reason(facetmill, off, scratch):
     """What the pairs are that facetmill finds and MeshLab does not; nothing when one is not true."""
     report = scratch / "report.json"
@@ -264,6 +283,8 @@ def explained(name, ours, tri, lab, off, find_crossings):
         return "closed means that directions cancel, also where four faces meet; watertight means two faces"
     if name == "oriented" and not ours["edge_manifold"]:
         return "trimesh looks only at edges of two faces"
+    if name == "vertex_manifold" and not ours["vertex_manifold"] and not ours["edge_manifold"]:
+        return crowded_reason(off)
     if name == "components" and lab["components"] > ours["components"]:
         return "components hang together by vertices; MeshLab's by edges"
     if name == "self_intersections" and ours["self_intersections"] > 0:
