@@ -26,9 +26,10 @@ class Walls {
     /// From 0 to the length of the wall, and beyond its ends.
     double along(Index wall, const Vec2& p) const;
     double length_of(Index wall) const { return lengths_[wall]; }
-    /// How far from the corner that a wall shares with the wall behind it in its ring a point of both may be,
-    /// for rounding: the farther, the less the walls bend there. No farther than a millionth of the shorter
-    /// one, as walls that hardly bend meet anywhere.
+    /// How far from the corner that a wall shares with the wall behind it in its ring a point may be and
+    /// still be on both, within rounding (world units): at a distance d along one it is d times the sine of
+    /// the bend off the other. No farther than a sixteenth of the shorter one, as walls that do not bend meet
+    /// anywhere, and the point is to be nearer to this corner than to any other.
     double spread_of_corner(Index wall) const;
     /// The posts on a wall, ascending; its ends are the first and the last.
     std::span<const Stand> stands(Index wall) const { return stands_[wall]; }
