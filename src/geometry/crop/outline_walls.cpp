@@ -71,7 +71,7 @@ double Walls::spread_of_corner(Index wall) const {
     const double shorter = std::min(lengths_[wall], lengths_[e.next]),
                  longer = std::max(lengths_[wall], lengths_[e.next]),
                  sine = std::fabs(cross(e.b - e.a, f.b - f.a)) / shorter / longer;
-    return std::max(rounding_, std::min(rounding_ / sine, shorter / 16));
+    return std::max(rounding_, std::min(rounding_ / sine, shorter / 1024));
 }
 
 const Walls::Stand& Walls::nearest_stand(Index wall, const Vec2& p) const {

@@ -28,8 +28,9 @@ class Walls {
     double length_of(Index wall) const { return lengths_[wall]; }
     /// How far from the corner that a wall shares with the wall behind it in its ring a point may be and
     /// still be on both, within rounding (world units): at a distance d along one it is d times the sine of
-    /// the bend off the other. No farther than a sixteenth of the shorter one, as walls that do not bend meet
-    /// anywhere, and the point is to be nearer to this corner than to any other.
+    /// the bend off the other. No farther than 1/1024 of the shorter one, as walls
+    /// that do not bend meet anywhere; this bound was found by trial: with 1/16 two meshes of the corpus lost
+    /// volume, and with 2^-20 outlines far from the origin had folded slivers.
     double spread_of_corner(Index wall) const;
     /// The posts on a wall, ascending; its ends are the first and the last.
     std::span<const Stand> stands(Index wall) const { return stands_[wall]; }
