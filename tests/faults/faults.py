@@ -46,6 +46,12 @@ TEMPORARY = re.compile(r"^\.(?P<of>.*)\.facetmill-\d+(-\d+)?~$")
 TIMEOUT = 120
 
 
+def environment(cache="off", **more):
+    """What a run sees: nothing that would change facetmill but what is given."""
+    plain = {k: v for k, v in os.environ.items() if not k.startswith("FACETMILL_") and k != "CI"}
+    return {**plain, "FACETMILL_CACHE": cache, **more}
+
+
 def matches(name, patterns):
     return any(fnmatch.fnmatch(name, pattern) for pattern in patterns)
 
@@ -80,14 +86,12 @@ class Trial:
         return folder
 
     def run(self, folder, command, fault=None):
-        environment = {k: v for k, v in os.environ.items() if not k.startswith("FACETMILL_") and k != "CI"}
-        environment["FACETMILL_CACHE"] = "cache" if matches("cache/x", self.scenario.state) else "off"
         log = self.room / "log"
         log.unlink(missing_ok=True)
-        if fault:
-            environment.update(LD_PRELOAD=INJECTOR, FACETMILL_FAULT=fault, FACETMILL_FAULT_LOG=str(log))
+        injected = dict(LD_PRELOAD=INJECTOR, FACETMILL_FAULT=fault, FACETMILL_FAULT_LOG=str(log)) if fault else {}
+        seen = environment("cache" if matches("cache/x", self.scenario.state) else "off", **injected)
         try:
-            done = subprocess.run([FACETMILL, *command], cwd=folder, env=environment, timeout=TIMEOUT,
+            done = subprocess.run([FACETMILL, *command], cwd=folder, env=seen, timeout=TIMEOUT,
                                   input=self.scenario.stdin or b"", capture_output=True)
         except subprocess.TimeoutExpired:
             return None, "", []

@@ -20,10 +20,10 @@ import subprocess
 import sys
 import tempfile
 
+import faults
 import scenarios
+from faults import FACETMILL, SOURCE
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-FACETMILL = os.environ.get("FACETMILL", str(SOURCE / "build/release/facetmill"))
 PERTURBER = os.environ.get("FACETMILL_PERTURBER", str(SOURCE / "build/release/tests/libfacetmill_perturb.so"))
 TIMEOUT = 600
 BALL, SCAN, MANY, PAIR = "ball.ply", str(SOURCE / "examples/data/nefertiti.ply"), "many.glb", "pair.glb"
@@ -60,13 +60,11 @@ class Scenario:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(self.base, folder)
         log.unlink(missing_ok=True)
-        environment = {k: v for k, v in os.environ.items() if not k.startswith("FACETMILL_") and k != "CI"}
-        environment["FACETMILL_CACHE"] = "off"
-        if seed is not None:
-            environment.update(LD_PRELOAD=PERTURBER, FACETMILL_SCHEDULE=str(seed), FACETMILL_SCHEDULE_LOG=str(log))
+        perturbed = {} if seed is None else dict(
+            LD_PRELOAD=PERTURBER, FACETMILL_SCHEDULE=str(seed), FACETMILL_SCHEDULE_LOG=str(log))
         done = subprocess.run([FACETMILL, "pipe", "-j", str(threads), "--report", "o.json", *self.arguments], cwd=folder,
-                              env=environment, timeout=TIMEOUT, capture_output=True)
-        left = {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+                              env=faults.environment(**perturbed), timeout=TIMEOUT, capture_output=True)
+        left = faults.Trial.files(folder)
         if "o.json" in left:
             report = json.loads(left["o.json"])
             report.pop("run", None)
@@ -85,7 +83,7 @@ def run(runs, first=1, chosen=None, tell=lambda text: None):
         (room / "base").mkdir()
         for line in BEFORE:
             subprocess.run([FACETMILL, *line.split()], cwd=room / "base", check=True, capture_output=True,
-                           env={**os.environ, "FACETMILL_CACHE": "off"})
+                           env=faults.environment())
         every = [Scenario(name, arguments, room / "base", room) for name, arguments in commands()
                  if not chosen or name in chosen]
         for seed in range(first, first + runs):
