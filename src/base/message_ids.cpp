@@ -555,12 +555,11 @@ std::span<const MessageId> message_ids() {
         {"W-IMAGE",
          {},
          "An image or texture that a file refers to is missing, outside the file's directory, of an "
-         "unsupported kind, or broken: its header is wrong, or its data end early. A broken one is written "
-         "as "
-         "it is.",
-         "Put the image beside the file, as PNG or JPEG, and export a broken one again. `../wood.png` is "
-         "read "
-         "below a folder that `--asset-root DIR`, or `load: {path: ..., asset_root: DIR}`, names."},
+         "unsupported kind, or broken: its header is wrong, or its data end early. A broken one is "
+         "written as it is.",
+         "Put the image beside the file, as PNG or JPEG, and export a broken one again. `../wood.png` "
+         "is read below a folder that `--asset-root DIR`, or `load: {path: ..., asset_root: DIR}`, "
+         "names."},
         {"W-INCOMPLETE",
          {},
          "A glTF primitive has extra indices after its last triangle.",
