@@ -128,6 +128,21 @@ class Ready(Case):
         self.assertIn("'closed' must be true", refused.stderr)
         self.assertFalse((self.dir / "sheet.repaired.stl").exists())
 
+    def test_repair_takes_corners_a_rounding_apart_for_one(self):
+        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+        faces = [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))]
+        lines = ["solid cube"]
+        for face in faces:  # a zero is never the same zero, as of a sine of pi
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += ["vertex " + " ".join(str(x or len(lines) * 1e-17) for x in corners[i]) for i in face]
+            lines += ["endloop", "endfacet"]
+        (self.dir / "noisy.stl").write_text("\n".join([*lines, "endsolid cube", ""]))
+        self.mill("pipe", "load", "noisy.stl", "!", "validate", "--closed", expect=1)
+        self.mill("run", "repair", "-D", "input=noisy.stl")
+        found = json.loads(self.mill("info", "--json", "noisy.repaired.stl").stdout)
+        self.assertEqual((found["faces"], found["closed"], found["euler"]), (12, True, 2))
+
     def test_a_gltf_is_written_where_nothing_is(self):
         self.mill("pipe", "--quiet", "load", SCAN, "--unit", "mm", "!", "simplify", "--faces=100", "!",
                   "write", "a.gltf")
