@@ -65,6 +65,9 @@ class Body {
     std::unique_ptr<Reader> reader_;
 };
 
+/// The name of the part of a file's lines, where it has faces or points beside them.
+inline constexpr const char* part_of_lines = "lines";
+
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 Written write(const Scene& scene, const WriteSettings& settings);
 
