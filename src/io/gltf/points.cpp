@@ -32,9 +32,9 @@ Mesh points_of(Source& source, const Place& primitive, std::size_t max_vertices)
     if (const auto reference = primitive.find("indices"))
         order = decode_indices(source, *reference, positions.count);
     Mesh mesh;
-    const auto& attributes = primitive.at("attributes").json();
-    for (const auto& [name, json] : attributes.items()) {
-        const Accessor a = accessor(source, Place(json, primitive.path() + ".attributes." + name));
+    const Place attributes = primitive.at("attributes");
+    for (const auto& [name, json] : attributes.json().items()) {
+        const Accessor a = accessor(source, Place(json, attributes.path() + "." + name));
         if (a.count != positions.count)
             a.place.fail(
                 fmt::format("{} has {} elements, but POSITION has {}", name, a.count, positions.count));

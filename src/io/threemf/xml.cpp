@@ -23,7 +23,13 @@ struct Session {
     int depth = 0;
     std::exception_ptr failure; ///< Expat is C: nothing may be thrown through it
 
-    std::size_t line() const { return XML_GetCurrentLineNumber(parser); }
+    std::size_t line() const {
+#if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 9)
+        return XML_GetCurrentLineNumber64(parser); // the other one is deprecated since
+#else
+        return XML_GetCurrentLineNumber(parser);
+#endif
+    }
     [[noreturn]] void fail(const std::string& message) const {
         malformed(name, static_cast<int>(std::min<std::size_t>(line(), INT32_MAX)), "E-3MF", message);
     }
