@@ -95,7 +95,8 @@ class GltfReader final : public RowReader {
                 if (!last || last->name != placement.name) out.begin_group(identity_);
                 last = &placement;
                 add(primitive, placement.world, out);
-                for (const auto& [name, reference] : primitive.at("attributes").json().items())
+                const gltf::Place named = primitive.at("attributes");
+                for (const auto& [name, reference] : named.json().items())
                     if (name != "POSITION") attributes.insert(name);
                 if (primitive.find("targets")) attributes.insert("morph targets");
                 if (primitive.find("material")) attributes.insert("materials");

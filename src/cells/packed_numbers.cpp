@@ -14,9 +14,8 @@ constexpr std::size_t number_bytes = sizeof(std::uint32_t);
 } // namespace
 
 io::Bytes packed_numbers(io::Span numbers) {
-    io::Bytes packed;
+    io::Bytes packed(1, as_differences);
     packed.reserve(numbers.size() + 1);
-    packed.push_back(as_differences);
     std::uint32_t before = 0;
     for (std::size_t at = 0; at < numbers.size() && packed.size() <= numbers.size(); at += number_bytes) {
         std::uint32_t number = 0;

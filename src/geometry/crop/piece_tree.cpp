@@ -83,7 +83,7 @@ Index PieceTree::unbalanced_above(Index leaf) const {
     std::size_t depth = 0;
     Index root = leaf;
     for (; nodes_[root].parent != none; root = nodes_[root].parent) ++depth;
-    if (depth <= 4 + 2 * std::bit_width(nodes_[root].leaves)) return none;
+    if (depth <= 4 + 2 * static_cast<std::size_t>(std::bit_width(nodes_[root].leaves))) return none;
     for (Index n = leaf; nodes_[n].parent != none; n = nodes_[n].parent)
         if (3 * std::size_t{nodes_[n].leaves} > 2 * std::size_t{nodes_[nodes_[n].parent].leaves} + 2)
             return nodes_[n].parent;
