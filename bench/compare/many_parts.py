@@ -82,7 +82,7 @@ def icosphere(levels):
 
 def scene(path, meshes, nodes):
     """A GLB of these meshes; a node is a mesh's number and where it stands."""
-    binary, views, accessors, parts = b"", [], [], []
+    binary, views, accessors, parts = bytearray(), [], [], []
     for points, faces in meshes:
         for data, kind, name, count, extra in (
                 (b"".join(struct.pack("<3f", *p) for p in points), 5126, "VEC3", len(points),
