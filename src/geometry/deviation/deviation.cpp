@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "base/random.hpp"
 #include "geometry/deviation/bound.hpp"
+#include "geometry/deviation/itself.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/dense_box.hpp"
 #include "geometry/spatial/group_distances.hpp"
@@ -516,17 +517,20 @@ double usual_length(const Surface& surface) {
     return *middle;
 }
 
-/// Whether most of about 64 points of a surface are farther from another than its triangles are long.
+/// Whether most of about 64 points of a surface are farther from another than its triangles are long. They
+/// are looked up from the triangle that the one before was near, until those that are near are enough.
 bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
     if (tree.empty()) return false;
     const double near = usual_length(to);
-    std::size_t looked_at = 0;
-    std::size_t far = 0;
-    for (std::size_t t = 0; t < from.size(); t += from.size() / 64 + 1) {
-        ++looked_at;
-        if (!(closest_point(tree, from.point(t, 0), none, near).distance <= near)) ++far;
+    const std::size_t step = from.size() / 64 + 1, points = (from.size() + step - 1) / step;
+    std::size_t not_far = 0;
+    Index hint = none;
+    for (std::size_t t = 0; t < from.size(); t += step) {
+        const Closest closest = closest_point(tree, from.point(t, 0), hint, near);
+        if (closest.triangle != none) hint = closest.triangle;
+        if (closest.distance <= near && 2 * ++not_far >= points) return false;
     }
-    return 2 * far > looked_at;
+    return points > 0;
 }
 
 /// The triangles in the order of their tree, and those that are in none.
@@ -582,6 +586,10 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     DeviationResult result;
     result.seed = settings.seed;
     result.diagonal = diagonal(of_first);
+    if (!settings.certify && are_same(first, second)) {
+        result.forward = result.backward = deviation_from_itself(first, settings);
+        return result;
+    }
     ShareOfSteps steps({1, 4, 4});
     FaceTree first_tree = FaceTree::over(first, of_first, use_of_tree(first, second, settings)),
              second_tree = FaceTree::over(second, of_second, use_of_tree(second, first, settings));

@@ -22,6 +22,35 @@ TEST_CASE("a surface does not deviate from itself", "[geometry]") {
     CHECK(*d.bound() <= 1e-6 * d.diagonal);
 }
 
+TEST_CASE("a surface against itself has the figures of a search that finds nothing", "[geometry]") {
+    Surface flat; // without an area: vertices are measured
+    flat.positions = {{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {9, 9, 9}};
+    flat.corners = {0, 1, 2};
+    for (const Surface& surface :
+         {surface_of(test::noisy_icosphere(2, 0.1, 1)), surface_of(shapes::grid(3, 2)), flat, Surface{}}) {
+        Surface other = surface;
+        other.positions.push_back({0.5, 0.5, 0.5}); // no triangle uses it, but the arrays differ
+        const DeviationSettings settings{.samples = 500, .seed = 7};
+        const auto quick = deviation(surface, surface, settings),
+                   searched = deviation(surface, other, settings);
+        CHECK(quick.diagonal == searched.diagonal);
+        CHECK(quick.seed == searched.seed);
+        for (const auto way : {&DeviationResult::forward, &DeviationResult::backward}) {
+            const DirectedDeviation &a = quick.*way, &b = searched.*way;
+            CHECK(a.maximum == 0);
+            CHECK(a.maximum == b.maximum);
+            CHECK(a.rms == b.rms);
+            CHECK(a.mean == b.mean);
+            CHECK(a.samples == b.samples);
+            CHECK(a.averaged == b.averaged);
+            CHECK(a.vertices == b.vertices);
+            CHECK(a.face == b.face);
+            CHECK(a.from == b.from);
+            CHECK(a.to == b.to);
+        }
+    }
+}
+
 TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
     const auto d = deviation(shapes::grid(4, 3), test::moved(shapes::grid(4, 3), {0, 0, 0.25}));
     for (const auto* way : {&d.forward, &d.backward}) {
