@@ -164,6 +164,7 @@ FACETMILL_COMMON_FIELD_TYPES(FACETMILL_HERE)
 
 Json Fields::json(const void* record) const {
     Json object = Json::object();
+    object.get_ref<Json::object_t&>().reserve(all.size());
     for (const Field& field : all) field.put(field, record, object);
     return object;
 }
