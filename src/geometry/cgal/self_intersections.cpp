@@ -116,6 +116,15 @@ class SelfIntersectionSearch::Search {
     /// Before all neighbours are looked at, as the vertices are now.
     void find_plain_stars() { plain_ = plain_stars(surface_); }
 
+    /// As SelfIntersections::rings, after find_plain_stars.
+    std::vector<std::uint8_t> rings() const {
+        std::vector<std::uint8_t> rings;
+        if (!surface_.faces.empty()) return rings;
+        rings.resize(plain_.size());
+        for (std::size_t v = 0; v < rings.size(); ++v) rings[v] = plain_[v] == Star::ring;
+        return rings;
+    }
+
     /// Whether that can be: not where polygons are cut into another number of triangles now.
     bool move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
         plain_.clear();
@@ -177,9 +186,13 @@ class SelfIntersectionSearch::Search {
         }
         for (First* first : {&all.real, &all.touching})
             first->pairs.resize(std::min(limit, first->pairs.size()));
-        return {all.real.count,     std::move(all.real.pairs),
-                all.touching.count, std::move(all.touching.pairs),
-                all.box_pairs,      false};
+        return {all.real.count,
+                std::move(all.real.pairs),
+                all.touching.count,
+                std::move(all.touching.pairs),
+                all.box_pairs,
+                false,
+                {}};
     }
 
     MeetingFaces faces(std::span<const std::pair<Index, Index>> exempt, std::size_t max_box_pairs) const {
@@ -269,7 +282,8 @@ class SelfIntersectionSearch::Search {
                        static_cast<std::int32_t>(s.vertices[2]), -1};
         unsigned shared = bits_of((own == all(a)) | (own == all(b)) | (own == all(c))) & 7u;
         for (; shared != 0; shared &= shared - 1)
-            if (plain_[s.vertices[static_cast<std::size_t>(std::countr_zero(shared))]]) return true;
+            if (plain_[s.vertices[static_cast<std::size_t>(std::countr_zero(shared))]] != Star::unknown)
+                return true;
         return false;
     }
 
@@ -277,8 +291,8 @@ class SelfIntersectionSearch::Search {
     Surface surface_;
     std::vector<Box> boxes_; ///< [triangles]
     BoxPairs pairs_;
-    std::vector<Facet> facets_;       ///< along the curve
-    std::vector<std::uint8_t> plain_; ///< [vertices] of plain_stars, or nothing
+    std::vector<Facet> facets_; ///< along the curve
+    std::vector<Star> plain_;   ///< [vertices] of plain_stars, or nothing
 };
 
 SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh) : search_(std::make_unique<Search>(mesh)) {}
@@ -293,7 +307,9 @@ void SelfIntersectionSearch::move_to(const Mesh& mesh, const std::vector<std::ui
 SelfIntersections SelfIntersectionSearch::pairs(const SelfIntersectionSettings& settings) {
     search_->choose(settings.among);
     if (settings.among.empty()) search_->find_plain_stars();
-    return search_->run(settings);
+    SelfIntersections found = search_->run(settings);
+    if (settings.tell_rings && settings.among.empty()) found.rings = search_->rings();
+    return found;
 }
 
 MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& among,

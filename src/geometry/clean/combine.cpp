@@ -81,22 +81,23 @@ class Combining {
 
     CombineResult run() {
         take_out_degenerate(work_);
-        SelfIntersections found = crossings(work_.mesh);
+        SelfIntersections found = crossings_and_rings(work_.mesh);
         if (found.count > found.pairs.size())
             return failed({fmt::format("{} pairs of faces intersect, and at most {} are processed",
                                        found.count, max_pairs),
                            none, corner_mean(work_.mesh, found.pairs[0].first)});
-        Solids solids = find_solids(work_.mesh, {});
+        Solids solids = find_solids(work_.mesh, {}, std::move(found.rings));
         if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
         if (auto failure = turned_over(work_.mesh, solids, meshes_)) return failed(std::move(*failure));
-        for (const auto& pair : overlaps_at_edges(work_.mesh, solids.edges)) found.pairs.push_back(pair);
+        for (const auto& pair : overlaps_at_edges(work_.mesh, solids.rings, solids.edges))
+            found.pairs.push_back(pair);
         std::sort(found.pairs.begin(), found.pairs.end());
         found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
         make_one_cluster(solids);
         const Operands operands = operands_of(solids);
         if (settings_.operation == CombineOperation::subtract) {
             turn_what_is_taken();
-            solids.edges = build_edges(work_.mesh); // other corners run along them now
+            solids.edges = LooseEdges(work_.mesh, solids.rings); // other corners run along them now
         }
         return combine(solids, found, operands);
     }

@@ -31,12 +31,13 @@ const char* reason(Fitness f) {
     return "";
 }
 
-std::vector<Fitness> fitness_of(const Mesh& mesh, const EdgeTable& edges, const Components& components) {
+std::vector<Fitness> fitness_of(const Mesh& mesh, const LooseEdges& edges, const Components& components) {
     std::vector<Fitness> fitness(components.count, Fitness::fit);
     const auto faces = corner_faces(mesh);
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
-        for (const Index c : edges.corners_of(e)) balance += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
+        const Index from = mesh.vertex(edges.corners_of(e)[0]);
+        for (const Index c : edges.corners_of(e)) balance += mesh.vertex(c) == from ? 1 : -1;
         if (balance == 0) continue;
         Fitness& f = fitness[components.of_face[faces[edges.corners_of(e)[0]]]];
         if (edges.corners_of(e).size() % 2 == 1) f = Fitness::open;
@@ -79,16 +80,36 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
 
 } // namespace
 
-SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, std::size_t max_box_pairs) {
+namespace {
+
+bool are_distinct(const std::vector<Index>& place) {
+    for (Index v = 0; v < place.size(); ++v)
+        if (place[v] != v) return false;
+    return true;
+}
+
+SelfIntersections crossings(const Mesh& mesh, const SelfIntersectionSettings& settings,
+                            const std::vector<Index>& place) {
     Mesh plain;
     plain.positions = mesh.positions;
     plain.face_offsets = mesh.face_offsets;
     plain.corners.resize(mesh.corner_count());
-    const auto place = lowest_at_place(mesh);
     parallel_for(plain.corners.size(),
                  [&](std::size_t c) { plain.corners[c] = place[mesh.vertex(static_cast<Index>(c))]; });
-    return find_self_intersections(
-        plain, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs});
+    return find_self_intersections(plain, settings);
+}
+
+} // namespace
+
+SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, std::size_t max_box_pairs) {
+    return crossings(mesh, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs},
+                     lowest_at_place(mesh));
+}
+
+SelfIntersections crossings_and_rings(const Mesh& mesh) {
+    const auto place = lowest_at_place(mesh);
+    if (!are_distinct(place)) return crossings(mesh, {.limit = max_pairs}, place);
+    return find_self_intersections(mesh, {.limit = max_pairs, .tell_rings = true});
 }
 
 Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
@@ -195,10 +216,11 @@ SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_
     return found;
 }
 
-Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
+Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings) {
     Solids s;
-    s.edges = build_edges(mesh);
-    s.components = face_components(mesh, s.edges);
+    s.rings = std::move(rings);
+    s.edges = LooseEdges(mesh, s.rings);
+    s.components = face_components(mesh, s.rings, s.edges);
     const auto fitness = fitness_of(mesh, s.edges, s.components);
     s.six_volumes = six_volumes(mesh, s.components);
     for (Index p = 0; p < s.components.count; ++p) {

@@ -2,15 +2,15 @@
 // Which components of a mesh are solids that pass through each other or themselves.
 
 #include "geometry/clean/steps.hpp"
-#include "mesh/topology.hpp"
 
 namespace facetmill::clean_steps {
 
 /// Closed components that intersect, directly or by way of others: what becomes one solid, or is left,
 /// together.
 struct Solids {
-    EdgeTable edges;                  ///< of the mesh
-    Components components;            ///< faces that hang together over edges
+    Rings rings;           ///< of the mesh, where they are known; then no vertices are at one place
+    LooseEdges edges;      ///< of the mesh
+    Components components; ///< faces that hang together over edges
     std::vector<std::uint8_t> closed; ///< [components] and consistent, finite and without faces of no area
     std::vector<const char*> why_not; ///< [components] are they not closed
     std::vector<double> six_volumes;  ///< [components]
@@ -25,7 +25,7 @@ struct Solids {
     Index cluster_of_face(Index f) const { return cluster[components.of_face[f]]; }
 };
 
-/// found: all pairs of faces that intersect.
-Solids find_solids(const Mesh& mesh, const SelfIntersections& found);
+/// found: all pairs of faces that intersect. rings: those of the mesh, if they are known.
+Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings = {});
 
 } // namespace facetmill::clean_steps

@@ -3,6 +3,7 @@
 // return value whether it changed anything.
 
 #include "geometry/clean/clean.hpp"
+#include "geometry/clean/loose_edges.hpp"
 #include "geometry/edit/split_non_manifold.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/intersect/self_intersections.hpp"
@@ -76,6 +77,8 @@ bool remove_isolated(Work& work);
 /// max_pairs are listed; none when more than max_box_pairs would have to be looked at.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
                             std::size_t max_box_pairs = std::size_t(-1));
+/// All of them, with the rings of the mesh, unless vertices are at one place.
+SelfIntersections crossings_and_rings(const Mesh& mesh);
 /// The same pairs of faces that are flagged, for a few of many faces: only what is near them is looked at.
 SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
                                  std::size_t max_box_pairs = std::size_t(-1));
@@ -86,8 +89,9 @@ inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// more than once: there solids overlap without any crossing, as grids do that pass through each other along
 /// their lines.
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
-/// Likewise; faster, given the edges of the mesh.
-std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const EdgeTable& edges);
+/// Likewise; faster, given the rings and edges of the mesh.
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
+                                                       const LooseEdges& edges);
 /// Closed components that pass through each other, or through themselves, become one solid: the union, by
 /// winding numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is
 /// closed stays closed; what intersects does not any more, but with components that are not closed: those,

@@ -1,5 +1,6 @@
 #include "geometry/clean/trial.hpp"
 
+#include "geometry/clean/settled.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -46,17 +47,18 @@ Failures Trial::run(const SelfIntersections& first, const Operands* operands) {
         work_.counts.united_components += solids_.cluster[p] != none;
     SelfIntersections found = first;
     double tolerance = 0;
-    Solids solids = solids_;
+    Solids later;
     for (int pass = 0; pass < max_passes; ++pass) {
+        const Solids& solids = pass == 0 ? solids_ : later;
         if (!one_pass(solids, found, tolerance, pass == 0 ? operands : nullptr)) return std::move(failures_);
         tolerance = tolerance > 0
                         ? 8 * tolerance
                         : (settings_.single ? nearest_single : nearest) * work_.mesh.bounds().diagonal();
-        tidy();
+        if (!is_tidy_) tidy();
         found = crossings_of_fresh();
         if (found.pairs.empty()) return std::move(failures_);
-        solids = find_solids(work_.mesh, found);
-        check_marks(solids, found);
+        later = find_solids(work_.mesh, found);
+        check_marks(later, found);
         if (!failures_.empty()) return std::move(failures_);
     }
     for (const auto& [f, g] : found.pairs)
@@ -86,6 +88,8 @@ bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, doubl
             if (solids.cluster_of_face(f) == refused.cluster) fail(marks_of(work_.mesh)[f], refused.why);
     }
     if (!united.refused.empty()) return false;
+    is_tidy_ = is_tidy(united.mesh, united.settled, united.uncut_faces);
+    edges_.reset();
     work_.mesh = std::move(united.mesh);
     work_.changes = std::move(united.changes);
     auto& marks = std::get<std::vector<std::uint32_t>>(work_.mesh.find(mark_name, Domain::face)->data);
@@ -96,10 +100,8 @@ bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, doubl
     return true;
 }
 
-/// What rounding left: equal points, faces without area or twice, and edges that four faces share.
 void Trial::tidy() {
     const CleanCounts before = work_.counts;
-    edges_.reset();
     if (settings_.weld != Nearness::off) weld_equal(work_, settings_.non_manifold);
     if (settings_.degenerate) {
         take_out_flat(work_);
@@ -139,6 +141,7 @@ Failures Trial::open_clusters(std::size_t& crowded) const {
     const Mesh& mesh = work_.mesh;
     Failures failures;
     crowded = 0;
+    if (is_tidy_) return failures;
     const auto marks = marks_of(mesh);
     const EdgeTable built = edges_ ? EdgeTable{} : build_edges(mesh);
     const EdgeTable& edges = edges_ ? *edges_ : built;

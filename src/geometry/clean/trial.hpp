@@ -27,6 +27,7 @@ class Trial {
     void fail(std::uint32_t mark, const std::string& why);
     bool one_pass(const Solids& solids, const SelfIntersections& found, double tolerance,
                   const Operands* operands);
+    /// What rounding left: equal points, faces without area or twice, and edges that four faces share.
     void tidy();
     SelfIntersections crossings_of_fresh() const;
     void check_marks(const Solids& solids, const SelfIntersections& found);
@@ -35,6 +36,7 @@ class Trial {
     const Solids& solids_;
     Work work_;
     std::optional<EdgeTable> edges_; ///< of the mesh, where they are known
+    bool is_tidy_ = false;           ///< the mesh is known to be closed, with two faces at each edge
     Failures failures_;
     bool short_of_memory_ = false;
 };

@@ -200,14 +200,25 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
     return pairs;
 }
 
-std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const EdgeTable& edges) {
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
+                                                       const LooseEdges& edges) {
+    const auto is_crowded = [&](Index e) { return edges.corners_of(e).size() > 2; };
+    if (!rings.empty()) { // then no two vertices are at one place
+        bool any = false;
+        for (Index e = 0; e < edges.size(); ++e) any |= is_crowded(e);
+        if (!any) return {};
+    }
     const auto place = lowest_at_place(mesh);
     std::vector<std::uint8_t> is_shared(mesh.vertex_count(), 0); // by several vertices, or at a crowded edge
     for (Index v = 0; v < place.size(); ++v)
         if (place[v] != v) is_shared[place[v]] = 1;
-    for (Index e = 0; e < edges.size(); ++e)
-        if (edges.corners_of(e).size() > 2)
-            is_shared[place[edges.edges[e].low]] = is_shared[place[edges.edges[e].high]] = 1;
+    const auto face_of = corner_faces(mesh);
+    for (Index e = 0; e < edges.size(); ++e) {
+        if (!is_crowded(e)) continue;
+        const Index c = edges.corners_of(e)[0];
+        is_shared[place[mesh.vertex(c)]] = is_shared[place[mesh.vertex(next_corner(mesh, face_of[c], c))]] =
+            1;
+    }
     std::vector<Index> faces;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         int count = 0;

@@ -130,6 +130,7 @@ class Uniting {
     }
 
     void merge_where_cut() {
+        if (!solids_.rings.empty()) return; // no two are at one place
         auto target = lowest_at_place(mesh_);
         std::vector<std::uint8_t> touched(mesh_.vertex_count(), 0);
         for (Index f = 0; f < mesh_.face_count(); ++f)
@@ -253,30 +254,41 @@ class Uniting {
 
     /// Leaves that hang together where no other leaf does have the same on their sides.
     void find_patches(const Arrangement& arrangement) {
-        DisjointSets sets(leaf_count());
         std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // may have been
         for (Index f = 0; f < mesh_.face_count(); ++f)
             for (Index c = mesh_.face_begin(f); cut_[f] && c < mesh_.face_end(f); ++c)
                 merged[mesh_.vertex(c)] = 1;
-        join_uncut(merged, sets);
+        join_uncut(merged);
+        DisjointSets sets(leaf_count());
         join_rest(arrangement, merged, sets);
-        patch_.resize(leaf_count());
-        parallel_for(patch_.size(), [&](std::size_t i) { patch_[i] = sets.find(static_cast<Index>(i)); });
+        parallel_for(patch_.size(), [&](std::size_t i) { patch_[i] = sets.find(patch_[i]); });
     }
 
-    /// Along edges that have no more faces than they had.
-    void join_uncut(const std::vector<std::uint8_t>& merged, DisjointSets& sets) const {
-        std::vector<Index> leaf_of_face(mesh_.face_count(), none);
-        for (Index i = 0; i < uncut_.size(); ++i) leaf_of_face[uncut_[i]] = i;
+    /// Along edges that have no more faces than they had: patch_ becomes the lowest leaf for each. Around a
+    /// ring that no cut face touches all edges are such.
+    void join_uncut(const std::vector<std::uint8_t>& merged) {
+        Rings calm = solids_.rings;
+        for (std::size_t v = 0; v < calm.size(); ++v) calm[v] = calm[v] && !merged[v];
+        const auto is_leaf = [&](Index f) { return !cut_[f] && solids_.cluster_of_face(f) != none; };
+        FaceSets sets(mesh_, calm, is_leaf);
         const auto faces = corner_faces(mesh_);
         parallel_for(solids_.edges.size(), [&](std::size_t e) {
             const auto at = solids_.edges.corners_of(static_cast<Index>(e));
             if (at.size() != 2 || mesh_.vertex(at[0]) == mesh_.vertex(at[1])) return;
-            const Index f = faces[at[0]], a = leaf_of_face[f], b = leaf_of_face[faces[at[1]]];
-            if (a == none || b == none) return;
+            const Index f = faces[at[0]], g = faces[at[1]];
+            if (!is_leaf(f) || !is_leaf(g)) return;
             if (merged[mesh_.vertex(at[0])] && merged[mesh_.vertex(next_corner(mesh_, f, at[0]))]) return;
-            sets.join(a, b);
+            sets.join(f, g);
         });
+        patch_.resize(leaf_count());
+        std::vector<Index> lowest(sets.bound(), none);
+        for (Index i = 0; i < patch_.size(); ++i) {
+            patch_[i] = i;
+            if (i >= uncut_.size()) continue;
+            Index& first = lowest[sets.find(uncut_[i])];
+            if (first == none) first = i;
+            patch_[i] = first;
+        }
     }
 
     /// Along edges of pieces, and those between vertices where others may have come.
@@ -311,7 +323,7 @@ class Uniting {
             if (!may_be_another(edges.edges[e].low) || !may_be_another(edges.edges[e].high)) continue;
             const Index i = leaf_of_face[faces[at[0]]], j = leaf_of_face[faces[at[1]]];
             const Leaf a = leaf(i), b = leaf(j);
-            if (a.turns == b.turns && a.of_inward == b.of_inward) sets.join(i, j);
+            if (a.turns == b.turns && a.of_inward == b.of_inward) sets.join(patch_[i], patch_[j]);
         }
     }
 
@@ -411,7 +423,22 @@ class Uniting {
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
         const auto uncut = faces_without(goes);
         result_.uncut_faces = uncut.size();
-        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, rounding_, result_.changes);
+        UnitedMesh united = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, rounding_);
+        result_.settled = settled(goes, united);
+        result_.mesh = std::move(united.mesh);
+        result_.changes = std::move(united.changes);
+    }
+
+    std::vector<std::uint8_t> settled(const std::vector<std::uint8_t>& goes, const UnitedMesh& united) const {
+        if (solids_.rings.empty()) return {};
+        Rings whole = solids_.rings;
+        for (Index f = 0; f < goes.size(); ++f)
+            for (Index c = mesh_.face_begin(f); goes[f] && c < mesh_.face_end(f); ++c)
+                whole[mesh_.vertex(c)] = 0;
+        std::vector<std::uint8_t> settled(united.mesh.vertex_count(), 0);
+        for (std::size_t v = 0; v < united.old_vertices.size(); ++v)
+            settled[v] = whole[united.old_vertices[v]];
+        return settled;
     }
 
     Mesh& mesh_; ///< vertices are merged where faces are cut

@@ -13,6 +13,8 @@ struct United {
     std::size_t uncut_faces = 0;   ///< of the result; the pieces of cut faces come after them
     std::size_t cut_faces = 0;     ///< replaced by their pieces on the outside
     std::size_t covered_faces = 0; ///< uncut faces that went
+    /// [vertices] 1 for rings (see Solids) all of whose faces stay, uncut; empty where no rings are known.
+    std::vector<std::uint8_t> settled;
     struct Refused {
         Index cluster;
         const char* why;

@@ -1,11 +1,9 @@
 #include "geometry/clean/united_mesh.hpp"
 
 #include "base/numbers.hpp"
-#include "geometry/edit/surgery.hpp"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -43,37 +41,104 @@ class Assembly {
     Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles,
              const Rounding& rounding)
         : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), tolerance_(rounding.tolerance),
-          single_(rounding.single), plain_(is_plain(mesh)) {
-        result_.positions = mesh.positions;
-        result_.face_offsets = mesh.face_offsets;
-        result_.corners = mesh.corners;
-        if (!plain_) {
-            result_.wedge_vertex = mesh.wedge_vertex;
-            if (!mesh.has_seams()) {
-                result_.wedge_vertex.resize(mesh.wedge_count());
-                std::iota(result_.wedge_vertex.begin(), result_.wedge_vertex.end(), Index{0});
-            }
-        }
-        descent_.vertices.identity = descent_.wedges.identity = true;
-        descent_.faces.resize(mesh.face_count());
-        std::iota(descent_.faces.begin(), descent_.faces.end(), Index{0});
-    }
+          single_(rounding.single), plain_(is_plain(mesh)) {}
 
-    Mesh run(std::vector<Index> kept, const std::vector<OuterPiece>& pieces, AttributeChanges& changes) {
+    UnitedMesh run(const std::vector<Index>& kept, const std::vector<OuterPiece>& pieces) {
         std::vector<std::uint8_t> seen(mesh_.vertex_count(), 0);
         for (const OuterPiece& p : pieces)
             for (const Index node : p.nodes)
                 if (node < seen.size() && !std::exchange(seen[node], 1))
                     at_place_[cell(mesh_.positions[node])].push_back(node);
         for (const OuterPiece& p : pieces) add(p);
-        for (Index f = static_cast<Index>(mesh_.face_count()); f < result_.face_count(); ++f)
-            kept.push_back(f);
-        if (plain_) descent_.wedges = descent_.vertices;
-        changes = inherit_attributes(result_, mesh_, descent_);
-        return keep_faces(result_, kept);
+        number(kept);
+        put_together(kept);
+        UnitedMesh united;
+        united.changes = inherit_attributes(result_, mesh_, descent_);
+        normalise_offsets(result_);
+        normalise_wedges(result_);
+        united.old_vertices = std::move(descent_.vertices.copies);
+        united.mesh = std::move(result_);
+        return united;
     }
 
   private:
+    /// Which vertices and wedges are copied: those in use, and those that no face used.
+    void number(const std::vector<Index>& kept) {
+        enum : std::uint8_t { unused, used, lost };
+        std::vector<std::uint8_t> vertices(mesh_.vertex_count(), unused),
+            wedges(plain_ ? 0 : mesh_.wedge_count(), unused);
+        const auto mark = [&](Index wedge, std::uint8_t as) {
+            if (!plain_) wedges[wedge] = as;
+            vertices[plain_ ? wedge : mesh_.vertex_of_wedge(wedge)] = as;
+        };
+        for (const Index w : mesh_.corners) mark(w, lost);
+        for (const Index f : kept)
+            for (const Index w : mesh_.face_wedges(f)) mark(w, used);
+        for (const Index w : fresh_corners_) { // of a new wedge the vertex may be an old one
+            if (w < wedge_count()) mark(w, used);
+            if (const Index v = vertex_of(w); v < mesh_.vertex_count()) vertices[v] = used;
+        }
+        const auto copy = [](const std::vector<std::uint8_t>& marks, std::vector<Index>& copies,
+                             std::vector<Index>& numbers) {
+            numbers.resize(marks.size());
+            for (Index i = 0; i < marks.size(); ++i) {
+                numbers[i] = marks[i] == lost ? none : static_cast<Index>(copies.size());
+                if (marks[i] != lost) copies.push_back(i);
+            }
+        };
+        copy(vertices, descent_.vertices.copies, vertex_numbers_);
+        copy(wedges, descent_.wedges.copies, wedge_numbers_);
+    }
+
+    void put_together(const std::vector<Index>& kept) {
+        const auto renumbered = [](Index i, const std::vector<Index>& numbers, std::size_t copies) {
+            return i < numbers.size() ? numbers[i] : static_cast<Index>(i - numbers.size() + copies);
+        };
+        const auto vertex = [&](Index v) {
+            return renumbered(v, vertex_numbers_, descent_.vertices.copies.size());
+        };
+        const auto wedge = [&](Index w) {
+            return plain_ ? vertex(w) : renumbered(w, wedge_numbers_, descent_.wedges.copies.size());
+        };
+        const std::size_t faces = kept.size() + fresh_corners_.size() / 3;
+        result_.positions.reserve(descent_.vertices.copies.size() + fresh_positions_.size());
+        for (const Index v : descent_.vertices.copies) result_.positions.push_back(mesh_.positions[v]);
+        result_.positions.insert(result_.positions.end(), fresh_positions_.begin(), fresh_positions_.end());
+        if (!plain_) {
+            for (const Index w : descent_.wedges.copies)
+                result_.wedge_vertex.push_back(vertex(mesh_.vertex_of_wedge(w)));
+            for (const Index v : fresh_wedge_vertex_) result_.wedge_vertex.push_back(vertex(v));
+        }
+        const bool polygons = !mesh_.all_triangles();
+        result_.corners.reserve(3 * faces);
+        if (polygons) result_.face_offsets.push_back(0);
+        const auto end_face = [&] {
+            if (polygons) result_.face_offsets.push_back(static_cast<Index>(result_.corners.size()));
+        };
+        for (const Index f : kept) {
+            for (const Index w : mesh_.face_wedges(f)) result_.corners.push_back(wedge(w));
+            end_face();
+        }
+        for (std::size_t i = 0; i < fresh_corners_.size(); ++i) {
+            result_.corners.push_back(wedge(fresh_corners_[i]));
+            if (i % 3 == 2) end_face();
+        }
+        descent_.faces.insert(descent_.faces.begin(), kept.begin(), kept.end());
+        if (plain_) descent_.wedges = descent_.vertices;
+    }
+
+    Index wedge_count() const {
+        return static_cast<Index>(plain_ ? mesh_.vertex_count() : mesh_.wedge_count());
+    }
+    Index vertex_of(Index wedge) const {
+        if (plain_) return wedge;
+        return wedge < wedge_count() ? mesh_.vertex_of_wedge(wedge)
+                                     : fresh_wedge_vertex_[wedge - wedge_count()];
+    }
+    const Vec3& position(Index v) const {
+        return v < mesh_.vertex_count() ? mesh_.positions[v] : fresh_positions_[v - mesh_.vertex_count()];
+    }
+
     using Place = std::tuple<double, double, double>;
     Place cell(const Vec3& p, const Vec3& beside = {}) const {
         const auto place = [&](double x, double d) {
@@ -92,7 +157,7 @@ class Assembly {
                     const auto at = at_place_.find(cell(p, {double(i), double(j), double(k)}));
                     if (at == at_place_.end()) continue;
                     for (const Index v : at->second)
-                        if (length(result_.positions[v] - p) <= tolerance_) lowest = std::min(lowest, v);
+                        if (length(position(v) - p) <= tolerance_) lowest = std::min(lowest, v);
                 }
         return lowest;
     }
@@ -105,14 +170,14 @@ class Assembly {
 
     void add(const OuterPiece& p) {
         std::array<Index, 3> wedges{}, vertices{};
-        for (std::size_t i = 0; i < 3; ++i) vertices[i] = vertex_of(p.nodes[i], p.triangle);
+        for (std::size_t i = 0; i < 3; ++i) vertices[i] = vertex_of_node(p.nodes[i], p.triangle);
         if (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]) return;
         for (std::size_t i = 0; i < 3; ++i) wedges[i] = wedge_of(p.nodes[i], vertices[i], p.triangle);
-        add_face(result_, wedges);
+        fresh_corners_.insert(fresh_corners_.end(), wedges.begin(), wedges.end());
         descent_.faces.push_back(triangles_.face[p.triangle]);
     }
 
-    Index vertex_of(Index node, Index triangle) {
+    Index vertex_of_node(Index node, Index triangle) {
         if (node < mesh_.vertex_count()) return node;
         const Vec3 exact = arrangement_.position(node);
         const Vec3 place = single_ && is_finite(as_float32(exact)) ? as_float32(exact) : exact;
@@ -120,9 +185,9 @@ class Assembly {
         if (!unknown) return known->second;
         known->second = vertex_near(place);
         if (known->second != none) return known->second;
-        known->second = static_cast<Index>(result_.positions.size());
+        known->second = static_cast<Index>(mesh_.vertex_count() + fresh_positions_.size());
         at_place_[cell(place)].push_back(known->second);
-        result_.positions.push_back(place);
+        fresh_positions_.push_back(place);
         Mix m = mix_of(node, triangle);
         for (std::size_t i = 0; i < m.size; ++i) m.corners[i] = mesh_.vertex(m.corners[i]);
         push(descent_.vertices, m);
@@ -141,9 +206,10 @@ class Assembly {
         }
         const auto made = m.size == 2 ? std::tuple{vertex, m.corners[0], m.corners[1], none}
                                       : std::tuple{vertex, none, none, triangle};
-        const auto [at, fresh] = made_.try_emplace(made, static_cast<Index>(result_.wedge_vertex.size()));
+        const auto [at, fresh] =
+            made_.try_emplace(made, wedge_count() + static_cast<Index>(fresh_wedge_vertex_.size()));
         if (fresh) {
-            result_.wedge_vertex.push_back(vertex);
+            fresh_wedge_vertex_.push_back(vertex);
             push(descent_.wedges, m);
         }
         return at->second;
@@ -178,6 +244,10 @@ class Assembly {
     double tolerance_;
     bool single_;
     bool plain_; ///< a vertex is all there is to a wedge
+    // Of the pieces; numbers from those of the mesh on are new ones.
+    std::vector<Index> fresh_corners_, fresh_wedge_vertex_;
+    std::vector<Vec3> fresh_positions_;
+    std::vector<Index> vertex_numbers_, wedge_numbers_; ///< [of the mesh] in the result, or none
     Mesh result_;
     Descent descent_;
     std::map<Place, std::vector<Index>> at_place_;                 ///< vertices that pieces use, by cell
@@ -187,10 +257,10 @@ class Assembly {
 
 } // namespace
 
-Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, const Rounding& rounding,
-                 AttributeChanges& changes) {
-    return Assembly(mesh, arrangement, triangles, rounding).run(uncut, pieces, changes);
+UnitedMesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut,
+                       const std::vector<OuterPiece>& pieces, const Arrangement& arrangement,
+                       const TriangleFaces& triangles, const Rounding& rounding) {
+    return Assembly(mesh, arrangement, triangles, rounding).run(uncut, pieces);
 }
 
 } // namespace facetmill::clean_steps

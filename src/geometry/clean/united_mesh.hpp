@@ -25,11 +25,17 @@ struct Rounding {
     bool single = false;  ///< at positions of 32-bit floats
 };
 
+struct UnitedMesh {
+    Mesh mesh;
+    AttributeChanges changes;
+    std::vector<Index> old_vertices; ///< of the first vertices of the mesh; those after them are new
+};
+
 /// The uncut faces, then the pieces; vertices and wedges that lose their last face go. New nodes that round
 /// to the place of a vertex, or within tolerance of it (the lowest such), become it, and pieces that lose a
 /// corner by that are left out.
-Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, const Rounding& rounding,
-                 AttributeChanges& changes);
+UnitedMesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut,
+                       const std::vector<OuterPiece>& pieces, const Arrangement& arrangement,
+                       const TriangleFaces& triangles, const Rounding& rounding);
 
 } // namespace facetmill::clean_steps

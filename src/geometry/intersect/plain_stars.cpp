@@ -15,7 +15,7 @@ struct Sector {
 };
 
 /// The sectors around a vertex, with their corners as seen from it.
-class Star {
+class Sectors {
   public:
     void begin() { count_ = 0; }
     void add(const Surface& surface, const Sector& s) {
@@ -28,7 +28,7 @@ class Star {
         ++count_;
     }
 
-    bool is_plain() const { return count_ <= most && goes_round_once(); }
+    Star kind() const { return count_ <= most ? kind_of_few() : Star::unknown; }
 
   private:
     static constexpr std::size_t most = 24; ///< of more triangles nothing is said
@@ -41,14 +41,14 @@ class Star {
         return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
     }
 
-    bool goes_round_once() const {
+    Star kind_of_few() const {
         const std::size_t k = axis(), u = (k + 1) % 3, v = (k + 2) % 3;
         int way = 0;
         std::size_t laps = 0; // how often the sectors reach or pass the half-axis u, coming from below it
         for (std::size_t i = 0; i < count_; ++i) {
             const Vec3 &a = from_[i], &b = to_[i];
             const int turn = sure_sign(a[u] * b[v], a[v] * b[u]);
-            if (turn == 0 || (way != 0 && turn != way)) return false;
+            if (turn == 0 || (way != 0 && turn != way)) return Star::unknown;
             way = turn;
             laps += turn > 0 ? a[v] < 0 && b[v] >= 0 : b[v] < 0 && a[v] >= 0;
         }
@@ -57,14 +57,15 @@ class Star {
             bool has_one_before = false;
             for (std::size_t j = 0; j < count_; ++j) {
                 if (j != i && (sectors_[j].from == sectors_[i].from || sectors_[j].to == sectors_[i].to))
-                    return false;
+                    return Star::unknown;
                 has_one_before |= sectors_[j].to == sectors_[i].from;
             }
             ends += !has_one_before;
         }
-        // One ring goes round once. What begins after the half-axis and does not come to it again goes round
-        // less than once.
-        return ends == 0 ? laps == 1 : ends == 1 && laps == 0;
+        // One ring goes round once: two would pass the half-axis twice. What begins after it and does not
+        // come to it again goes round less than once.
+        if (ends == 0) return laps == 1 ? Star::ring : Star::unknown;
+        return ends == 1 && laps == 0 ? Star::plain : Star::unknown;
     }
 
     std::size_t count_ = 0;
@@ -74,18 +75,18 @@ class Star {
 
 } // namespace
 
-std::vector<std::uint8_t> plain_stars(const Surface& surface) {
+std::vector<Star> plain_stars(const Surface& surface) {
     const auto buckets =
         fill_buckets<Sector>(surface.size(), surface.positions.size(), [&](Index t, auto&& emit) {
             const Index* const c = &surface.corners[std::size_t{3} * t];
             for (std::size_t i = 0; i < 3; ++i) emit(c[i], Sector{c[i], c[(i + 1) % 3], c[(i + 2) % 3]});
         });
-    std::vector<std::uint8_t> plain(surface.positions.size(), 0);
+    std::vector<Star> stars(surface.positions.size(), Star::unknown);
     parallel_chunks(
         buckets.count(),
         [&](std::size_t first, std::size_t last) {
             std::vector<Index> begin, order;
-            Star star;
+            Sectors around;
             for (std::size_t b = first; b < last; ++b) {
                 const auto sectors = buckets.of(b);
                 const auto lowest = static_cast<Index>(buckets.first_vertex(b));
@@ -96,14 +97,14 @@ std::vector<std::uint8_t> plain_stars(const Surface& surface) {
                 for (Index i = 0; i < sectors.size(); ++i) order[begin[sectors[i].vertex - lowest]++] = i;
                 for (std::size_t i = 0; i < order.size();) { // begin[v] is now the end of v
                     const Index v = sectors[order[i]].vertex;
-                    star.begin();
-                    for (; i < begin[v - lowest]; ++i) star.add(surface, sectors[order[i]]);
-                    plain[v] = star.is_plain();
+                    around.begin();
+                    for (; i < begin[v - lowest]; ++i) around.add(surface, sectors[order[i]]);
+                    stars[v] = around.kind();
                 }
             }
         },
         16);
-    return plain;
+    return stars;
 }
 
 } // namespace facetmill

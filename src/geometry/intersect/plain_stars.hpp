@@ -8,11 +8,17 @@
 
 namespace facetmill {
 
-/// [vertices] 1 where the triangles around the vertex, seen along an axis, all turn the same way and go round
-/// it at most once, each vertex beside it being the second of one triangle at most and the third of one at
-/// most. Seen so, no two of them have more in common than the vertex, or the edge that they share by its
-/// vertices; so they meet nowhere else in space either. Signs are those that floating point is sure of: 0
-/// says nothing. Parallel.
-std::vector<std::uint8_t> plain_stars(const Surface& surface);
+enum class Star : std::uint8_t {
+    unknown,
+    plain,
+    ring, ///< plain, and closed: each edge at the vertex has two triangles, which run along it both ways
+};
+
+/// [vertices] What the triangles around the vertex are: plain where they, seen along an axis, all turn the
+/// same way and go round it at most once, each vertex beside it being the second of one triangle at most and
+/// the third of one at most. Seen so, no two of them have more in common than the vertex, or the edge that
+/// they share by its vertices; so they meet nowhere else in space either. Signs are those that floating point
+/// is sure of: of what is unknown nothing is said. Parallel.
+std::vector<Star> plain_stars(const Surface& surface);
 
 } // namespace facetmill
