@@ -5,9 +5,6 @@
 
 #include <algorithm>
 
-template class std::vector<facetmill::Attribute>;
-template class std::vector<facetmill::Primitive>;
-
 namespace facetmill {
 
 std::size_t Mesh::count(Domain domain) const {

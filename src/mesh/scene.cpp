@@ -2,9 +2,6 @@
 
 #include "base/parallel.hpp"
 
-template class std::vector<facetmill::Part>;
-template class std::vector<facetmill::Material>;
-
 namespace facetmill {
 
 namespace {
