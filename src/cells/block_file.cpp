@@ -154,7 +154,10 @@ Spool::Spool(const fs::path& folder, std::size_t lists, std::size_t memory, Reco
 }
 
 Spool::Spool(std::unique_ptr<BlockFile> file, const std::vector<Block>& lists) : file_(std::move(file)) {
-    for (const Block& block : lists) lists_.push_back({{}, {{block, block.size}}, block.size});
+    for (const Block& block : lists) {
+        if (block.size > UINT32_MAX) file_->refuse();
+        lists_.push_back({{}, {part_of(block, block.size)}, block.size});
+    }
 }
 
 Spool Spool::stored(const fs::path& file, const std::vector<std::size_t>& lists, bool sync,
@@ -184,15 +187,21 @@ void Spool::add(std::size_t number, io::Span record) {
     list.size += record.size();
 }
 
+/// Both sizes are of one list that waits, or of a block that was looked at.
+Spool::Part Spool::part_of(const Block& block, std::uint64_t size) {
+    return {block.offset, block.digest, static_cast<std::uint32_t>(block.size),
+            static_cast<std::uint32_t>(size)};
+}
+
 void Spool::write(List& list) {
     const Block block =
         file_->put(records_ == Records::numbers ? packed_numbers(list.waiting) : io::Span(list.waiting));
-    list.parts.push_back({block, list.waiting.size()});
+    list.parts.push_back(part_of(block, list.waiting.size()));
     list.waiting.clear();
 }
 
 io::Bytes Spool::read(const Part& part) const {
-    io::Bytes bytes = file_->get(part.block);
+    io::Bytes bytes = file_->get(part.block());
     if (records_ == Records::bytes) return bytes;
     io::Bytes records;
     records.reserve(part.size);

@@ -99,10 +99,13 @@ class Spool {
                  std::vector<Block>& blocks) const;
 
   private:
+    /// Of a list; there may be very many.
     struct Part {
-        Block block;
-        std::uint64_t size; ///< of the records
+        std::uint64_t offset, digest;
+        std::uint32_t stored, size; ///< bytes in the file, and of the records
+        Block block() const { return {offset, stored, digest}; }
     };
+    static Part part_of(const Block& block, std::uint64_t size);
     struct List {
         io::Bytes waiting;
         std::vector<Part> parts;
