@@ -4,6 +4,7 @@
 
 #include "base/vec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -44,7 +45,11 @@ class Grid {
     /// The number of the cell of the grid that a place is in, from 0.
     std::size_t cell_of(const Vec3& p) const;
     std::size_t cells() const { return counts_.size(); }
-    void count(std::size_t cell) { ++counts_[cell]; }
+    /// More than 4294967295 in a cell count as so many: it is divided by other means all the same.
+    void count(std::size_t cell, std::uint32_t faces = 1) {
+        std::uint32_t& counted = counts_[cell];
+        counted += std::min(faces, UINT32_MAX - counted);
+    }
     /// Splits the grid at its planes: no leaf has more than `most`, but where a single cell of the grid has.
     /// The counts are then those leaves' numbers, see leaf_of.
     Tree split(std::uint64_t most);

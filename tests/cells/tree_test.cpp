@@ -64,3 +64,14 @@ TEST_CASE("a grid over nothing, over a point and over infinity has one leaf or s
     wide.count(wide.cell_of({1e308, 1, 0}));
     CHECK(wide.split(1).leaves.size() <= 2);
 }
+
+TEST_CASE("more faces than a count holds are still very many", "[cells]") {
+    Box box;
+    box.add(Vec3{0, 0, 0});
+    box.add(Vec3{2, 1, 1});
+    Grid grid(box, 2);
+    grid.count(grid.cell_of({0.5, 0.5, 0.5}), UINT32_MAX);
+    grid.count(grid.cell_of({0.5, 0.5, 0.5}), 5);
+    grid.count(grid.cell_of({1.5, 0.5, 0.5}), 3);
+    CHECK(grid.split(10).leaves.size() == 2);
+}
