@@ -21,9 +21,13 @@ namespace {
 enum class Format { none, ply, stl, obj, off, gltf };
 
 /// Mapped, so that only what is looked at takes memory. The file must be none that is_packed.
-io::Input open_mapped(const std::filesystem::path& path) {
-    constexpr std::size_t smallest = std::size_t{1} << 16;
-    return io::Input::open(path, smallest);
+constexpr std::size_t mapped_from = std::size_t{1} << 16;
+io::Input open_mapped(const std::filesystem::path& path) { return io::Input::open(path, mapped_from); }
+
+[[noreturn]] void changed_while_read(const io::Input& input) {
+    throw Error(ErrorKind::malformed, "E-CHANGED",
+                fmt::format("'{}' changed while it was read", input.name()),
+                "run it again while no other program writes to it");
 }
 
 /// Whether it is compressed, under whatever name.
@@ -134,7 +138,9 @@ std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, cons
     RowWriter writer(scratch, extra);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         take_convention(inputs[i], settings, contents);
-        contents.files.push_back({inputs[i], readers[i]->read(writer, !extra.empty())});
+        const FaceSource::File file = open_again(inputs[i]); // closed when it is read: there may be very many
+        contents.files.push_back({inputs[i], readers[i]->read(file.file, writer, !extra.empty()), nullptr});
+        require_as_opened({file});
         for (auto& file : readers[i]->neighbours) contents.files.push_back(std::move(file));
         for (const std::string& what : readers[i]->dropped) add_once(contents.dropped, what);
     }
@@ -157,6 +163,35 @@ void FaceSource::take_digests(const std::vector<std::string>& digests) {
 void FaceSource::restore(const Box& bounds, std::uint64_t skipped_faces) {
     contents_.bounds = bounds;
     contents_.skipped_faces = skipped_faces;
+}
+
+FaceSource::File open_again(const io::Input& input) {
+    FaceSource::File file{input, {}, std::make_shared<const ReadFile>(input.path())};
+    const io::Span seen = input.bytes();
+    const std::optional<FileStamp>& stamp = file.file->stamp();
+    bool same = stamp && stamp->bytes == seen.size();
+    if (same && seen.size() < mapped_from) { // seen is a copy
+        io::Bytes again(seen.size());
+        file.file->read(0, again);
+        same = std::equal(again.begin(), again.end(), seen.begin());
+    } else if (same) {
+        same = input.is_as_opened() && FileStamp::of(input.path()) == stamp;
+    }
+    if (!same) changed_while_read(input);
+    return file;
+}
+
+FaceSource::File open_input(const std::filesystem::path& path) { return open_again(open_mapped(path)); }
+
+void require_as_opened(const std::vector<FaceSource::File>& files) {
+    for (const FaceSource::File& file : files)
+        if (!file.input.is_as_opened() || (file.file && !file.file->is_as_opened()))
+            changed_while_read(file.input);
+}
+
+void require_unchanged(const std::vector<FaceSource::File>& files) {
+    for (const FaceSource::File& file : files)
+        if (file.is_rows && !file.file->has_same_contents()) changed_while_read(file.input);
 }
 
 std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
@@ -196,17 +231,18 @@ std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>&
     }
     FaceSource::Contents contents;
     contents.name = paths.front().stem().string();
-    const Format format = format_of(inputs.front());
+    const io::Input& first = inputs.front();
+    const Format format = format_of(first);
     const bool by_format = settings.weld == io::Weld::automatic;
     const bool itself =
         inputs.size() == 1 && (by_format || (format == Format::ply && settings.weld == io::Weld::off));
-    if (itself && format == Format::ply && !is_text_ply(inputs.front())) {
-        take_convention(inputs.front(), settings, contents);
-        return open_ply(inputs.front(), settings, std::move(contents));
+    if (itself && format == Format::ply && !is_text_ply(first)) {
+        take_convention(first, settings, contents);
+        return open_ply(open_again(first), settings, std::move(contents));
     }
-    if (itself && format == Format::stl && !is_text_stl(inputs.front())) {
-        take_convention(inputs.front(), settings, contents);
-        return open_stl(inputs.front(), settings, std::move(contents));
+    if (itself && format == Format::stl && !is_text_stl(first)) {
+        take_convention(first, settings, contents);
+        return open_stl(open_again(first), settings, std::move(contents));
     }
     return open_rows(inputs, settings, scratch, std::move(contents));
 }

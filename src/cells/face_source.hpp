@@ -7,6 +7,8 @@
 
 namespace facetmill::cells {
 
+class ReadFile;
+
 /// Some faces of a file as a mesh.
 struct Piece {
     Mesh mesh; ///< triangles, every vertex used by one
@@ -21,8 +23,10 @@ class FaceSource {
     virtual ~FaceSource() = default;
 
     struct File {
-        io::Input input;
-        std::string sha256; ///< empty: not known yet
+        io::Input input;                      ///< what is looked at
+        std::string sha256{};                 ///< empty: not known yet
+        std::shared_ptr<const ReadFile> file; ///< the same, to be read; null where that is done
+        bool is_rows = false;                 ///< pieces are read from it, as long as there are any
     };
     struct Contents {
         std::vector<File> files;
@@ -73,6 +77,18 @@ class FaceSource {
   private:
     Contents contents_;
 };
+
+/// Opens a file that was looked at once more, to be read. Throws missing; malformed (E-CHANGED) where its
+/// path names another file by now, or its contents are others.
+FaceSource::File open_again(const io::Input& input);
+/// A file to be looked at and to be read. Throws as io::Input::open, and as above.
+FaceSource::File open_input(const std::filesystem::path& path);
+
+/// Throws malformed (E-CHANGED) when one of the files, or what its path names, is another than when it was
+/// opened, or has other times.
+void require_as_opened(const std::vector<FaceSource::File>& files);
+/// The same of the contents of those files that pieces are read from. Any thread.
+void require_unchanged(const std::vector<FaceSource::File>& files);
 
 /// Whether a file can be read so, by its first bytes and its name; else why not, in words.
 std::optional<std::string> why_not_streamed(const std::filesystem::path& path);

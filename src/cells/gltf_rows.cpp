@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 namespace facetmill::cells {
@@ -85,9 +86,10 @@ class GltfReader final : public RowReader {
         : input_(input), identity_(settings.weld == io::Weld::off     ? Identity::number
                                    : settings.weld == io::Weld::exact ? Identity::place
                                                                       : Identity::place_in_group),
-          chunks_(chunks_of(input)), json_(gltf::parse_document(chunks_.json)) {}
+          chunks_(chunks_of(input_)), json_(gltf::parse_document(chunks_.json)) {}
 
-    std::string read(RowWriter& out, bool) override {
+    std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool) override {
+        file_ = file;
         return gltf::in_file(input_, [&] {
             const gltf::Placement* last = nullptr;
             std::set<std::string> attributes;
@@ -103,17 +105,17 @@ class GltfReader final : public RowReader {
             });
             dropped.assign(attributes.begin(), attributes.end());
             if (any_lines(json_)) dropped.emplace_back("lines");
-            for (const auto& path : buffers_) {
-                const io::Input buffer = io::Input::open(path, 1 << 16); // mapped
-                neighbours.push_back({buffer, digest_of(buffer)});
+            for (auto& [path, buffer] : buffers_) {
+                buffer.sha256 = digest_of(buffer.input, *buffer.file);
+                require_as_opened({buffer});
+                neighbours.push_back({buffer.input, buffer.sha256, nullptr});
             }
-            return digest_of(input_);
+            return digest_of(input_, *file_);
         });
     }
 
   private:
-    static std::string digest_of(const io::Input& input) {
-        const ReadFile file(input.path());
+    static std::string digest_of(const io::Input& input, const ReadFile& file) {
         Sha256 sum;
         Stream all(file, 0, input.bytes().size(), &sum);
         all.skip(all.left());
@@ -122,7 +124,7 @@ class GltfReader final : public RowReader {
 
     /// Where the elements of an accessor stand.
     struct Elements {
-        std::unique_ptr<ReadFile> file;
+        std::shared_ptr<const ReadFile> file;
         std::uint64_t begin = 0, end = 0, count = 0;
         std::size_t size = 0, stride = 0;
         int type = 0;
@@ -158,15 +160,12 @@ class GltfReader final : public RowReader {
         const std::string uri = gltf::item(json_, "buffers", number).text_or("uri", "");
         const std::uint64_t offset = view.natural_or("byteOffset", 0);
         std::uint64_t size = 0;
-        std::filesystem::path path = input_.path();
+        e.file = file_;
         if (!uri.empty()) {
-            path = gltf::buffer_path(gltf::item(json_, "buffers", number), uri, input_);
-            buffers_.insert(path);
-            std::error_code error;
-            size = std::filesystem::file_size(path, error);
-            if (error)
-                throw Error(ErrorKind::missing, "E-FILE",
-                            fmt::format("'{}' cannot be read: {}", path.string(), error.message()));
+            const FaceSource::File& buffer =
+                opened(gltf::buffer_path(gltf::item(json_, "buffers", number), uri, input_));
+            size = buffer.input.bytes().size();
+            e.file = buffer.file;
         } else if (number == 0 && chunks_.binary) {
             size = chunks_.binary->size();
             e.begin = static_cast<std::uint64_t>(chunks_.binary->data() - input_.bytes().data());
@@ -177,7 +176,12 @@ class GltfReader final : public RowReader {
                       "E-BUFFER");
         e.begin += offset;
         e.end = e.begin + length;
-        e.file = std::make_unique<ReadFile>(path);
+    }
+
+    const FaceSource::File& opened(const std::filesystem::path& path) {
+        const auto known = buffers_.find(path);
+        return known != buffers_.end() ? known->second
+                                       : buffers_.emplace(path, open_input(path)).first->second;
     }
 
     void add(const gltf::Place& primitive, const Transform& world, RowWriter& out) {
@@ -228,10 +232,11 @@ class GltfReader final : public RowReader {
     }
 
     io::Input input_;
+    std::shared_ptr<const ReadFile> file_;
     Identity identity_;
     gltf::Chunks chunks_;
     Json json_;
-    std::set<std::filesystem::path> buffers_; ///< beside the document
+    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< beside the document
 };
 
 } // namespace

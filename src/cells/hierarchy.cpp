@@ -122,6 +122,7 @@ class Hierarchy {
         const double area = area_of(station, cell);
         SimplifyResult r = simplified(station, cell);
         const StationWork work = work_with(station, area, r);
+        if (stations_[station].is_leaf()) require_unchanged(partition_.source().contents().files);
         left_.put(station, reduced(std::move(r.mesh), r.sources, cell), work);
     }
 

@@ -5,21 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <sys/stat.h>
 
 namespace facetmill::cells {
 
 namespace {
 
-constexpr std::int64_t nanoseconds = 1000000000; // of a second
-
-std::int64_t time_in(const timespec& time) {
-    return std::int64_t{time.tv_sec} * nanoseconds + std::int64_t{time.tv_nsec};
-}
-
 std::string digest_of_text(const std::string& text) { return sha256(std::as_bytes(std::span(text))); }
 
-Json stamp_json(const InputStamp& stamp) {
+Json stamp_json(const FileStamp& stamp) {
     return {{"bytes", stamp.bytes},
             {"device", stamp.device},
             {"inode", stamp.inode},
@@ -29,19 +22,6 @@ Json stamp_json(const InputStamp& stamp) {
 
 } // namespace
 
-std::optional<InputStamp> InputStamp::of(const std::filesystem::path& path) {
-    struct stat about {};
-    if (::stat(path.c_str(), &about) != 0) return {};
-    return InputStamp{static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_dev),
-                      static_cast<std::uint64_t>(about.st_ino), time_in(about.st_mtim),
-                      time_in(about.st_ctim)};
-}
-
-bool InputStamp::is_settled(std::int64_t now) const {
-    constexpr std::int64_t coarsest = 2 * nanoseconds; // FAT
-    return std::max(modified, changed) + coarsest < now;
-}
-
 std::int64_t InputStamps::now() {
     const auto since = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
@@ -49,7 +29,7 @@ std::int64_t InputStamps::now() {
 
 InputStamps::InputStamps(const std::vector<FaceSource::File>& files, std::int64_t now) : now_(now) {
     for (const auto& each : files)
-        if (const auto stamp = InputStamp::of(each.input.path())) stamps_.push_back(*stamp);
+        if (each.file && each.file->stamp()) stamps_.push_back(*each.file->stamp());
 }
 
 std::vector<std::string> InputStamps::digests(const CellFolder& folder) const {
@@ -71,10 +51,10 @@ std::vector<std::string> InputStamps::digests(const CellFolder& folder) const {
 }
 
 void InputStamps::store(const CellFolder& folder, const std::vector<FaceSource::File>& files) const {
-    const InputStamps after(files);
-    if (stamps_.size() != files.size() || after.stamps_ != stamps_ ||
+    const auto is_as_opened = [](const FaceSource::File& each) { return each.file->is_as_opened(); };
+    if (stamps_.size() != files.size() || !std::all_of(files.begin(), files.end(), is_as_opened) ||
         !std::all_of(stamps_.begin(), stamps_.end(),
-                     [&](const InputStamp& stamp) { return stamp.is_settled(now_); }))
+                     [&](const FileStamp& stamp) { return stamp.is_settled(now_); }))
         return folder.remove(file);
     Json all;
     for (std::size_t i = 0; i < files.size(); ++i)

@@ -218,6 +218,7 @@ class PartitionKeeper {
                              {"records", block_json(records[leaf])},
                              {"borders", block_json(borders[leaf])}});
         }
+        require_as_opened(source_->contents().files);
         manifest["sha256"] = digest_of(manifest);
         const std::string text = manifest.dump(1) + "\n";
         folder_.write(manifest_file, {std::as_bytes(std::span(text))});

@@ -30,8 +30,9 @@ class ObjReader final : public RowReader {
   public:
     ObjReader(const io::Input& input, const io::ReadSettings& settings)
         : input_(input), identity_(settings.weld == io::Weld::exact ? Identity::place : Identity::number) {
-        io::Text text(io::as_text(input.bytes().first(std::min<std::size_t>(input.bytes().size(), 1 << 20))),
-                      input.name(), "E-OBJ", '#');
+        io::Text text(
+            io::as_text(input_.bytes().first(std::min<std::size_t>(input_.bytes().size(), 1 << 20))),
+            input_.name(), "E-OBJ", '#');
         do {
             if (text.word_on_line() != "v") continue;
             std::size_t count = 0;
@@ -43,10 +44,9 @@ class ObjReader final : public RowReader {
         } while (text.next_line());
     }
 
-    std::string read(RowWriter& out, bool with_extra) override {
-        const ReadFile file(input_.path());
+    std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool with_extra) override {
         Sha256 sum;
-        TextWindow window(file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', &sum);
+        TextWindow window(*file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', &sum);
         out.begin_group(identity_);
         const std::uint64_t base = out.vertices();
         std::int64_t highest = 0; // of the vertices that faces name, from 1
@@ -62,7 +62,7 @@ class ObjReader final : public RowReader {
                 note(s.word);
         }
         const auto all = static_cast<std::int64_t>(out.vertices() - base);
-        if (highest > all) refuse(first_bad(all), all);
+        if (highest > all) refuse(first_bad(*file, all), all);
         for (const auto& [there, what] :
              {std::pair{uvs_, "texture coordinates"}, std::pair{normals_, "normals"},
               std::pair{materials_, "materials"}, std::pair{groups_ > 1, "objects and groups"},
@@ -150,8 +150,7 @@ class ObjReader final : public RowReader {
     }
 
     /// The line of the first face that names a vertex beyond the last.
-    int first_bad(std::int64_t all) const {
-        const ReadFile file(input_.path());
+    int first_bad(const ReadFile& file, std::int64_t all) const {
         TextWindow window(file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', nullptr);
         Statement s;
         while (window.left() > 0) {

@@ -18,10 +18,9 @@ class OffReader final : public RowReader {
     OffReader(const io::Input& input, const io::ReadSettings& settings)
         : input_(input), identity_(settings.weld == io::Weld::exact ? Identity::place : Identity::number) {}
 
-    std::string read(RowWriter& out, bool) override {
-        const ReadFile file(input_.path());
+    std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool) override {
         Sha256 sum;
-        TextWindow window(file, 0, input_.bytes().size(), input_.name(), "E-OFF", '#', &sum);
+        TextWindow window(*file, 0, input_.bytes().size(), input_.name(), "E-OFF", '#', &sum);
         out.begin_group(identity_);
         base_ = static_cast<std::uint32_t>(out.vertices());
         std::int64_t vertices = 0, faces = 0;

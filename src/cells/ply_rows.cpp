@@ -22,7 +22,7 @@ bool has_list(const ply::Element& e) {
 }
 
 /// Where vertices and faces of a binary file stand.
-Rows rows_of(const io::Input& input, const ply::Header& header) {
+Rows rows_of(const io::Input& input, const std::shared_ptr<const ReadFile>& file, const ply::Header& header) {
     const std::uint64_t bytes = input.bytes().size();
     Rows rows;
     rows.swap = header.encoding == ply::Encoding::big_endian;
@@ -49,7 +49,7 @@ Rows rows_of(const io::Input& input, const ply::Header& header) {
     if (at > bytes)
         ends_in(input.name(), bytes, "vertex", (bytes - rows.vertices_at) / row_size(rows.vertex),
                 rows.vertex_count);
-    rows.vertices = rows.faces = std::make_shared<const ReadFile>(input.path());
+    rows.vertices = rows.faces = file;
     return rows;
 }
 
@@ -75,18 +75,18 @@ std::vector<ply::Property> others(const std::vector<ply::Property>& properties) 
 class PlyReader final : public RowReader {
   public:
     PlyReader(const io::Input& input, const io::ReadSettings& settings)
-        : input_(input), header_(ply::read_header(input)),
+        : input_(input), header_(ply::read_header(input_)),
           identity_(settings.weld == io::Weld::exact ? Identity::place : Identity::number) {
         for (const auto& e : header_.elements)
             if (e.name == "vertex") extra = others(e.properties);
         name_dropped(header_, dropped);
     }
 
-    std::string read(RowWriter& out, bool with_extra) override {
+    std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool with_extra) override {
         out.begin_group(identity_);
         base_ = static_cast<std::uint32_t>(out.vertices());
-        return header_.encoding == ply::Encoding::ascii ? read_text(out, with_extra)
-                                                        : read_binary(out, with_extra);
+        return header_.encoding == ply::Encoding::ascii ? read_text(*file, out, with_extra)
+                                                        : read_binary(file, out, with_extra);
     }
 
   private:
@@ -95,8 +95,8 @@ class PlyReader final : public RowReader {
         out.face(corners);
     }
 
-    std::string read_binary(RowWriter& out, bool with_extra) {
-        const Rows rows = rows_of(input_, header_);
+    std::string read_binary(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool with_extra) {
+        const Rows rows = rows_of(input_, file, header_);
         Sha256 sum;
         Stream all(*rows.vertices, 0, input_.bytes().size(), &sum);
         io::Bytes more;
@@ -127,8 +127,7 @@ class PlyReader final : public RowReader {
         return sum.digest();
     }
 
-    std::string read_text(RowWriter& out, bool with_extra) {
-        const ReadFile file(input_.path());
+    std::string read_text(const ReadFile& file, RowWriter& out, bool with_extra) {
         Sha256 sum;
         sum.add(input_.bytes().first(header_.size));
         TextWindow window(file, header_.size, input_.bytes().size(), input_.name(), "E-PLY", 0, &sum,
@@ -218,7 +217,7 @@ class PlyReader final : public RowReader {
         if (faces) give(*faces, corners_);
     }
 
-    const io::Input input_;
+    io::Input input_;
     const ply::Header header_;
     Identity identity_;
     std::uint32_t base_ = 0;
@@ -259,12 +258,13 @@ std::uint64_t ply_faces(const io::Input& input) {
 
 bool is_text_ply(const io::Input& input) { return ply::read_header(input).encoding == ply::Encoding::ascii; }
 
-std::unique_ptr<FaceSource> open_ply(const io::Input& input, const io::ReadSettings& settings,
+std::unique_ptr<FaceSource> open_ply(FaceSource::File file, const io::ReadSettings& settings,
                                      FaceSource::Contents contents) {
-    const ply::Header header = ply::read_header(input);
-    Rows rows = rows_of(input, header);
+    const ply::Header header = ply::read_header(file.input);
+    Rows rows = rows_of(file.input, file.file, header);
     name_dropped(header, contents.dropped);
-    contents.files.push_back({input, {}});
+    file.is_rows = true;
+    contents.files.push_back(std::move(file));
     return source_of(std::move(rows), std::move(contents), settings);
 }
 

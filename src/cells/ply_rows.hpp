@@ -11,7 +11,7 @@ std::optional<std::string> why_ply_not_streamed(const io::Input& input);
 std::uint64_t ply_faces(const io::Input& input);
 bool is_text_ply(const io::Input& input);
 /// A binary file. Throws as open_faces.
-std::unique_ptr<FaceSource> open_ply(const io::Input& input, const io::ReadSettings& settings,
+std::unique_ptr<FaceSource> open_ply(FaceSource::File file, const io::ReadSettings& settings,
                                      FaceSource::Contents contents);
 
 } // namespace facetmill::cells

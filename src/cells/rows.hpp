@@ -97,9 +97,10 @@ class RowReader {
     std::vector<io::ply::Property> extra{};
     std::vector<std::string> dropped{};         ///< after read: what is not carried, in words
     std::vector<FaceSource::File> neighbours{}; ///< after read: other files that were read
-    /// with_extra: whether the writer's rows hold `extra`; else they hold none. Throws as io::read_scene.
-    /// Returns the file's digest.
-    virtual std::string read(RowWriter& out, bool with_extra) = 0;
+    /// file: the input, to be read. with_extra: whether the writer's rows hold `extra`; else they hold none.
+    /// Throws as io::read_scene. Returns the file's digest.
+    virtual std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out,
+                             bool with_extra) = 0;
 };
 
 /// Readers, by format. The file must be one that why_not_streamed has no word against.

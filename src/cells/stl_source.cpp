@@ -63,16 +63,16 @@ std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& t
 
 class StlSource final : public FaceSource {
   public:
-    StlSource(const io::Input& input, const io::ReadSettings& settings, Contents contents)
-        : FaceSource(std::move(contents)), settings_(settings), file_(input.path()),
-          count_(stl_faces(input)) {
-        own_contents().files.push_back({input, {}});
+    StlSource(File file, const io::ReadSettings& settings, Contents contents)
+        : FaceSource(std::move(contents)), settings_(settings), file_(file.file),
+          count_(stl_faces(file.input)) {
+        own_contents().files.push_back(std::move(file));
     }
 
     void scan(std::size_t) override {
         Box bounds;
         FaceSource::File& file = own_contents().files.front();
-        file.sha256 = each_triangle(file.input, file_, [&](const std::array<Point, 3>& corners) {
+        file.sha256 = each_triangle(file.input, *file_, [&](const std::array<Point, 3>& corners) {
             for (const Point& p : corners) bounds.add(as_vector(p));
         });
         own_contents().bounds = bounds;
@@ -95,7 +95,7 @@ class StlSource final : public FaceSource {
     }
 
     void each_record(const TakeRecord& take, std::size_t) override {
-        Stream faces(file_, stl_head, stl_head + count_ * stl_record);
+        Stream faces(*file_, stl_head, stl_head + count_ * stl_record);
         for (std::uint64_t f = 0; f < count_; ++f) take({faces.take(stl_record), stl_record});
     }
 
@@ -125,7 +125,7 @@ class StlSource final : public FaceSource {
 
   private:
     io::ReadSettings settings_;
-    ReadFile file_;
+    std::shared_ptr<const ReadFile> file_;
     std::uint64_t count_ = 0;
 };
 
@@ -137,11 +137,10 @@ class StlReader final : public RowReader {
                                    : settings.weld == io::Weld::exact ? Identity::place
                                                                       : Identity::place_in_group) {}
 
-    std::string read(RowWriter& out, bool) override {
-        const ReadFile file(input_.path());
-        if (io::stl::is_text(input_.bytes())) return read_text(file, out);
+    std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool) override {
+        if (io::stl::is_text(input_.bytes())) return read_text(*file, out);
         out.begin_group(identity_);
-        return each_triangle(input_, file, [&](const std::array<Point, 3>& corners) {
+        return each_triangle(input_, *file, [&](const std::array<Point, 3>& corners) {
             add(out, {as_vector(corners[0]), as_vector(corners[1]), as_vector(corners[2])});
         });
     }
@@ -219,9 +218,9 @@ std::uint64_t stl_faces(const io::Input& input) {
     return count;
 }
 
-std::unique_ptr<FaceSource> open_stl(const io::Input& input, const io::ReadSettings& settings,
+std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
                                      FaceSource::Contents contents) {
-    return std::make_unique<StlSource>(input, settings, std::move(contents));
+    return std::make_unique<StlSource>(std::move(file), settings, std::move(contents));
 }
 
 std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings) {

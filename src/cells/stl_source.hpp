@@ -9,7 +9,7 @@ bool is_text_stl(const io::Input& input);
 /// As the header says. The file must be binary.
 std::uint64_t stl_faces(const io::Input& input);
 /// A binary file. Throws as open_faces.
-std::unique_ptr<FaceSource> open_stl(const io::Input& input, const io::ReadSettings& settings,
+std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
                                      FaceSource::Contents contents);
 
 } // namespace facetmill::cells

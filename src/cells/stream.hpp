@@ -4,11 +4,29 @@
 #include "base/hash.hpp"
 #include "io/bytes.hpp"
 
+#include <optional>
+
 namespace facetmill::cells {
 
 /// Reads a file from that byte on; returns how many bytes there were, fewer than asked for at its end or
 /// where it cannot be read.
 std::size_t read_at(int file, std::uint64_t offset, std::span<std::byte> to);
+
+/// What the system says of a file.
+struct FileStamp {
+    std::uint64_t bytes = 0, device = 0, inode = 0;
+    std::int64_t modified = 0, changed = 0; ///< nanoseconds since 1970, of its contents and of anything of it
+    bool operator==(const FileStamp&) const = default;
+
+    /// None where there is no such file.
+    static std::optional<FileStamp> of(const std::filesystem::path& path);
+    static std::optional<FileStamp> of(int file);
+    /// Whether it tells of the same contents; another name, owner or number of links is no other.
+    bool has_contents_of(const FileStamp& other) const;
+    /// Whether a file that is written to at that time, or later, gets other times, also where the system
+    /// counts in seconds.
+    bool is_settled(std::int64_t now) const;
+};
 
 /// A file that is open for reading.
 class ReadFile {
@@ -24,9 +42,17 @@ class ReadFile {
     /// Any thread. Throws malformed (E-CHANGED) when the file ends before; output (E-SCRATCH) when it is
     /// temporary.
     void read(std::uint64_t offset, std::span<std::byte> to) const;
+    /// Of the file that is open, whatever its path names since then: when it was opened. None of temporary
+    /// data.
+    const std::optional<FileStamp>& stamp() const { return stamp_; }
+    /// Whether nothing of it is another than when it was opened. Any thread.
+    bool is_as_opened() const { return !stamp_ || FileStamp::of(file_) == stamp_; }
+    /// Whether its contents are those that it had when it was opened. Any thread.
+    bool has_same_contents() const;
 
   private:
     std::filesystem::path path_;
+    std::optional<FileStamp> stamp_;
     int file_ = -1;
     bool temporary_ = false;
 };

@@ -220,6 +220,11 @@ class Runner {
                 .bounds = cells.bounds()};
     }
 
+    static std::vector<cells::FaceSource::File> inputs_of(const CellFlow& cells) {
+        if (!cells.partition) return {};
+        return cells.partition->source().contents().files;
+    }
+
     bool run_stage_on_cells(const Step& step, CellFlow& cells) {
         auto stage = new_record(step);
         stage.before = brief_of_cells(cells);
@@ -231,7 +236,9 @@ class Runner {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
             if (step.stage->loads) context.say(on_cells_.why);
             cells.means.key = key_after(cells.means.key, step);
+            const auto inputs = inputs_of(cells); // kept open
             step.stage->on_cells(step.options.get(), cells, context);
+            cells::require_unchanged(inputs);
             if (step.stage->loads) state_.load_diagonal = diagonal(cells.bounds());
             if (step.stage->loads) cells.means.key = key_with_inputs(cells);
             if (cells.scene) require_finite(*cells.scene);

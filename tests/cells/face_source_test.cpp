@@ -292,3 +292,25 @@ TEST_CASE("records alone are those that come with centres", "[cells]") {
         }
     }
 }
+
+TEST_CASE("a name that means another file by now is noticed", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const auto link = folder / "link.ply";
+    const auto point_at = [&](const char* name) {
+        std::filesystem::remove(link);
+        std::filesystem::create_symlink(name, link);
+    };
+    for (const std::size_t size : {std::size_t{1000}, std::size_t{100000}}) { // copied, mapped
+        CAPTURE(size);
+        test::put(folder / "a", std::string(size, 'a'));
+        test::put(folder / "b", std::string(size, 'b'));
+        test::put(folder / "c", std::string(size + 1, 'a'));
+        point_at("a");
+        const io::Input seen = io::Input::open(link, 1 << 16);
+        CHECK(open_again(seen).file->stamp() == FileStamp::of(folder / "a"));
+        for (const char* other : {"b", "c"}) {
+            point_at(other);
+            CHECK(test::failure_id([&] { open_again(seen); }) == "E-CHANGED");
+        }
+    }
+}

@@ -7,8 +7,11 @@
 #include "geometry/edit/moved.hpp"
 #include "io/outputs.hpp"
 #include "support/catch.hpp"
+#include "support/failure.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary.hpp"
+
+#include <fstream>
 
 using namespace facetmill;
 using namespace facetmill::cells;
@@ -150,7 +153,8 @@ TEST_CASE("inputs that are as they were are not read for their digests", "[cells
         const KeptRun first = run_kept(path, kept);
         const auto stamp = [&](const std::string& digest) {
             const CellFolder opened({kept, false});
-            const std::vector<FaceSource::File> files{{io::Input::open(path), digest}};
+            std::vector<FaceSource::File> files{open_input(path)};
+            files.front().sha256 = digest;
             InputStamps(files, InputStamps::now() + std::int64_t{10000000000}).store(opened, files);
         };
         stamp(sha256(io::Input::open(path).bytes()));
@@ -191,5 +195,51 @@ TEST_CASE("what was found when cells were made is known when they are taken up",
         CHECK(source->contents().skipped_faces == 1);
         CHECK(source->contents().bounds.min == scene.bounds().min);
         CHECK(source->contents().bounds.max == scene.bounds().max);
+    }
+}
+
+TEST_CASE("cells of an input that grew while it was read are not kept", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    scene.parts.emplace_back().mesh = test::noisy_icosphere(5, 0.01, 7);
+    for (const char* name : {"m.ply", "m.stl"}) {
+        CAPTURE(name);
+        const auto path = folder / name, kept = folder / (std::string(name) + ".kept");
+        io::write_now(path, io::codec_for(path)->write(scene, {}).files.front().bytes);
+        Means means{folder.path(), std::uint64_t{1} << 30};
+        means.key = std::string(64, 'a');
+        means.kept = std::make_shared<CellFolder>(CellFolder::Settings{kept, false});
+        const std::shared_ptr<FaceSource> source = open_faces({path}, {}, folder.path());
+        std::ofstream(path, std::ios::app | std::ios::binary) << "\1\2";
+        CHECK(test::failure_id([&] { kept_partition(source, means, 700); }) == "E-CHANGED");
+        CHECK_FALSE(std::filesystem::exists(kept / kept_files[0]));
+        CHECK_FALSE(std::filesystem::exists(kept / InputStamps::file));
+        means.kept.reset(); // its lock goes
+        const KeptRun next = run_kept(path, kept);
+        CHECK(is_same(next.result, run_kept(path, {}).result));
+        CHECK(next.told.empty());
+    }
+}
+
+TEST_CASE("vertices that are read again must be as they were", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    scene.parts.emplace_back().mesh = test::noisy_icosphere(5, 0.01, 7);
+    SimplifySettings settings;
+    settings.faces = 900;
+    for (const char* name : {"m.ply", "m.stl", "m.off"}) {
+        CAPTURE(name);
+        const auto path = folder / name;
+        io::write_now(path, io::codec_for(path)->write(scene, {}).files.front().bytes);
+        const Means means{folder.path(), std::uint64_t{1} << 30};
+        const Partition partition(open_faces({path}, {}, folder.path()), means, 700);
+        std::filesystem::rename(path, folder / "elsewhere"); // it is the same
+        CHECK(simplify_cells(partition, settings, means).mesh.face_count() == 900);
+        std::ofstream(folder / "elsewhere", std::ios::app | std::ios::binary) << "\1\2";
+        const bool is_read = path.extension() == ".ply"; // cells of others are not in the file
+        CHECK((test::failure_id([&] { simplify_cells(partition, settings, means); }) == "E-CHANGED") ==
+              is_read);
+        CHECK((test::failure_id([&] { require_unchanged(partition.source().contents().files); }) ==
+               "E-CHANGED") == is_read);
     }
 }

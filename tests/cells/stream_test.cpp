@@ -6,6 +6,7 @@
 #include "support/temporary.hpp"
 
 #include <cstring>
+#include <fstream>
 #include <numeric>
 
 using namespace facetmill;
@@ -89,4 +90,25 @@ TEST_CASE("records that somebody has read are not read again", "[cells]") {
     std::size_t wrong = 0;
     for (std::uint32_t i = 0; i < stream_numbers; ++i) wrong += number_of(records.at(i)) != 3 * i;
     CHECK(wrong == 0);
+}
+
+TEST_CASE("an open file tells whether it is as it was", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const auto path = folder / "numbers";
+    test::put(path, "12345678");
+    const ReadFile file(path);
+    REQUIRE(file.stamp());
+    CHECK(file.stamp()->bytes == 8);
+    CHECK(file.stamp() == FileStamp::of(path));
+    CHECK(file.is_as_opened());
+    std::filesystem::rename(path, folder / "others"); // it is open
+    test::put(path, "12");
+    CHECK(file.has_same_contents());
+    CHECK(file.stamp() != FileStamp::of(path));
+    std::filesystem::create_hard_link(folder / "others", folder / "again");
+    CHECK(file.has_same_contents());
+    CHECK_FALSE(file.is_as_opened());
+    std::ofstream(folder / "again", std::ios::app) << "90";
+    CHECK_FALSE(file.has_same_contents());
+    CHECK_FALSE(FileStamp::of(folder / "none"));
 }

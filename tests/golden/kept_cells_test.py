@@ -225,6 +225,19 @@ class KeptCells(LargeCase):
         self.keep()
         self.assertEqual(self.result(), expected)
 
+    def test_an_input_that_changes_while_cells_are_simplified_ends_the_run(self):
+        run = self.stopped()
+        with open(self.scan, "ab") as scan:
+            scan.write(b"\1\2")
+        run.send_signal(signal.SIGCONT)
+        told = run.communicate()[1]
+        self.assertEqual(run.returncode, 6, told)
+        self.assertIn("E-CHANGED", told)
+        self.assertFalse((self.dir / "o.ply").exists())
+        run = self.keep()
+        self.assertIn("are of other inputs: they are made again", run.stderr)
+        self.assertEqual(self.result(), self.without())
+
     def test_a_folder_that_goes_away_ends_the_run(self):
         run = self.stopped()
         shutil.rmtree(self.kept)

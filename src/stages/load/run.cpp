@@ -167,11 +167,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     for (const std::string& what : contents.dropped)
         context.warn("W-CELLS", fmt::format("{}: cells do not carry {}", source->name(), what),
                      "use more memory, if it is needed");
-    for (const auto& file : contents.files)
-        if (!file.input.is_as_opened())
-            throw Error(ErrorKind::malformed, "E-CHANGED",
-                        fmt::format("'{}' changed while it was read", file.input.name()),
-                        "run it again while no other program writes to it");
+    cells::require_as_opened(contents.files);
     context.run().load_diagonal = diagonal(flow.bounds());
 }
 
