@@ -72,12 +72,13 @@ std::optional<std::string> why_not(const io::Input& input, Format format) {
     return "its format is not read in pieces";
 }
 
-std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSettings& settings) {
+std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSettings& settings,
+                                     std::size_t memory, bool or_none) {
     switch (format_of(input)) {
     case Format::ply:
         return ply_rows(input, settings);
     case Format::stl:
-        return stl_rows(input, settings);
+        return stl_rows(input, settings, memory, or_none);
     case Format::obj:
         return obj_rows(input, settings);
     case Format::off:
@@ -128,18 +129,29 @@ std::vector<io::ply::Property> common_properties(const std::vector<std::unique_p
     return {};
 }
 
-/// Files that are written as rows first.
+struct RowMeans {
+    std::filesystem::path scratch;
+    std::size_t memory; ///< that reading may take
+    bool or_none;       ///< see stl_rows
+};
+
+/// Files that are written as rows first. Null: see stl_rows.
 std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, const io::ReadSettings& settings,
-                                      const std::filesystem::path& scratch, FaceSource::Contents contents) {
+                                      const RowMeans& means, FaceSource::Contents contents) {
     std::vector<std::unique_ptr<RowReader>> readers;
     readers.reserve(inputs.size());
-    for (const io::Input& input : inputs) readers.push_back(reader_of(input, settings));
+    for (const io::Input& input : inputs)
+        readers.push_back(reader_of(input, settings, means.memory, means.or_none));
     const auto extra = common_properties(readers, settings, contents.dropped);
-    RowWriter writer(scratch, extra);
+    const bool single = std::all_of(readers.begin(), readers.end(), [](const auto& reader) {
+        return reader->coordinate == io::ply::Type::float32;
+    });
+    RowWriter writer(means.scratch, extra, single ? io::ply::Type::float32 : io::ply::Type::float64);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         take_convention(inputs[i], settings, contents);
         const FaceSource::File file = open_again(inputs[i]); // closed when it is read: there may be very many
         contents.files.push_back({inputs[i], readers[i]->read(file.file, writer, !extra.empty()), nullptr});
+        if (contents.files.back().sha256.empty()) return nullptr;
         require_as_opened({file});
         for (auto& file : readers[i]->neighbours) contents.files.push_back(std::move(file));
         for (const std::string& what : readers[i]->dropped) add_once(contents.dropped, what);
@@ -219,8 +231,8 @@ std::uint64_t estimated_faces(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
-                                       const io::ReadSettings& settings,
-                                       const std::filesystem::path& scratch) {
+                                       const io::ReadSettings& settings, const std::filesystem::path& scratch,
+                                       std::size_t memory, bool kept) {
     std::vector<io::Input> inputs;
     for (const auto& path : paths) {
         if (const auto why = why_not_streamed(path))
@@ -241,10 +253,12 @@ std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>&
         return open_ply(open_again(first), settings, std::move(contents));
     }
     if (itself && format == Format::stl && !is_text_stl(first)) {
+        if (!kept)
+            if (auto source = open_rows(inputs, settings, {scratch, memory, true}, contents)) return source;
         take_convention(first, settings, contents);
         return open_stl(open_again(first), settings, std::move(contents));
     }
-    return open_rows(inputs, settings, scratch, std::move(contents));
+    return open_rows(inputs, settings, {scratch, memory, false}, std::move(contents));
 }
 
 } // namespace facetmill::cells

@@ -99,10 +99,11 @@ std::uint64_t estimated_faces(const std::filesystem::path& path);
 /// Opens files, see scan(); those that are not rows themselves are read and written as rows here. Several
 /// files, and parts of a file, become one mesh. Vertices of one place are one where the format needs it,
 /// within a file and part; with Weld::exact everywhere, with Weld::off nowhere. scratch: a folder for
-/// temporary data. Throws as io::read_scene, and usage (E-CELLS) where why_not_streamed would say why, or
-/// units differ.
+/// temporary data. memory: bytes that may be taken until it returns. kept: other runs take up what becomes of
+/// the faces, and are to need nothing that is written here: what can be read as it is, is. Throws as
+/// io::read_scene, and usage (E-CELLS) where why_not_streamed would say why, or units differ.
 std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
-                                       const io::ReadSettings& settings,
-                                       const std::filesystem::path& scratch);
+                                       const io::ReadSettings& settings, const std::filesystem::path& scratch,
+                                       std::size_t memory = std::size_t{64} << 20, bool kept = false);
 
 } // namespace facetmill::cells

@@ -78,7 +78,13 @@ class PlyReader final : public RowReader {
         : input_(input), header_(ply::read_header(input_)),
           identity_(settings.weld == io::Weld::exact ? Identity::place : Identity::number) {
         for (const auto& e : header_.elements)
-            if (e.name == "vertex") extra = others(e.properties);
+            if (e.name == "vertex") {
+                extra = others(e.properties);
+                if (std::all_of(e.properties.begin(), e.properties.end(), [](const ply::Property& p) {
+                        return !is_coordinate(p) || p.type == ply::Type::float32;
+                    }))
+                    coordinate = ply::Type::float32;
+            }
         name_dropped(header_, dropped);
     }
 

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/sorted_once.hpp"
+#include "cells/packed_numbers.hpp"
 #include "cells/pieces.hpp"
 #include "cells/unite.hpp"
 #include "io/text.hpp"
@@ -12,12 +13,15 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <numeric>
+#include <utility>
 
 namespace facetmill::cells {
 
 namespace ply = io::ply;
 
 namespace {
+
+constexpr std::uint64_t usual_corners = 3; // of a packed face, which its count is a difference from
 
 template <class T>
 T number_at(const std::byte* at, bool swap) {
@@ -124,17 +128,19 @@ void read_face(const Rows& rows, const std::string& file, std::uint64_t number, 
     }
 }
 
-RowWriter::RowWriter(const std::filesystem::path& scratch, std::vector<ply::Property> extra)
-    : extra_(std::move(extra)), extra_size_(row_size(extra_)), vertices_(scratch), faces_(scratch) {
-    for (const char* name : {"x", "y", "z"}) rows_.vertex.push_back({name, ply::Type::float64});
+RowWriter::RowWriter(const std::filesystem::path& scratch, std::vector<ply::Property> extra,
+                     ply::Type coordinate)
+    : extra_(std::move(extra)), extra_size_(row_size(extra_)), single_(coordinate == ply::Type::float32),
+      vertices_(scratch), faces_(scratch) {
+    for (const char* name : {"x", "y", "z"}) rows_.vertex.push_back({name, coordinate});
     rows_.vertex.insert(rows_.vertex.end(), extra_.begin(), extra_.end());
-    rows_.face = {{"vertex_indices", ply::Type::uint32, true, ply::Type::uint32}};
+    rows_.packed = scratch;
     rows_.swap = std::endian::native == std::endian::big;
 }
 
-void RowWriter::begin_group(Identity identity) {
+void RowWriter::begin_group(Identity identity, bool by_use) {
     if (!rows_.groups.empty() && rows_.groups.back().first == rows_.vertex_count) rows_.groups.pop_back();
-    rows_.groups.push_back({rows_.vertex_count, identity});
+    rows_.groups.push_back({rows_.vertex_count, identity, by_use});
 }
 
 void RowWriter::vertex(const Vec3& p, io::Span extra) {
@@ -142,8 +148,13 @@ void RowWriter::vertex(const Vec3& p, io::Span extra) {
         throw Error(ErrorKind::limit, "E-SIZE",
                     fmt::format("more than {} vertices are more than can be held", none - 1),
                     "write it as binary PLY or STL in several files, and process each");
-    const std::array<double, 3> place{p.x, p.y, p.z};
-    vertices_.append(std::as_bytes(std::span(place)));
+    if (single_) {
+        const std::array place{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        vertices_.append(std::as_bytes(std::span(place)));
+    } else {
+        const std::array place{p.x, p.y, p.z};
+        vertices_.append(std::as_bytes(std::span(place)));
+    }
     vertices_.append(extra.first(std::min(extra.size(), extra_size_)));
     bounds_.add(p);
     ++rows_.vertex_count;
@@ -154,12 +165,36 @@ void RowWriter::face(std::span<const std::uint32_t> corners) {
         ++short_faces_;
         return;
     }
-    const auto n = static_cast<std::uint32_t>(corners.size());
-    faces_.append(std::as_bytes(std::span(&n, 1)));
-    faces_.append(std::as_bytes(corners));
-    rows_.faces_end += sizeof n * (std::uint64_t{n} + 1);
+    packed_.clear();
+    const auto put = [&](std::byte byte) { packed_.push_back(byte); };
+    put_difference(usual_corners, corners.size(), put);
+    for (const std::uint32_t corner : corners)
+        put_difference(std::exchange(last_corner_, corner), corner, put);
+    faces_.append(packed_);
+    rows_.faces_end += packed_.size();
     ++rows_.face_count;
 }
+
+namespace {
+
+/// A face that RowWriter packed. last: the corner before it, 0 at first. Throws output (E-SCRATCH).
+void read_packed_face(const Rows& rows, Stream& faces, std::uint32_t& last,
+                      std::vector<std::uint32_t>& corners) {
+    const auto next = [&] {
+        if (faces.left() == 0) unreadable_scratch(*rows.packed);
+        return *faces.take(1);
+    };
+    const std::uint64_t n = take_difference(usual_corners, next);
+    if (n > faces.left()) unreadable_scratch(*rows.packed);
+    corners.resize(static_cast<std::size_t>(n));
+    for (std::uint32_t& corner : corners) {
+        const std::uint64_t number = take_difference(last, next);
+        if (number >= rows.vertex_count) unreadable_scratch(*rows.packed);
+        corner = last = static_cast<std::uint32_t>(number);
+    }
+}
+
+} // namespace
 
 Rows RowWriter::finish() {
     rows_.vertices = vertices_.finish();
@@ -179,7 +214,10 @@ class RowSource final : public FaceSource {
           coordinates_(rows_, name()), stride_(row_size(rows_.vertex)),
           is_file_(this->contents().files.front().sha256.empty()) {
         settings_.weld = io::Weld::off;
-        for (const auto& group : rows_.groups) by_place_ |= group.identity != Identity::number;
+        for (const auto& group : rows_.groups) {
+            by_place_ |= group.identity != Identity::number;
+            by_use_ |= group.by_use;
+        }
         if (!by_place_) own_contents().vertices = rows_.vertex_count;
     }
 
@@ -238,9 +276,10 @@ class RowSource final : public FaceSource {
         const io::Bytes rows = read_records(*rows_.vertices, rows_.vertices_at, stride_, numbers);
         Piece piece{has_places_only() ? mesh_of_places(rows, ranks) : mesh_of_rows(rows, ranks),
                     {numbers.begin(), numbers.end()}};
+        if (by_use_) put_in_order_of_use(piece);
         if (!by_place_) return piece;
         for (std::size_t v = 0; v < numbers.size(); ++v)
-            piece.names[v] = name_of(numbers[v], piece.mesh.positions[v]);
+            piece.names[v] = name_of(static_cast<std::uint32_t>(piece.names[v]), piece.mesh.positions[v]);
         std::vector<Index> all(piece.mesh.vertex_count());
         std::iota(all.begin(), all.end(), Index{0});
         unite(piece.mesh, piece.names, std::move(all));
@@ -259,13 +298,41 @@ class RowSource final : public FaceSource {
     }
 
   private:
-    std::uint64_t name_of(std::uint32_t number, const Vec3& p) const {
+    Rows::Group group_of(std::uint64_t number) const {
         const auto after =
             std::upper_bound(rows_.groups.begin(), rows_.groups.end(), number,
                              [](std::uint64_t n, const Rows::Group& g) { return n < g.first; });
-        const Rows::Group group = after == rows_.groups.begin() ? Rows::Group{} : *std::prev(after);
+        return after == rows_.groups.begin() ? Rows::Group{} : *std::prev(after);
+    }
+
+    std::uint64_t name_of(std::uint32_t number, const Vec3& p) const {
+        const Rows::Group group = group_of(number);
         if (group.identity == Identity::number) return number;
         return name_of_place(p, group.identity == Identity::place ? 0 : group.first);
+    }
+
+    /// Orders vertices as their groups say. The names are their numbers.
+    void put_in_order_of_use(Piece& piece) const {
+        const auto corners = static_cast<Index>(piece.mesh.corners.size());
+        std::vector<Index> first(piece.names.size(), none), order(first.size()), place(first.size());
+        for (Index c = 0; c < corners; ++c)
+            first[piece.mesh.corners[c]] = std::min(first[piece.mesh.corners[c]], c);
+        std::vector<std::pair<std::uint64_t, Index>> keys(first.size());
+        for (std::size_t v = 0; v < keys.size(); ++v) {
+            const Rows::Group group = group_of(piece.names[v]);
+            keys[v] = {group.by_use ? group.first : piece.names[v], first[v]};
+        }
+        std::iota(order.begin(), order.end(), Index{0});
+        std::sort(order.begin(), order.end(), [&](Index a, Index b) { return keys[a] < keys[b]; });
+        const Piece old = piece;
+        for (Index v = 0; v < order.size(); ++v) {
+            place[order[v]] = v;
+            piece.names[v] = old.names[order[v]];
+            piece.mesh.positions[v] = old.mesh.positions[order[v]];
+        }
+        for (Attribute& a : piece.mesh.attributes)
+            if (a.domain != Domain::face) a.select(order);
+        for (Index& corner : piece.mesh.corners) corner = place[corner];
     }
 
     std::unique_ptr<RecordCache> cache_of(std::size_t memory) const {
@@ -280,8 +347,12 @@ class RowSource final : public FaceSource {
         Stream faces(*rows_.faces, rows_.faces_at, rows_.faces_end, sum.get());
         std::vector<std::uint32_t> corners;
         std::uint64_t skipped = 0;
+        std::uint32_t last = 0;
         for (std::uint64_t f = 0; f < rows_.face_count; ++f) {
-            read_face(rows_, name(), f, faces, corners);
+            if (rows_.packed)
+                read_packed_face(rows_, faces, last, corners);
+            else
+                read_face(rows_, name(), f, faces, corners);
             if (corners.size() < 3)
                 ++skipped;
             else if (corners.size() == 3)
@@ -402,6 +473,7 @@ class RowSource final : public FaceSource {
     std::unique_ptr<Sha256> begun_;     ///< after scan(): of the file up to its faces
     std::unique_ptr<RecordCache> held_; ///< after scan(): the vertices, where there is room for all
     bool by_place_ = false;             ///< some vertices are known by their place
+    bool by_use_ = false;               ///< some groups are
 };
 
 } // namespace

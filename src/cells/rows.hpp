@@ -22,6 +22,7 @@ struct Rows {
     struct Group {
         std::uint64_t first = 0;
         Identity identity = Identity::number;
+        bool by_use = false; ///< vertices of a piece are in the order in which its faces name them first
     };
     std::shared_ptr<const ReadFile> vertices, faces;
     std::uint64_t vertices_at = 0, vertex_count = 0;
@@ -30,7 +31,9 @@ struct Rows {
     std::vector<io::ply::Property> face;   ///< one list, the corners
     int vertex_line = 0, face_line = 0;    ///< of the PLY file, for messages
     bool swap = false;                     ///< whether numbers have the other order of bytes
-    std::vector<Group> groups;             ///< ascending; empty: one, Identity::number
+    /// Faces are as RowWriter packs them, in this folder; none: as `face` says.
+    std::optional<std::filesystem::path> packed{};
+    std::vector<Group> groups; ///< ascending; empty: one, Identity::number
 };
 
 /// The bytes of a row of a vertex.
@@ -63,10 +66,13 @@ void read_face(const Rows& rows, const std::string& file, std::uint64_t number, 
 /// Rows that are written to temporary files.
 class RowWriter {
   public:
-    /// extra: attributes of vertices that rows hold beside the position.
-    RowWriter(const std::filesystem::path& scratch, std::vector<io::ply::Property> extra);
-    /// Vertices that follow are of another group.
-    void begin_group(Identity identity);
+    /// extra: attributes of vertices that rows hold beside the position, whose coordinates are `coordinate`s.
+    RowWriter(const std::filesystem::path& scratch, std::vector<io::ply::Property> extra,
+              io::ply::Type coordinate = io::ply::Type::float64);
+    /// Vertices that follow are of another group. by_use: see Rows::Group.
+    void begin_group(Identity identity, bool by_use = false);
+    /// The group turns out to have each place once.
+    void identify_by_number() { rows_.groups.back().identity = Identity::number; }
     /// extra: the attributes as the properties say, this machine's bytes.
     void vertex(const Vec3& p, io::Span extra);
     /// Rows that were or will be written, counted from the first. Faces of fewer than three corners are
@@ -84,6 +90,9 @@ class RowWriter {
     Rows rows_;
     std::vector<io::ply::Property> extra_;
     std::size_t extra_size_;
+    bool single_;      ///< coordinates are float32
+    io::Bytes packed_; ///< a face
+    std::uint32_t last_corner_ = 0;
     ScratchFile vertices_, faces_;
     Box bounds_;
     std::uint64_t short_faces_ = 0;
@@ -95,10 +104,11 @@ class RowReader {
     virtual ~RowReader() = default;
     /// Attributes that vertices have in the file, as far as rows carry them.
     std::vector<io::ply::Property> extra{};
-    std::vector<std::string> dropped{};         ///< after read: what is not carried, in words
-    std::vector<FaceSource::File> neighbours{}; ///< after read: other files that were read
+    io::ply::Type coordinate = io::ply::Type::float64; ///< what holds those of the file: float32 or float64
+    std::vector<std::string> dropped{};                ///< after read: what is not carried, in words
+    std::vector<FaceSource::File> neighbours{};        ///< after read: other files that were read
     /// file: the input, to be read. with_extra: whether the writer's rows hold `extra`; else they hold none.
-    /// Throws as io::read_scene. Returns the file's digest.
+    /// Throws as io::read_scene. Returns the file's digest; none: see stl_rows.
     virtual std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out,
                              bool with_extra) = 0;
 };
@@ -108,7 +118,10 @@ std::unique_ptr<RowReader> gltf_rows(const io::Input& input, const io::ReadSetti
 std::unique_ptr<RowReader> obj_rows(const io::Input& input, const io::ReadSettings& settings);
 std::unique_ptr<RowReader> off_rows(const io::Input& input, const io::ReadSettings& settings);
 std::unique_ptr<RowReader> ply_rows(const io::Input& input, const io::ReadSettings& settings);
-std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings);
+/// memory: bytes that reading may take. or_none: it ends, without a digest, where faces of a binary file have
+/// attributes.
+std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings,
+                                    std::size_t memory, bool or_none);
 
 /// A source of rows. Where the digest of the first file is not known, the rows are this file.
 std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,

@@ -3,6 +3,7 @@
 #include "base/random.hpp"
 #include "base/sorted_once.hpp"
 #include "base/spelling.hpp"
+#include "cells/known_places.hpp"
 #include "cells/rows.hpp"
 #include "cells/text_window.hpp"
 #include "io/stl/stl.hpp"
@@ -35,7 +36,14 @@ std::array<Point, 3> corners_of(const std::byte* record) {
     return corners;
 }
 
-/// Calls take(corners) for each triangle of a binary file. Returns its digest.
+std::uint16_t attribute_of(const std::byte* record) {
+    std::uint16_t bytes = 0;
+    std::memcpy(&bytes, record + stl_record - sizeof bytes, sizeof bytes);
+    return bytes;
+}
+
+/// Calls take(corners, attribute bytes) for each triangle of a binary file, while it gives true. Returns the
+/// file's digest; none where it gave false.
 template <class Take>
 std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& take) {
     const std::uint64_t bytes = input.bytes().size(), count = stl_faces(input);
@@ -48,14 +56,15 @@ std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& t
     Stream all(file, 0, bytes, &sum);
     all.take(stl_head);
     for (std::uint64_t f = 0; f < count; ++f) {
-        const std::array<Point, 3> corners = corners_of(all.take(stl_record));
+        const std::byte* const record = all.take(stl_record);
+        const std::array<Point, 3> corners = corners_of(record);
         for (const Point& p : corners)
             if (!is_finite(as_vector(p)))
                 io::malformed(input.name(), 0, "E-NAN",
                               fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected "
                                           "finite numbers",
                                           f, stl_head + f * stl_record, p[0], p[1], p[2]));
-        take(corners);
+        if (!take(corners, attribute_of(record))) return {};
     }
     all.skip(all.left());
     return sum.digest();
@@ -72,9 +81,11 @@ class StlSource final : public FaceSource {
     void scan(std::size_t) override {
         Box bounds;
         FaceSource::File& file = own_contents().files.front();
-        file.sha256 = each_triangle(file.input, *file_, [&](const std::array<Point, 3>& corners) {
-            for (const Point& p : corners) bounds.add(as_vector(p));
-        });
+        file.sha256 =
+            each_triangle(file.input, *file_, [&](const std::array<Point, 3>& corners, std::uint16_t) {
+                for (const Point& p : corners) bounds.add(as_vector(p));
+                return true;
+            });
         own_contents().bounds = bounds;
     }
 
@@ -132,20 +143,44 @@ class StlSource final : public FaceSource {
 /// Text as io/stl/read.cpp reads it.
 class StlReader final : public RowReader {
   public:
-    StlReader(const io::Input& input, const io::ReadSettings& settings)
-        : input_(input), identity_(settings.weld == io::Weld::off     ? Identity::number
-                                   : settings.weld == io::Weld::exact ? Identity::place
-                                                                      : Identity::place_in_group) {}
+    StlReader(const io::Input& input, const io::ReadSettings& settings, std::size_t memory, bool or_none)
+        : input_(input), memory_(memory), or_none_(or_none),
+          identity_(settings.weld == io::Weld::off     ? Identity::number
+                    : settings.weld == io::Weld::exact ? Identity::place
+                                                       : Identity::place_in_group) {
+        if (!is_text_stl(input)) coordinate = io::ply::Type::float32;
+    }
 
     std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool) override {
         if (io::stl::is_text(input_.bytes())) return read_text(*file, out);
-        out.begin_group(identity_);
-        return each_triangle(input_, *file, [&](const std::array<Point, 3>& corners) {
-            add(out, {as_vector(corners[0]), as_vector(corners[1]), as_vector(corners[2])});
-        });
+        return read_binary(*file, out);
     }
 
   private:
+    std::string read_binary(const ReadFile& file, RowWriter& out) const {
+        constexpr std::uint32_t minus_zero = 0x80000000;
+        out.begin_group(identity_, true);
+        KnownPlaces known(memory_);
+        bool signed_zeros = false;
+        std::array<std::uint32_t, 3> numbers{};
+        const std::string digest =
+            each_triangle(input_, file, [&](const std::array<Point, 3>& corners, std::uint16_t attribute) {
+                if (or_none_ && attribute != 0) return false;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto place = std::bit_cast<PlaceBits>(corners[k]);
+                    const auto next = static_cast<std::uint32_t>(out.vertices());
+                    numbers[k] = identity_ == Identity::number ? next : known.number(place, next);
+                    if (numbers[k] == next) out.vertex(as_vector(corners[k]), {});
+                    for (const std::uint32_t bits : place) signed_zeros |= bits == minus_zero;
+                }
+                out.face(numbers);
+                return true;
+            });
+        if (identity_ == Identity::place_in_group && known.are_all() && !signed_zeros)
+            out.identify_by_number();
+        return digest;
+    }
+
     static void add(RowWriter& out, const std::array<Vec3, 3>& corners) {
         const auto first = static_cast<std::uint32_t>(out.vertices());
         for (const Vec3& p : corners) out.vertex(p, {});
@@ -203,6 +238,8 @@ class StlReader final : public RowReader {
     }
 
     io::Input input_;
+    std::size_t memory_;
+    bool or_none_;
     Identity identity_;
 };
 
@@ -223,8 +260,9 @@ std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettin
     return std::make_unique<StlSource>(std::move(file), settings, std::move(contents));
 }
 
-std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings) {
-    return std::make_unique<StlReader>(input, settings);
+std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings,
+                                    std::size_t memory, bool or_none) {
+    return std::make_unique<StlReader>(input, settings, memory, or_none);
 }
 
 } // namespace facetmill::cells

@@ -314,3 +314,51 @@ TEST_CASE("a name that means another file by now is noticed", "[cells]") {
         }
     }
 }
+
+TEST_CASE("an STL is the same as rows, whatever memory it takes, and as records", "[cells]") {
+    const test::TemporaryDirectory folder;
+    Scene scene;
+    Mesh& mesh = scene.parts.emplace_back().mesh;
+    mesh = test::noisy_icosphere(5, 0.01, 7);
+    mesh.positions[0] = {0.0, mesh.positions[0].y, 0.0};
+    const auto path = folder / "m.stl";
+    io::Bytes bytes = io::codec_for(path)->write(scene, {}).files.front().bytes;
+    const Means means{folder.path(), std::uint64_t{1} << 30};
+    const auto cells = [&](std::size_t memory, bool kept) {
+        const Partition partition(open_faces({path}, {}, folder.path(), memory, kept), means, 700);
+        std::vector<Cell> all;
+        for (std::uint32_t leaf = 0; leaf < partition.tree().leaves.size(); ++leaf)
+            all.push_back(partition.cell(leaf));
+        CHECK(partition.vertices() == mesh.vertex_count());
+        return all;
+    };
+    constexpr std::size_t plenty = std::size_t{1} << 28, head = 84, record = 50, normal = 12,
+                          bit_of_minus_zero = 3;
+    for (const char* kind : {"plain", "minus zero", "attributes"}) {
+        CAPTURE(kind);
+        if (kind == std::string("minus zero")) // one of the zeros
+            for (std::size_t at = head + normal; at < bytes.size(); at += record) {
+                if (io::little_endian(bytes, at, 4) != 0) continue; // x of the first corner
+                bytes[at + bit_of_minus_zero] ^= std::byte{0x80};
+                break;
+            }
+        if (kind == std::string("attributes")) bytes.back() = std::byte{7};
+        io::write_now(path, bytes);
+        const auto expected = cells(plenty, true);
+        for (const std::size_t memory : {plenty, std::size_t{1} << 16, std::size_t{0}}) {
+            const auto found = cells(memory, false);
+            REQUIRE(found.size() == expected.size());
+            for (std::size_t leaf = 0; leaf < found.size(); ++leaf) {
+                const Mesh &a = found[leaf].mesh, &b = expected[leaf].mesh;
+                CHECK(std::equal(a.positions.begin(), a.positions.end(), b.positions.begin(),
+                                 b.positions.end(), [](const Vec3& p, const Vec3& q) {
+                                     return p == q && std::signbit(p.x) == std::signbit(q.x) &&
+                                            std::signbit(p.z) == std::signbit(q.z);
+                                 }));
+                CHECK(a.corners == b.corners);
+                CHECK(found[leaf].home == expected[leaf].home);
+                CHECK(a.attributes.size() == b.attributes.size());
+            }
+        }
+    }
+}

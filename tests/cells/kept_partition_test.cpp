@@ -33,7 +33,8 @@ KeptRun run_kept(const std::filesystem::path& path, const std::filesystem::path&
     if (!kept.empty())
         means.kept = std::make_shared<CellFolder>(
             CellFolder::Settings{kept, false, [&](const std::string& what) { run.told.push_back(what); }});
-    const auto partition = kept_partition(open_faces({path}, {}, path.parent_path()), means, 700);
+    const auto partition = kept_partition(
+        open_faces({path}, {}, path.parent_path(), std::size_t{1} << 28, means.kept != nullptr), means, 700);
     run.faces = partition->faces();
     run.vertices = partition->vertices();
     SimplifySettings settings;
@@ -126,7 +127,9 @@ TEST_CASE("jobs leave what a single run makes", "[cells]") {
         means.job = job;
         means.kept = std::make_shared<CellFolder>(
             CellFolder::Settings{kept, false, {}, job.makes_cells() ? "" : name_of(job)});
-        const auto partition = kept_partition(open_faces({path}, {}, path.parent_path()), means, 700);
+        const auto partition = kept_partition(
+            open_faces({path}, {}, path.parent_path(), std::size_t{1} << 28, means.kept != nullptr), means,
+            700);
         if (!job.makes_cells()) simplify_job(*partition, settings, means, {});
         std::size_t stamps = 0;
         for (const auto& file : std::filesystem::directory_iterator(kept))
@@ -209,7 +212,8 @@ TEST_CASE("cells of an input that grew while it was read are not kept", "[cells]
         Means means{folder.path(), std::uint64_t{1} << 30};
         means.key = std::string(64, 'a');
         means.kept = std::make_shared<CellFolder>(CellFolder::Settings{kept, false});
-        const std::shared_ptr<FaceSource> source = open_faces({path}, {}, folder.path());
+        const std::shared_ptr<FaceSource> source =
+            open_faces({path}, {}, folder.path(), std::size_t{1} << 28, true);
         std::ofstream(path, std::ios::app | std::ios::binary) << "\1\2";
         CHECK(test::failure_id([&] { kept_partition(source, means, 700); }) == "E-CHANGED");
         CHECK_FALSE(std::filesystem::exists(kept / kept_files[0]));

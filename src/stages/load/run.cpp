@@ -134,7 +134,8 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     if (paths.empty())
         throw Error(ErrorKind::missing, "E-FILE", fmt::format("no file matches '{}'", o.path.front().text));
     std::shared_ptr<cells::FaceSource> source =
-        cells::open_faces(paths, read_settings(o, context.places()), flow.means.scratch);
+        cells::open_faces(paths, read_settings(o, context.places()), flow.means.scratch,
+                          static_cast<std::size_t>(flow.means.memory / 4), flow.means.kept != nullptr);
     const cells::FaceSource::Contents& contents = source->contents();
     const auto record_inputs = [&] {
         source->finish_digests();
