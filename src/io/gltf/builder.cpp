@@ -15,12 +15,41 @@ const char* name_of(const MeshoptSettings& settings) {
     return meshopt_names[settings.extension == MeshoptSettings::Extension::khr ? 1 : 0];
 }
 
-void erase_positions(std::vector<std::size_t>& list, const std::set<std::size_t>& positions) {
+using Numbers = std::set<std::size_t>;
+
+/// [count] 1 for the numbers below count that are in the set.
+std::vector<std::uint8_t> flags_of(const Numbers& numbers, std::size_t count) {
+    std::vector<std::uint8_t> flags(count);
+    for (auto n = numbers.begin(); n != numbers.end() && *n < count; ++n) flags[*n] = 1;
+    return flags;
+}
+
+/// Clears the flag of what a reference names.
+void keep(std::vector<std::uint8_t>& flags, const Json& reference) {
+    if (const auto n = reference.get<std::size_t>(); n < flags.size()) flags[n] = 0;
+}
+
+Numbers numbers_of(const std::vector<std::uint8_t>& flags) {
+    Numbers numbers;
+    for (std::size_t n = 0; n < flags.size(); ++n)
+        if (flags[n]) numbers.insert(numbers.end(), n);
+    return numbers;
+}
+
+void erase_positions(std::vector<std::size_t>& list, const Numbers& positions) {
+    const auto gone = flags_of(positions, list.size());
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < list.size(); ++i)
-        if (!positions.count(i)) kept.push_back(list[i]);
+        if (!gone[i]) kept.push_back(list[i]);
     list = std::move(kept);
 }
+
+// References of single items, see the end of this file.
+using Visit = std::function<void(Json&)>;
+void mesh_accessors(Json& mesh, const Visit& visit);
+void mesh_views(Json& mesh, const Visit& visit);
+void accessor_views(Json& accessor, const Visit& visit);
+void other_views(Json& document, const Visit& visit);
 
 } // namespace
 
@@ -60,9 +89,9 @@ std::size_t Builder::add_stored(Stored stored, int target) {
 void Builder::release(const Json& primitive) { release_mesh({{"primitives", Json::array({primitive})}}); }
 
 void Builder::release_mesh(const Json& mesh) {
-    Json alone = {{"meshes", Json::array({mesh})}};
-    visit_accessor_references(alone, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
-    visit_view_references(alone, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
+    Json visited = mesh; // a visit may change what it sees
+    mesh_accessors(visited, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
+    mesh_views(visited, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
 }
 
 void Builder::use_extension(const std::string& name, bool required) {
@@ -78,19 +107,26 @@ void Builder::drop_extension(const std::string& name) {
 }
 
 void Builder::drop_released() {
-    std::set<std::size_t> accessors = released_accessors_, views = released_views_;
-    visit_accessor_references(json_, [&](Json& r) { accessors.erase(r.get<std::size_t>()); });
-    for (const std::size_t a : accessors) {
-        Json alone = {{"accessors", Json::array({json_["accessors"][a]})}};
-        visit_view_references(alone, [&](Json& r) { views.insert(r.get<std::size_t>()); });
-    }
+    if (released_accessors_.empty() && released_views_.empty()) return;
+    Json &all_accessors = json_["accessors"], &all_views = json_["bufferViews"];
+    auto dead_accessors = flags_of(released_accessors_, all_accessors.size()),
+         dead_views = flags_of(released_views_, all_views.size());
+    visit_accessor_references(json_, [&](Json& r) { keep(dead_accessors, r); });
     // What the dropped accessors name does not count as use.
-    Json placeholder = {{"componentType", int(uint8)}, {"count", 1}, {"type", "SCALAR"}};
-    for (const std::size_t a : accessors) json_["accessors"][a] = placeholder;
-    visit_view_references(json_, [&](Json& r) { views.erase(r.get<std::size_t>()); });
+    for (std::size_t a = 0; a < dead_accessors.size(); ++a)
+        if (dead_accessors[a])
+            accessor_views(all_accessors[a], [&](Json& r) {
+                if (const auto v = r.get<std::size_t>(); v < dead_views.size()) dead_views[v] = 1;
+            });
+    for (std::size_t a = 0; a < dead_accessors.size(); ++a)
+        if (!dead_accessors[a]) accessor_views(all_accessors[a], [&](Json& r) { keep(dead_views, r); });
+    other_views(json_, [&](Json& r) { keep(dead_views, r); });
+    const Numbers accessors = numbers_of(dead_accessors), views = numbers_of(dead_views);
 
     if (has_unknown_extensions(json_)) {
         // Somebody may name accessors and views by number: the dead ones stay as placeholders without data.
+        for (const std::size_t a : accessors)
+            all_accessors[a] = {{"componentType", int(uint8)}, {"count", 1}, {"type", "SCALAR"}};
         for (const std::size_t v : views) {
             json_["bufferViews"][v] = {{"buffer", 0}, {"byteLength", 1}};
             new_views_[v] = Bytes(1);
@@ -287,8 +323,6 @@ void Builder::list_buffers(std::size_t bytes) {
 
 namespace {
 
-using Visit = std::function<void(Json&)>;
-
 /// The member of an object, or null when there is none.
 Json* member(Json* object, const char* key) {
     if (!object || !object->is_object()) return nullptr;
@@ -319,29 +353,58 @@ void primitive_accessors(Json& primitive, const Visit& visit) {
 }
 
 bool known(const std::string& name) {
-    static const std::set<std::string> names = {"KHR_draco_mesh_compression", "KHR_mesh_quantization",
-                                                "EXT_meshopt_compression",    "KHR_meshopt_compression",
-                                                "EXT_mesh_manifold",          "EXT_mesh_gpu_instancing",
-                                                "KHR_lights_punctual",        "KHR_xmp_json_ld",
-                                                "KHR_node_visibility",        "MSFT_lod",
-                                                "MSFT_texture_dds",           "EXT_lights_image_based",
-                                                "EXT_mesh_features",          "EXT_structural_metadata"};
+    static const std::set<std::string, std::less<>> names = {
+        "KHR_draco_mesh_compression", "KHR_mesh_quantization",
+        "EXT_meshopt_compression",    "KHR_meshopt_compression",
+        "EXT_mesh_manifold",          "EXT_mesh_gpu_instancing",
+        "KHR_lights_punctual",        "KHR_xmp_json_ld",
+        "KHR_node_visibility",        "MSFT_lod",
+        "MSFT_texture_dds",           "EXT_lights_image_based",
+        "EXT_mesh_features",          "EXT_structural_metadata"};
     const auto starts = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
     return names.count(name) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_");
 }
 
+void mesh_accessors(Json& mesh, const Visit& visit) {
+    each(member(&mesh, "primitives"), [&](Json& p) { primitive_accessors(p, visit); });
+    if (Json* manifold = extension(&mesh, "EXT_mesh_manifold")) {
+        if (Json* p = member(manifold, "manifoldPrimitive")) primitive_accessors(*p, visit);
+        reference(member(manifold, "mergeIndices"), visit);
+        reference(member(manifold, "mergeValues"), visit);
+    }
+}
+
+void mesh_views(Json& mesh, const Visit& visit) {
+    each(member(&mesh, "primitives"), [&](Json& p) {
+        reference(member(extension(&p, "KHR_draco_mesh_compression"), "bufferView"), visit);
+    });
+}
+
+void accessor_views(Json& accessor, const Visit& visit) {
+    reference(member(&accessor, "bufferView"), visit);
+    Json* sparse = member(&accessor, "sparse");
+    reference(member(member(sparse, "indices"), "bufferView"), visit);
+    reference(member(member(sparse, "values"), "bufferView"), visit);
+}
+
+/// Of all but accessors.
+void other_views(Json& document, const Visit& visit) {
+    each(member(&document, "images"), [&](Json& image) { reference(member(&image, "bufferView"), visit); });
+    each(member(&document, "meshes"), [&](Json& mesh) { mesh_views(mesh, visit); });
+    each(member(extension(&document, "EXT_structural_metadata"), "propertyTables"), [&](Json& table) {
+        Json* properties = member(&table, "properties");
+        if (!properties || !properties->is_object()) return;
+        for (auto& [name, property] : properties->items())
+            for (const char* column : {"values", "arrayOffsets", "stringOffsets"})
+                reference(member(&property, column), visit);
+    });
+}
+
 } // namespace
 
 void visit_accessor_references(Json& document, const Visit& visit) {
-    each(member(&document, "meshes"), [&](Json& mesh) {
-        each(member(&mesh, "primitives"), [&](Json& p) { primitive_accessors(p, visit); });
-        if (Json* manifold = extension(&mesh, "EXT_mesh_manifold")) {
-            if (Json* p = member(manifold, "manifoldPrimitive")) primitive_accessors(*p, visit);
-            reference(member(manifold, "mergeIndices"), visit);
-            reference(member(manifold, "mergeValues"), visit);
-        }
-    });
+    each(member(&document, "meshes"), [&](Json& mesh) { mesh_accessors(mesh, visit); });
     each(member(&document, "animations"), [&](Json& animation) {
         each(member(&animation, "samplers"), [&](Json& sampler) {
             reference(member(&sampler, "input"), visit);
@@ -356,25 +419,8 @@ void visit_accessor_references(Json& document, const Visit& visit) {
 }
 
 void visit_view_references(Json& document, const Visit& visit) {
-    each(member(&document, "accessors"), [&](Json& accessor) {
-        reference(member(&accessor, "bufferView"), visit);
-        Json* sparse = member(&accessor, "sparse");
-        reference(member(member(sparse, "indices"), "bufferView"), visit);
-        reference(member(member(sparse, "values"), "bufferView"), visit);
-    });
-    each(member(&document, "images"), [&](Json& image) { reference(member(&image, "bufferView"), visit); });
-    each(member(&document, "meshes"), [&](Json& mesh) {
-        each(member(&mesh, "primitives"), [&](Json& p) {
-            reference(member(extension(&p, "KHR_draco_mesh_compression"), "bufferView"), visit);
-        });
-    });
-    each(member(extension(&document, "EXT_structural_metadata"), "propertyTables"), [&](Json& table) {
-        Json* properties = member(&table, "properties");
-        if (!properties || !properties->is_object()) return;
-        for (auto& [name, property] : properties->items())
-            for (const char* column : {"values", "arrayOffsets", "stringOffsets"})
-                reference(member(&property, column), visit);
-    });
+    each(member(&document, "accessors"), [&](Json& accessor) { accessor_views(accessor, visit); });
+    other_views(document, visit);
 }
 
 void visit_mesh_references(Json& document, const Visit& visit) {
@@ -383,8 +429,8 @@ void visit_mesh_references(Json& document, const Visit& visit) {
 
 bool has_unknown_extensions(const Json& json) {
     if (json.is_object()) {
-        for (const auto& [key, value] : json.items()) {
-            if (key == "extras") continue;
+        for (const auto& [key, value] : json.get_ref<const Json::object_t&>()) {
+            if (!value.is_structured() || key == "extras") continue;
             if (key == "extensions" && value.is_object())
                 for (const auto& [name, content] : value.items())
                     if (!known(name)) return true;
@@ -400,11 +446,13 @@ bool has_unknown_extensions(const Json& json) {
 void erase_items(Json& list, const std::set<std::size_t>& items,
                  const std::function<void(const std::function<void(Json&)>&)>& references) {
     if (items.empty()) return;
+    const auto gone = flags_of(items, list.size());
     std::vector<std::size_t> number;
-    Json kept = Json::array();
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    Json::array_t kept;
+    kept.reserve(list.size());
+    for (std::size_t i = 0; i < gone.size(); ++i) {
         number.push_back(kept.size());
-        if (!items.count(i)) kept.push_back(std::move(list[i]));
+        if (!gone[i]) kept.push_back(std::move(list[i]));
     }
     list = std::move(kept);
     references([&](Json& reference) {

@@ -71,12 +71,9 @@ std::string Place::path() const {
 }
 
 Place Place::after(const Step& step, const Json& json) const {
-    const bool full = step_count_ == steps_.size();
-    Place next(json, full ? path() : above_);
-    if (!full) {
-        next.steps_ = steps_;
-        next.step_count_ = step_count_;
-    }
+    if (step_count_ == steps_.size()) return Place(json, path()).after(step, json);
+    Place next = *this;
+    next.json_ = &json;
     next.steps_[next.step_count_++] = step;
     return next;
 }
