@@ -11,6 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "geometry/simplify/cost_buckets.hpp"
 #include "geometry/simplify/stretches.hpp"
 
 #include <memory>
@@ -22,12 +23,11 @@ namespace {
 
 constexpr std::size_t corner_chunk = 3 << 13;
 constexpr double share_per_pass = 1.0 / 8; // of the live edges that are candidates in one pass
-constexpr int bucket_shift = 19;           // of a cost's bits: 16 buckets per power of two
 // Buckets: near the goal, no edge goes before one of a quarter of its cost.
 constexpr std::size_t last_span = 32;
 // As their surroundings were.
 constexpr std::uint8_t refused = blocked_topology | blocked_flip | blocked_error;
-constexpr std::size_t buckets = 0x7f800000u >> bucket_shift;
+constexpr std::size_t few_corners = 512; // whose costs are sorted rather than counted by buckets
 // Costs of a state are not brought lower than this, so that `never` stays infinite.
 constexpr double least_factor = 1e-30;
 
@@ -161,19 +161,43 @@ class Passes {
 
     /// Bits of a cost: edges below are candidates. 0 when no edge is left.
     std::uint32_t threshold() const {
-        const std::vector<std::size_t> all = histogram();
-        const std::size_t live = std::accumulate(all.begin(), all.end(), std::size_t{0});
-        if (live == 0) return 0;
+        const std::vector<Bucket> filled = blocks_corners() <= few_corners ? few_buckets() : all_buckets();
+        if (filled.empty()) return 0;
+        std::size_t live = 0;
+        for (const Bucket& b : filled) live += b.edges;
         const auto share = static_cast<std::size_t>(static_cast<double>(live) * share_per_pass);
         const std::size_t wanted =
             last_steps() ? 4 * remaining() + 64 : std::clamp<std::size_t>(share, 64, remaining());
-        std::size_t below = 0, i = 0, cheapest = buckets;
-        for (; i < buckets; ++i) {
-            if (below > 0 && (below + all[i] > wanted || (last_steps() && i > cheapest + last_span))) break;
-            if (below == 0 && all[i] > 0) cheapest = i;
-            below += all[i];
+        return cost_limit(filled, wanted, last_steps() ? filled.front().number + last_span : buckets);
+    }
+
+    std::size_t blocks_corners() const {
+        std::size_t corners = 0;
+        for (const Block& b : blocks_) corners += b.end - b.begin;
+        return corners;
+    }
+
+    static std::size_t bucket_of(float cost) { return bits_of(cost) >> bucket_shift; }
+
+    /// Those that are not empty, ascending; of a few edges, which a histogram would cost more than to sort.
+    std::vector<Bucket> few_buckets() const {
+        std::vector<Bucket> filled;
+        for (const Block& block : blocks_) {
+            const Member& m = members_[block.member];
+            for (std::size_t c = block.begin; c < block.end; ++c)
+                if (const auto b = bucket_of(m.state->edges.cost[c] * factors_[block.member]); b < buckets)
+                    filled.push_back({b, m.uses});
         }
-        return static_cast<std::uint32_t>(i) << bucket_shift;
+        return gathered(std::move(filled));
+    }
+
+    /// The same of any number.
+    std::vector<Bucket> all_buckets() const {
+        const std::vector<std::size_t> all = histogram();
+        std::vector<Bucket> filled;
+        for (std::size_t b = 0; b < buckets; ++b)
+            if (all[b] > 0) filled.push_back({b, all[b]});
+        return filled;
     }
 
     /// How many edges have which cost.
@@ -187,7 +211,7 @@ class Passes {
                     const Member& m = members_[blocks_[b].member];
                     const float factor = factors_[blocks_[b].member];
                     for (std::size_t c = blocks_[b].begin; c < blocks_[b].end; ++c)
-                        counts[bits_of(m.state->edges.cost[c] * factor) >> bucket_shift] += m.uses;
+                        counts[bucket_of(m.state->edges.cost[c] * factor)] += m.uses;
                 }
                 counts.pop_back();
                 return counts;
@@ -267,7 +291,7 @@ class Passes {
     /// All in one order, until the goal is met.
     void collapse_in_order(std::vector<LastEdge> edges, std::vector<PassTotals>& totals) {
         std::sort(edges.begin(), edges.end());
-        const auto around = std::make_unique<Around>();
+        const auto around = std::make_unique_for_overwrite<Around>();
         std::vector<Tally> tallies(members_.size());
         const std::size_t most = remaining();
         std::size_t done = 0;

@@ -69,7 +69,7 @@ void hand_on(Share& share, const Candidate& edge, const Around& around) {
 void collapse_share(State& s, Share& share, std::size_t most) {
     if (share.edges.empty()) return;
     std::sort(share.edges.begin(), share.edges.end());
-    const auto around = std::make_unique<Around>();
+    const auto around = std::make_unique_for_overwrite<Around>();
     around->territory = share.territory;
     around->waits = true;
     Pricer pricer(s);
