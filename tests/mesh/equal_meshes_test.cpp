@@ -24,3 +24,15 @@ TEST_CASE("parts with equal meshes are found, wherever they stand, and others to
     CHECK(first_with_equal_mesh(scene) == std::vector<std::size_t>{0, 1, 1, 3, 4, 5, 1});
     CHECK(first_with_equal_mesh({}).empty());
 }
+
+TEST_CASE("parts of one shape differ by a move alone", "[mesh]") {
+    Scene scene;
+    for (int i = 0; i < 4; ++i) scene.parts.emplace_back().mesh = shapes::cube();
+    scene.parts[1].transform.m[0][3] = 5;
+    scene.parts[2].transform.m[0][0] = -1; // mirrored
+    scene.parts[3].transform = scene.parts[2].transform;
+    scene.parts[3].transform.m[2][3] = 1;
+    CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 0, 2, 2});
+    scene.parts[1].mesh.positions[0].x -= 1;
+    CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 1, 2, 2});
+}

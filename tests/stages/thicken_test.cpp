@@ -3,6 +3,7 @@
 #include "support/run_stage.hpp"
 
 #include "geometry/inspect/inspect.hpp"
+#include "mesh/equal_meshes.hpp"
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;
@@ -28,4 +29,41 @@ TEST_CASE("thicken leaves no skin without joints", "[stages]") {
     CHECK_FALSE(wires.scene.parts[0].skinned);
     CHECK(wires.scene.bounds().max.x < 2);
     CHECK(wires.record.warnings.at(0).id == "W-SKIN");
+}
+
+TEST_CASE("parts of one shape get one solid, and are told as each by itself", "[stages]") {
+    Scene scene;
+    for (int i = 0; i < 4; ++i) {
+        Part& part = scene.parts.emplace_back();
+        part.name = "p" + std::to_string(i);
+        part.mesh = test::noisy_icosphere(2, 0.3, 1); // its walls turn over: the place of that is told
+        part.transform.m[0][3] = 8.0 * i;
+    }
+    scene.parts[2].transform.m[1][1] = 2;      // another shape in the world
+    scene.parts[3].mesh.positions[5].x += 0.1; // another mesh
+    const auto together = run_stage("thicken", "0.5", scene);
+    REQUIRE(together.scene.parts.size() == 4);
+    CHECK(first_with_equal_mesh(together.scene) == std::vector<std::size_t>{0, 0, 2, 3});
+    std::size_t warnings = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Scene single;
+        single.parts.push_back(scene.parts[i]);
+        const auto alone = run_stage("thicken", "0.5", single);
+        const Part &one = alone.scene.parts[0], &same = together.scene.parts[i];
+        CHECK(same.mesh.positions == one.mesh.positions);
+        CHECK(same.mesh.corners == one.mesh.corners);
+        CHECK(same.transform == one.transform);
+        const Json &told = together.record.result["parts"][i], &expected = alone.record.result["parts"][0];
+        CHECK(told["part"] == expected["part"]);
+        CHECK(told["wall_faces"] == expected["wall_faces"]);
+        CHECK(told["self_intersections"] == expected["self_intersections"]);
+        CHECK(told["turned_faces"] == expected["turned_faces"]);
+        CHECK(told["wall_thickness"]["min"].get<double>() ==
+              Approx(expected["wall_thickness"]["min"].get<double>()));
+        for (const auto& w : alone.record.warnings) {
+            REQUIRE(warnings < together.record.warnings.size());
+            CHECK(together.record.warnings[warnings++].message == w.message);
+        }
+    }
+    CHECK(warnings == together.record.warnings.size());
 }

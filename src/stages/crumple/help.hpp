@@ -16,7 +16,8 @@ compared with their size.
 
 The noise at a vertex depends only on the seed and on its world position rounded to float32:
 vertices at one position move together across seams, unwelded copies, parts and files, and neither
-the order of vertices nor the number of threads matters. There are two exceptions. Along the normal,
+the order of vertices nor the number of threads matters. For the same reason instances of one mesh
+differ afterwards, and each has its own mesh. There are two exceptions to the rule. Along the normal,
 a position shared by several parts has a normal in each of them, so the parts may separate there;
 and frequency is relative to the scene, so files are crumpled alike only when their diagonals are
 equal.

@@ -105,12 +105,6 @@ Measured carried(Measured m, const Vec3& by) {
     return m;
 }
 
-/// Where the axes of the part point in the world, and how long they are.
-std::array<double, 9> linear_part(const Transform& t) {
-    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
-    return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
-}
-
 class Simplifier {
   public:
     Simplifier(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report)
@@ -238,7 +232,7 @@ class Simplifier {
                 scale = rounded_scale(greatest_stretch(to_world));
             work_as_[p] = worked.try_emplace({equal[p], scale}, p).first->second;
             if (work_as_[p] != p) ++uses_[work_as_[p]];
-            measured_as_[p] = measured.try_emplace({work_as_[p], linear_part(to_world)}, p).first->second;
+            measured_as_[p] = measured.try_emplace({work_as_[p], axes_in_world(to_world)}, p).first->second;
         }
     }
 

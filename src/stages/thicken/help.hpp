@@ -13,7 +13,8 @@ the thickness as radius fits is filled instead. Every vertex moves so that the p
 move by the thickness, as closely as a single position permits: flat walls keep their thickness up
 to their corners. miter_limit limits the move at sharp corners. The solid is closed only if the
 surface is oriented (W-THICKEN-OPEN; use orient). Sheets that meet at an edge with more than two
-faces, or only at a vertex, become separate solids.
+faces, or only at a vertex, become separate solids. Parts with the same mesh, rotation and scale
+(instances) become a solid once and get the same result.
 
 The result is checked for self-intersections (unless the thickness is larger than the part), for
 faces that are inverted by the offset, including faces that collapse, and for walls within other

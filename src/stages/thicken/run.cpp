@@ -1,8 +1,12 @@
+#include "mesh/equal_meshes.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 #include "stages/thicken/help.hpp"
 #include "stages/thicken/report.hpp"
 
 #include <fmt/format.h>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace facetmill::thicken_stage {
@@ -11,15 +15,50 @@ namespace {
 
 using Mode = ThickenOptions::Mode;
 
-ThickenedPart thicken_surface(Part& part, const ThickenOptions& o, double thickness, Context& context) {
-    ThickenResult r =
-        thicken(part.mesh, {thickness, o.side, o.miter_limit, o.self_intersections, part.transform});
-    part.mesh = std::move(r.mesh);
-    context.attribute_changes(part, r.changes);
-    const bool has_faces = part.mesh.face_count() > 0;
-    if (has_faces) warn_of_walls(part, r, thickness, o.self_intersections, context);
-    return ThickenedSurface{part.name, std::move(r), has_faces, o.self_intersections};
-}
+/// Thickens surfaces; parts that are one shape but for a move are worked on once.
+class SurfaceThickener {
+  public:
+    SurfaceThickener(const Scene& scene, const ThickenOptions& o)
+        : scene_(scene), o_(o), work_as_(first_with_equal_shape(scene)), uses_(work_as_.size()) {
+        for (const std::size_t first : work_as_) ++uses_[first];
+    }
+
+    ThickenedPart operator()(Part& part, double thickness, Context& context) {
+        ThickenResult r = result_for(part, thickness);
+        part.mesh = std::move(r.mesh);
+        context.attribute_changes(part, r.changes);
+        const bool has_faces = part.mesh.face_count() > 0;
+        if (has_faces) warn_of_walls(part, r, thickness, o_.self_intersections, context);
+        return ThickenedSurface{part.name, std::move(r), has_faces, o_.self_intersections};
+    }
+
+  private:
+    struct Known {
+        ThickenResult result;
+        Vec3 origin; ///< of the part that it was made of, in the world
+    };
+
+    ThickenResult result_for(const Part& part, double thickness) {
+        const std::size_t as = work_as_[static_cast<std::size_t>(&part - scene_.parts.data())];
+        const Vec3 origin = in_world(part, {});
+        const auto make = [&] {
+            return thicken(part.mesh,
+                           {thickness, o_.side, o_.miter_limit, o_.self_intersections, part.transform});
+        };
+        if (uses_[as] == 1) return make();
+        auto& [result, from] = known_.try_emplace({as, thickness}, Known{{}, origin}).first->second;
+        if (result.mesh.positions.empty()) result = make();
+        ThickenResult r = result;
+        if (r.first_turned) *r.first_turned += origin - from;
+        return r;
+    }
+
+    const Scene& scene_;
+    const ThickenOptions& o_;
+    std::vector<std::size_t> work_as_;                      ///< [parts] the first of its shape
+    std::vector<std::size_t> uses_;                         ///< [parts] how many have its shape
+    std::map<std::pair<std::size_t, double>, Known> known_; ///< by the first part and the thickness
+};
 
 ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
     WiresResult r = wires(
@@ -38,6 +77,8 @@ ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thicknes
 }
 
 Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport& report) {
+    std::optional<SurfaceThickener> thicken_surface;
+    if (o.mode == Mode::surface) thicken_surface.emplace(scene, o);
     context.for_each_part(scene, [&](Part& part) {
         const double thickness = context.resolve(o.thickness, scene, "thickness", &part);
         if (!inverse(part.transform))
@@ -47,8 +88,8 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
         if (!(thickness > 0))
             throw Error(ErrorKind::stage, "E-THICKEN", "thicken: the thickness is 0 in this scene",
                         "give a length in scene units");
-        report.parts.push_back(o.mode == Mode::surface ? thicken_surface(part, o, thickness, context)
-                                                       : thicken_edges(part, o, thickness, context));
+        report.parts.push_back(thicken_surface ? (*thicken_surface)(part, thickness, context)
+                                               : thicken_edges(part, o, thickness, context));
     });
     return scene;
 }
