@@ -1,5 +1,6 @@
 #include "cli/arguments.hpp"
 
+#include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "base/words.hpp"
 
@@ -79,6 +80,7 @@ CLI::Option* make(CLI::App& app, const Argument& a) {
 void declare(CLI::App& app, const Argument& a) {
     CLI::Option* option = make(app, a);
     if (a.needed) option->required();
+    if (!a.value.empty()) option->type_name(a.value);
     if (a.in_one_word)
         option->check(for_each_value(a.choices));
     else if (!a.choices.empty())
@@ -91,7 +93,31 @@ void declare(CLI::App& app, const Argument& a) {
         option->group(a.heading);
 }
 
+/// What is wrong where an option stands without its value, or nothing.
+std::string lacking_value(const Arguments& arguments, const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const Argument* a = words[i].starts_with("-") ? arguments.find(words[i]) : nullptr;
+        if (!a || a->is_flag() || (i + 1 < words.size() && !words[i + 1].starts_with("-"))) continue;
+        return fmt::format("{} is followed by {}, found {}", words[i],
+                           a->value.empty() ? "a value" : a->value,
+                           i + 1 < words.size() ? "'" + words[i + 1] + "'" : "nothing");
+    }
+    return {};
+}
+
 } // namespace
+
+Argument::Target written_file(const std::string& option, const std::string& ending, const std::string& id,
+                              const std::string& example, std::function<void(const std::string&)> take) {
+    return [=, take = std::move(take)](const std::string& path) {
+        if (!path.ends_with(ending))
+            throw Error(
+                ErrorKind::usage, id,
+                fmt::format("{} is followed by the {} file to write, found '{}'", option, ending, path),
+                example);
+        take(path);
+    };
+}
 
 Argument& Arguments::add(std::string names, Argument::Target target, std::string help) {
     return all_.emplace_back(Argument{std::move(names), std::move(target), std::move(help)});
@@ -119,11 +145,14 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     app.allow_extras();
     app.set_help_flag("-h,--help", "Print this help and exit.");
     for (const auto& a : all_) declare(app, a);
-    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    std::vector<std::string> reversed(words.rbegin(), words.rend()); // as CLI11 takes them
     try {
-        app.parse(words);
+        app.parse(reversed);
     } catch (const CLI::CallForHelp&) {
         return {true, app.help("facetmill"), {}};
+    } catch (const CLI::ArgumentMismatch& e) {
+        const std::string lacks = lacking_value(*this, words);
+        throw std::invalid_argument(lacks.empty() ? e.what() : lacks);
     } catch (const CLI::ParseError& e) {
         throw std::invalid_argument(e.what());
     }

@@ -20,6 +20,7 @@ struct Argument {
     std::string help;
     bool needed = false, is_hidden = false, at_commas = false, in_one_word = false;
     std::string heading{}; ///< in --help; empty: the general one
+    std::string value{};   ///< what --help and messages call its value: "FILE.png"; empty: by its type
     std::vector<std::string> choices{};
     std::vector<std::string> (*suggestions)() = nullptr; ///< what completions offer; others are taken, too
     std::optional<std::pair<int, int>> range{};
@@ -35,6 +36,10 @@ struct Argument {
     }
     Argument& under(std::string title) {
         heading = std::move(title);
+        return *this;
+    }
+    Argument& followed_by(std::string what) {
+        value = std::move(what);
         return *this;
     }
     Argument& one_of(std::vector<std::string> names) {
@@ -65,6 +70,11 @@ struct Argument {
     }
     bool is_flag() const { return std::holds_alternative<bool*>(target); }
 };
+
+/// Takes a value that must be the name of a file to write, with this ending, so that an input that follows
+/// the option is not taken for it and overwritten. The target throws usage (the id), which shows the example.
+Argument::Target written_file(const std::string& option, const std::string& ending, const std::string& id,
+                              const std::string& example, std::function<void(const std::string&)> take);
 
 /// What parsing found besides values.
 struct Parsed {

@@ -43,17 +43,12 @@ std::vector<std::string> stated_units() {
     return names;
 }
 
-/// Takes the file of --html or --markdown among the reports. A mesh file that follows the option is not taken
-/// for its value, and not overwritten.
-Argument::Target report_named(const std::shared_ptr<DiffOptions>& options, const char* option,
-                              const char* ending) {
-    return [=](const std::string& path) {
-        if (!path.ends_with(ending))
-            throw Error(ErrorKind::usage, "E-REPORT",
-                        fmt::format("{} is followed by the file to write, found '{}'", option, path),
-                        fmt::format("facetmill diff A B {} changes{}", option, ending));
-        options->reports.push_back(path);
-    };
+/// Takes the file of --html or --markdown among the reports.
+Argument::Target report_named(const std::shared_ptr<DiffOptions>& options, const std::string& option,
+                              const std::string& ending) {
+    return written_file(option, ending, "E-REPORT",
+                        fmt::format("facetmill diff A B {} changes{}", option, ending),
+                        [=](const std::string& path) { options->reports.push_back(path); });
 }
 
 /// Refuses, before anything is read, what is no report of a comparison.
@@ -184,10 +179,14 @@ Command diff_command() {
                          "The up axis of a file that states none; z,y: of A and of B where they differ.")
                     .separated_by_commas_alone()
                     .one_of({"y", "z"});
-                arguments.add("--html", report_named(options, "--html", ".html"),
-                              "Also writes F.html, a page with pictures of both files and of the distances.");
-                arguments.add("--markdown", report_named(options, "--markdown", ".md"),
-                              "Also writes F.md, for a pull request.");
+                arguments
+                    .add("--html", report_named(options, "--html", ".html"),
+                         "Also writes F.html, a page with pictures of both files and of the distances.")
+                    .followed_by("F.html");
+                arguments
+                    .add("--markdown", report_named(options, "--markdown", ".md"),
+                         "Also writes F.md, for a pull request.")
+                    .followed_by("F.md");
                 arguments.add("--report", &options->reports, "The same for either: F.html or F.md.");
                 arguments.add("--all", &options->all, "Also shows what is equal.");
                 arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");

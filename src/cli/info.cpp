@@ -203,11 +203,7 @@ FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Cons
     return info;
 }
 
-int info(const InfoOptions& options, const Console& console, const CommandLine& line) {
-    if (!options.picture.empty() && !options.picture.ends_with(".png"))
-        throw Error(ErrorKind::usage, "E-PICTURE",
-                    fmt::format("images are PNG, and '{}' does not end in .png", options.picture),
-                    "for example --picture part.png", line.value(options.picture));
+int info(const InfoOptions& options, const Console& console) {
     AllowedFiles allowed;
     for (const auto& mesh : options.meshes) allow_input(allowed, mesh);
     allowed.read.insert(allowed.read.end(), options.asset_roots.begin(), options.asset_roots.end());
@@ -247,8 +243,13 @@ Command info_command() {
                 arguments.add("--json", &options->json, "As JSON (facetmill schema info).");
                 arguments.add("--self-intersections", &options->self_intersections,
                               "Also counts self-intersections, which takes time.");
-                arguments.add("--picture", &options->picture,
-                              "Also writes a PNG image; several files are shown side by side.");
+                arguments
+                    .add("--picture",
+                         written_file("--picture", ".png", "E-PICTURE",
+                                      "facetmill info --picture picture.png part.stl",
+                                      [=](const std::string& path) { options->picture = path; }),
+                         "Also writes a PNG image; several files are shown side by side.")
+                    .followed_by("FILE.png");
                 arguments
                     .add("--format", &options->format,
                          "Reads the files as this format, whatever their content.")
@@ -258,9 +259,7 @@ Command info_command() {
                 add_asset_root_option(arguments, options->asset_roots);
                 add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);
-                return [=, &console](const Invocation& invocation) {
-                    return info(*options, console, invocation.line);
-                };
+                return [=, &console](const Invocation&) { return info(*options, console); };
             }};
 }
 

@@ -170,6 +170,8 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
     } catch (const std::invalid_argument& e) {
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
                     fmt::format("see facetmill {} --help", command.name), line.mark(0));
+    } catch (Error& e) {
+        throw e.at(line.mark(0));
     }
     if (parsed.help_wanted) {
         print(parsed.help + "\n" + command.examples +

@@ -101,25 +101,26 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
 } // namespace
 
 Command render_command() {
-    return {
-        "render",
-        "Renders a PNG image of a mesh file, or of two beside each other.",
-        render_examples,
-        "MESH [MESH] [OPTIONS OF THE STAGE]",
-        [](Arguments& arguments, Console& console) {
-            auto options = std::make_shared<RenderCommandOptions>();
-            arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.");
-            arguments.add("-j,--threads", &options->run.threads, "The number of threads. Default: all cores.")
-                .between(1, 4096);
-            add_asset_root_option(arguments, options->run.asset_roots);
-            add_sandbox_option(arguments, options->run.sandbox);
-            add_message_options(arguments, console);
-            return [=, &arguments, &console](const Invocation& invocation) {
-                return render(*options, arguments, invocation, console);
-            };
-        },
-        false,
-        "render"};
+    return {"render",
+            "Renders a PNG image of a mesh file, or of two beside each other.",
+            render_examples,
+            "MESH [MESH] [OPTIONS OF THE STAGE]",
+            [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<RenderCommandOptions>();
+                arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.")
+                    .followed_by("FILE.png");
+                arguments
+                    .add("-j,--threads", &options->run.threads, "The number of threads. Default: all cores.")
+                    .between(1, 4096);
+                add_asset_root_option(arguments, options->run.asset_roots);
+                add_sandbox_option(arguments, options->run.sandbox);
+                add_message_options(arguments, console);
+                return [=, &arguments, &console](const Invocation& invocation) {
+                    return render(*options, arguments, invocation, console);
+                };
+            },
+            false,
+            "render"};
 }
 
 } // namespace facetmill::cli

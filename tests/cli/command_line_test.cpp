@@ -114,6 +114,18 @@ TEST_CASE("info writes a picture, too", "[cli]") {
     const std::string mesh = (folder.path() / "a.obj").string(), image = (folder.path() / "a.png").string();
     std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     CHECK(message({"info", mesh, "--picture", "a.jpg"}).find("E-PICTURE") != std::string::npos);
+    const auto before = std::filesystem::file_size(mesh); // it is not taken for the picture
+    const std::string forgotten = message({"info", "--picture", mesh});
+    CHECK(forgotten.find("error[E-PICTURE]: --picture is followed by the .png file to write, found '" + mesh +
+                         "'") != std::string::npos);
+    CHECK(forgotten.find("hint: facetmill info --picture picture.png part.stl") != std::string::npos);
+    CHECK(std::filesystem::file_size(mesh) == before);
+    CHECK(message({"info", mesh, "--picture", "--json"})
+              .find("--picture is followed by the .png file to write, found '--json'") != std::string::npos);
+    CHECK(message({"diff", mesh, mesh, "--html"}).find("diff: --html is followed by F.html, found nothing") !=
+          std::string::npos);
+    CHECK(message({"diff", mesh, mesh, "-j"}).find("diff: -j is followed by a value, found nothing") !=
+          std::string::npos);
     CHECK(message({"info", mesh, mesh, "--picture", image}) == "exit 0");
     CHECK(std::filesystem::file_size(image) > 100);
 }

@@ -406,7 +406,8 @@ class Pages(Case):
         # What follows the option is never taken for the page: a mesh would be overwritten.
         for words in (("--html", "a.off", "b.off"), ("--html", "a.off", "b.off", "b.off"), ("--markdown", "a.off", "b.off")):
             run = self.mill("diff", *words, expect=2)
-            self.assertIn(f"{words[0]} is followed by the file to write, found 'a.off'", run.stderr)
+            ending = "html" if words[0] == "--html" else "md"
+            self.assertIn(f"{words[0]} is followed by the .{ending} file to write, found 'a.off'", run.stderr)
             self.assertIn(f"facetmill diff A B {words[0]} changes.", run.stderr)
         self.assertEqual((self.dir / "a.off").read_text(), OPEN)
 
