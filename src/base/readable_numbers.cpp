@@ -1,5 +1,7 @@
 #include "base/readable_numbers.hpp"
 
+#include "base/numbers.hpp"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -28,6 +30,14 @@ std::string timed(double seconds) {
                         : fmt::format("{:.0f} min {:02.0f} s",
                                       (seconds - static_cast<double>(static_cast<int>(seconds) % 60)) / 60,
                                       static_cast<double>(static_cast<int>(seconds) % 60));
+}
+
+std::string percentage(double percent, int digits) {
+    const std::string text = fmt::format("{:.{}g}", percent, digits);
+    constexpr double most = 1e12; // exact as a whole number
+    if (!(std::abs(percent) >= 999) || !(std::abs(percent) < most)) return text + " %";
+    const auto whole = static_cast<std::uint64_t>(std::abs(*parse_real(text)));
+    return fmt::format("{}{} %", percent < 0 ? "-" : "", grouped(whole));
 }
 
 std::string readable(double number) {

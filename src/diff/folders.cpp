@@ -49,7 +49,7 @@ std::string tally(const FolderComparison& c) {
 
 std::string percent_text(const FolderPair& pair) {
     if (!pair.percent) return {};
-    return std::isfinite(*pair.percent) ? fmt::format("{:.3g} %", *pair.percent) : "not comparable";
+    return std::isfinite(*pair.percent) ? percentage(*pair.percent) : "not comparable";
 }
 
 const char* kind_of_pair(const FolderPair& pair) {

@@ -1,5 +1,6 @@
 #include "diff/lines.hpp"
 
+#include "base/readable_numbers.hpp"
 #include "diff/line_shape.hpp"
 #include "diff/sides.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -42,7 +43,7 @@ class Distances {
         const double most = !limit           ? HUGE_VAL
                             : limit->percent ? limit->amount / 100 * d_.diagonal
                                              : limit->amount;
-        std::string note = std::isfinite(value) ? fmt::format("{:.4g} % of the diagonal", d_.percent(value))
+        std::string note = std::isfinite(value) ? percentage(d_.percent(value), 4) + " of the diagonal"
                                                 : "nothing to compare with";
         if (limit)
             note += limit->percent ? fmt::format(", at most {:g} %", limit->amount)

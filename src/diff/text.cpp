@@ -1,4 +1,5 @@
 #include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
 #include "diff/lines.hpp"
 #include "diff/overview.hpp"
 #include "report/html_parts.hpp"
@@ -108,7 +109,7 @@ std::vector<std::string> head_lines(const Comparison& comparison, const std::str
     if (!in.empty()) verdict += " in " + in;
     const auto& d = comparison.deviation;
     if (const auto percent = d ? d->percent(d->maximum()) : 0; percent > 0)
-        verdict += fmt::format("; the surfaces are up to {:.3g} % of the diagonal apart", percent);
+        verdict += fmt::format("; the surfaces are up to {} of the diagonal apart", percentage(percent));
     lines.insert(lines.begin(), std::move(verdict));
     if (!comparison.hint.empty()) lines.push_back("hint: " + comparison.hint);
     return lines;

@@ -113,7 +113,7 @@ std::string margin_text(const Check& check) {
     const double margin = std::min(below, above), limit = below <= above ? *check.max : *check.min;
     if (!std::isfinite(margin)) return {};
     const std::string share =
-        limit != 0 ? fmt::format(" ({:.3g} % of the limit)", 100 * std::abs(margin / limit)) : "";
+        limit != 0 ? fmt::format(" ({} of the limit)", percentage(100 * std::abs(margin / limit))) : "";
     const std::string amount = count ? grouped(static_cast<std::uint64_t>(std::abs(margin)))
                                      : fmt::format("{:.6g}", std::abs(margin));
     if (margin >= 0) return margin == 0 ? "none" : fmt::format("{} to spare{}", amount, share);

@@ -21,7 +21,7 @@ std::string signed_text(double x) { return x == 0 ? "0" : fmt::format("{:+.3g}",
 std::string length_text(const DeviationView& view, double x) {
     const std::string unit = view.unit.empty() ? "" : " " + view.unit;
     if (!(view.diagonal > 0) || !std::isfinite(view.diagonal)) return fmt::format("{:.4g}{}", x, unit);
-    return fmt::format("{:.4g}{} ({:.3g} %)", x, unit, 100 * std::abs(x) / view.diagonal);
+    return fmt::format("{:.4g}{} ({})", x, unit, percentage(100 * std::abs(x) / view.diagonal));
 }
 
 BarChart chart_of(const DeviationView& view, const std::string& id) {
@@ -84,6 +84,7 @@ std::string deviation_html(const DeviationView& view, const std::string& id, con
                "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
                "diagonal of {}.{}{} What {} has and {} lost is not seen here.</p>\n",
                view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(view.from), beyond_text(view),
+
                view.posed ? " Both are in the pose that the pictures show; what stages and checks measure is "
                             "in bind pose."
                           : "",

@@ -53,9 +53,7 @@ std::string before_and_after(const RunRecord& record) {
     const Sum in = sum_of(record.inputs), out = sum_of(record.outputs);
     const auto row = [](const char* what, std::uint64_t before, std::uint64_t after) {
         const std::string share =
-            before > 0
-                ? fmt::format("{:.3g} %", 100.0 * static_cast<double>(after) / static_cast<double>(before))
-                : "-";
+            before > 0 ? percentage(100.0 * static_cast<double>(after) / static_cast<double>(before)) : "-";
         return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", what, number_cell(sized(before)),
                            number_cell(sized(after)), number_cell(share));
     };

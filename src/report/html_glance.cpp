@@ -52,9 +52,9 @@ std::string deviation_text(const RunRecord& record) {
             worst = own;
     if (!worst) return {};
     const double most = std::abs(worst->worst_distance);
-    return worst->diagonal > 0 ? fmt::format("{:.3g} % of the diagonal, from {}",
-                                             100 * most / worst->diagonal, escaped(worst->from))
-                               : fmt::format("{:.4g}", most);
+    if (!(worst->diagonal > 0)) return fmt::format("{:.4g}", most);
+    return fmt::format("{} of the diagonal, from {}", percentage(100 * most / worst->diagonal),
+                       escaped(worst->from));
 }
 
 } // namespace

@@ -129,8 +129,9 @@ std::string counts(const StageRecord& stage) {
     const std::string vertices = grouped(stage.after->vertices) + " vertices";
     if (before == after) return fmt::format("{} faces, {}", grouped(after), vertices);
     if (before == 0) return fmt::format("&rarr; {} faces, {}", grouped(after), vertices);
-    return fmt::format("{} &rarr; {} faces ({:.3g} %), {}", grouped(before), grouped(after),
-                       100.0 * static_cast<double>(after) / static_cast<double>(before), vertices);
+    return fmt::format("{} &rarr; {} faces ({}), {}", grouped(before), grouped(after),
+                       percentage(100.0 * static_cast<double>(after) / static_cast<double>(before)),
+                       vertices);
 }
 
 std::string picture_id(std::size_t stage) { return fmt::format("picture-{}", stage); }

@@ -25,7 +25,7 @@ std::string times_section(const RunRecord& record) {
     const auto row = [&](const std::string& name, double seconds, std::size_t memory) {
         const double share = record.seconds > 0 ? seconds / record.seconds : 0;
         rows += fmt::format("<tr>{}{}{}{}{}</tr>\n", cell(name), number_cell(timed(seconds)),
-                            number_cell(fmt::format("{:.3g} %", 100 * share)), bar(share),
+                            number_cell(percentage(100 * share)), bar(share),
                             number_cell(memory > 0 ? sized(memory) : "-"));
     };
     for (const StageRecord& stage : record.stages) {

@@ -1,6 +1,7 @@
 #include "stage/contract.hpp"
 
 #include "base/numbers.hpp"
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -23,7 +24,7 @@ const Declaration& deviation_declaration() {
 /// "0.0123 (0.51 % of the diagonal)".
 std::string found_text(const DeviationResult& measured, double value) {
     if (!std::isfinite(value)) return "nothing to compare with";
-    return fmt::format("{:.6g} ({:.4g} % of the diagonal)", value, measured.percent(value));
+    return fmt::format("{:.6g} ({} of the diagonal)", value, percentage(measured.percent(value), 4));
 }
 
 report::EvidenceEntry evidence_of(const DirectedDeviation& way, bool forward) {

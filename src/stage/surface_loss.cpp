@@ -1,5 +1,6 @@
 #include "stage/surface_loss.hpp"
 
+#include "base/readable_numbers.hpp"
 #include "geometry/edit/moved.hpp"
 #include "stage/context.hpp"
 
@@ -47,7 +48,7 @@ std::string loss(const PartSurface& before, const PartSurface& after, MayLose ma
                                  : fmt::format("none of its {} faces is left", before.faces);
     const double lost = 1 - after.area / before.area;
     if (!(before.area > 0) || !std::isfinite(before.area) || !(lost > share(may_lose))) return {};
-    return fmt::format("{:.3g} % of its area is gone, {:.6g} of {:.6g} left", lost * 100, after.area,
+    return fmt::format("{} of its area is gone, {:.6g} of {:.6g} left", percentage(lost * 100), after.area,
                        before.area);
 }
 

@@ -207,15 +207,15 @@ constexpr std::size_t few = 5; // parts that are told one by one
 
 std::string counts_text(std::uint64_t before, std::uint64_t after) {
     std::string text = fmt::format("{} -> {} triangles", grouped(before), grouped(after));
-    if (before > 0) text += fmt::format(" ({:.3g} %)", 100 * double(after) / double(before));
+    if (before > 0) text += fmt::format(" ({})", percentage(100 * double(after) / double(before)));
     return text;
 }
 
 std::string deviation_text(const DeviationResult& d) {
-    std::string text =
-        fmt::format("deviation {:.3g} % (rms {:.3g} %", d.percent(d.maximum()), d.percent(d.rms()));
+    std::string text = fmt::format("deviation {} (rms {}", percentage(d.percent(d.maximum())),
+                                   percentage(d.percent(d.rms())));
     if (const auto bound = d.bound(); bound && std::isfinite(d.percent(*bound)))
-        text += fmt::format(", certified {:.3g} %", d.percent(*bound));
+        text += fmt::format(", certified {}", percentage(d.percent(*bound)));
     return text + ") of the diagonal";
 }
 
