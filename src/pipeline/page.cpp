@@ -1,6 +1,7 @@
 #include "pipeline/page.hpp"
 
 #include "cache/state.hpp"
+#include "geometry/deviation/signed_deviation.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/pose.hpp"
 #include "pipeline/page_failures.hpp"
@@ -54,7 +55,7 @@ const FaceTree& Page::Shown::tree() {
 
 std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::string name) {
     return std::make_shared<Reference>(
-        Reference{std::move(name), std::make_shared<Shown>(scene), {}, scene.face_count()});
+        Reference{std::move(name), std::make_shared<Shown>(scene), last_cap(scene), {}, scene.face_count()});
 }
 
 bool Page::is_full() const { return bytes_ > most_bytes; }
@@ -124,8 +125,8 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
         settings->camera = camera_for(seen);
     }
     Shown& earlier = *from.shown;
-    auto view =
-        report::deviation_view(seen, {from.name, earlier.bounds().diagonal(), earlier.tree()}, settings);
+    auto view = report::deviation_view(
+        seen, {from.name, earlier.bounds().diagonal(), earlier.tree(), from.last_cap}, settings);
     view.posed = posed.has_value();
     bytes_ += view.picture.size() + view.behind.size() + view.close.size();
     return view;

@@ -37,6 +37,7 @@ class Page {
     struct Reference {
         std::string name; ///< "the scene as loaded"
         std::shared_ptr<Shown> shown;
+        Index last_cap = 0; ///< what closes later cuts is not measured
         ShapeHistograms shape{};
         std::size_t faces = 0;
     };

@@ -1,5 +1,7 @@
 #include "pipeline/page_view.hpp"
 
+#include "geometry/deviation/signed_deviation.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -39,8 +41,9 @@ void PageView::before(const Step& step, const Scene& scene) {
 void PageView::add(const Scene& scene, const std::string& name) {
     const auto from = page_.reference();
     const bool compared = from && page_.differs(name) && from->faces > 0 && from->faces <= most_to_compare;
-    viewed_.add_after(scene, name, looks(scene), compared ? &from->shown->tree() : nullptr,
-                      compared ? from->name : std::string());
+    std::string from_name = compared ? from->name : std::string();
+    if (compared && last_cap(scene) > from->last_cap) from_name += " (of caps, too, which it has not)";
+    viewed_.add_after(scene, name, looks(scene), compared ? &from->shown->tree() : nullptr, from_name);
     any_after_ = true;
 }
 

@@ -71,12 +71,13 @@ FaceTree tree_of_earlier(const Surface& surface, const Box& bounds) {
 
 DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
                              const std::optional<PictureSettings>& pictures) {
-    const SignedDeviation d = signed_deviation(scene, from.tree);
+    const SignedDeviation d = signed_deviation(scene, from.tree, {.last_cap = from.last_cap});
     DeviationView view;
     view.from = from.name;
     view.unit = scene.unit == Unit::unknown ? "" : to_string(scene.unit);
     view.diagonal = from.diagonal;
     view.points = d.looked_up;
+    view.caps = d.caps;
     view.low = d.low;
     view.high = d.high;
     view.mean = d.mean;

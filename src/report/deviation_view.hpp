@@ -12,6 +12,7 @@ struct EarlierSurface {
     std::string name; ///< "the scene as loaded"
     double diagonal = 0;
     const FaceTree& tree;
+    std::optional<Index> last_cap = {}; ///< SignedDeviationSettings::last_cap
 };
 
 /// Half the width of the scale of distances: all of it, or, where a tenth or less is far off, what tells the

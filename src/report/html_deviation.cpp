@@ -63,6 +63,14 @@ std::string beyond_text(const DeviationView& view) {
                : "";
 }
 
+std::string caps_text(const DeviationView& view) {
+    if (view.caps == 0) return {};
+    return fmt::format(" {} cuts (caps) are grey and not measured: {} has no surface there.",
+                       view.caps == 1 ? "The face that closes"
+                                      : fmt::format("The {} faces that close", grouped(view.caps)),
+                       escaped(view.from));
+}
+
 } // namespace
 
 std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name) {
@@ -82,9 +90,9 @@ std::string deviation_html(const DeviationView& view, const std::string& id, con
     out += "<div class=\"wide\">" + svg_of(chart_of(view, id)) +
            fmt::format(
                "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
-               "diagonal of {}.{}{} What {} has and {} lost is not seen here.</p>\n",
+               "diagonal of {}.{}{}{} What {} has and {} lost is not seen here.</p>\n",
                view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(view.from), beyond_text(view),
-
+               caps_text(view),
                view.posed ? " Both are in the pose that the pictures show; what stages and checks measure is "
                             "in bind pose."
                           : "",

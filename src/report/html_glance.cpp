@@ -52,9 +52,10 @@ std::string deviation_text(const RunRecord& record) {
             worst = own;
     if (!worst) return {};
     const double most = std::abs(worst->worst_distance);
-    if (!(worst->diagonal > 0)) return fmt::format("{:.4g}", most);
-    return fmt::format("{} of the diagonal, from {}", percentage(100 * most / worst->diagonal),
-                       escaped(worst->from));
+    const char* caps = worst->caps > 0 ? ", without caps" : "";
+    if (!(worst->diagonal > 0)) return fmt::format("{:.4g}{}", most, caps);
+    return fmt::format("{} of the diagonal, from {}{}", percentage(100 * most / worst->diagonal),
+                       escaped(worst->from), caps);
 }
 
 } // namespace

@@ -18,6 +18,7 @@ struct DeviationView {
     bool posed = false;     ///< distances are those in the pose that pictures show, not in bind pose
     double diagonal = 0;    ///< of the earlier scene: what percentages are of
     std::size_t points = 0; ///< that were looked up
+    std::size_t caps = 0;   ///< faces that are not measured: they close cuts that the earlier scene has not
     double low = 0, high = 0, mean = 0, rms = 0; ///< mean and rms of the amounts over the area
     Vec3 worst;
     double worst_distance = 0;

@@ -130,6 +130,13 @@ class Pages(Case):
                 missing = [n for n in numbers(terminal) if n not in there]
                 self.assertEqual(missing, [], f"{line}\n{terminal}")
 
+    def test_what_closes_a_cut_is_no_deviation(self):
+        page, _ = self.report(*"generate icosphere --subdivisions 4 ! clip z=0 --cap ! write half.ply".split())
+        text = " ".join(shown(page).split())
+        self.assertRegex(text, r"deviation [\d.e-]+ % of the diagonal, from the scene as loaded, without caps")
+        self.assertRegex(text, r"The \d+ faces that close cuts \(caps\) are grey and not measured")
+        self.assertLess(float(re.search(r"deviation ([\d.e-]+) % of the diagonal", text)[1]), 0.001)
+
     def test_distances_are_those_in_the_pose_that_is_seen(self):
         """A ball that a morph target makes twice as large is compared as it is seen: at about twice the distances."""
         self.mill("pipe", "generate", "icosphere", "!", "write", "ball.gltf")

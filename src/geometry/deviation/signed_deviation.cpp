@@ -1,6 +1,7 @@
 #include "geometry/deviation/signed_deviation.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/cut/cap_paint.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/spatial/signed_distances.hpp"
 #include "mesh/finite_box.hpp"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace facetmill {
 
@@ -28,6 +30,40 @@ Scene bare(const Scene& scene) {
         copy.mesh.face_offsets = part.mesh.face_offsets;
     }
     return out;
+}
+
+/// Takes the faces that close cuts with numbers above `last` out of the mesh, which keeps the vertices that
+/// no cap has.
+Mesh taken_caps(Mesh& mesh, const Attribute& cut_id, Index last) {
+    Mesh caps, others;
+    std::vector<std::uint8_t> of_caps(mesh.vertex_count());
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const bool is_cap = cut_id.value(f, 0) > last;
+        add_face(is_cap ? caps : others, mesh.face_wedges(f));
+        for (Index c = mesh.face_begin(f); is_cap && c < mesh.face_end(f); ++c) of_caps[mesh.vertex(c)] = 1;
+    }
+    caps.positions = mesh.positions;
+    caps.wedge_vertex = mesh.wedge_vertex;
+    drop_unused(caps);
+    mesh.corners = std::move(others.corners);
+    mesh.face_offsets = std::move(others.face_offsets);
+    drop_unused(mesh, of_caps);
+    return caps;
+}
+
+/// Of all parts, as parts; given: whose faces bare has. What is taken is counted.
+std::vector<Part> taken_caps(Scene& bare, const Scene& given, Index last) {
+    std::vector<Part> all;
+    for (std::size_t i = 0; i < given.parts.size(); ++i) {
+        const Mesh& mesh = given.parts[i].mesh;
+        if (largest_number(mesh, cut_id_attribute) <= last) continue;
+        Part caps;
+        caps.name = bare.parts[i].name;
+        caps.transform = bare.parts[i].transform;
+        caps.mesh = taken_caps(bare.parts[i].mesh, *mesh.find(cut_id_attribute, Domain::face), last);
+        all.push_back(std::move(caps));
+    }
+    return all;
 }
 
 /// Cuts triangles into n x n alike where that makes their edges at most `longest`, in the world, as long as
@@ -240,12 +276,21 @@ void add_means(SignedDeviation& out) {
 
 } // namespace
 
+Index last_cap(const Scene& scene) {
+    Index last = 0;
+    for (const Part& part : scene.parts) last = std::max(last, largest_number(part.mesh, cut_id_attribute));
+    return last;
+}
+
 SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
                                  const SignedDeviationSettings& settings) {
     SignedDeviation out;
     if (reference.empty() || scene.parts.empty()) return out;
     constexpr double along_diagonal = 64; // as many pieces, each some pixels of a picture
     out.scene = bare(scene);
+    std::vector<Part> caps;
+    if (settings.last_cap) caps = taken_caps(out.scene, scene, *settings.last_cap);
+    for (const Part& part : caps) out.caps += part.mesh.face_count();
     Cutter cut(scene.bounds().diagonal() / along_diagonal);
     for (Part& part : out.scene.parts) out.is_cut |= cut(part);
     const std::vector<Vec3> points = vertices_of(out.scene);
@@ -269,6 +314,7 @@ SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
     out.worst_normal = worst_normal(surface, samples, out.worst);
     put_distances(out.scene, distances);
     add_means(out);
+    std::move(caps.begin(), caps.end(), std::back_inserter(out.scene.parts));
     return out;
 }
 

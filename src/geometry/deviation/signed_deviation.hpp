@@ -4,6 +4,7 @@
 #include "geometry/spatial/face_tree.hpp"
 #include "mesh/scene.hpp"
 
+#include <optional>
 #include <string_view>
 
 namespace facetmill {
@@ -17,7 +18,13 @@ struct SignedDeviationSettings {
     std::size_t vertices = 20000;
     std::size_t samples = 10000; ///< points spread over the area
     std::uint64_t seed = 1;
+    /// The largest number of a cap that the reference has (last_cap): faces that close later cuts are not
+    /// measured, since the reference has no surface there. None: all faces are.
+    std::optional<Index> last_cap = {};
 };
+
+/// The largest number of a cap in a scene: of the face attribute cut_id, 0 where nothing was capped.
+Index last_cap(const Scene& scene);
 
 /// Distances are positive outside: on the side that the nearest face of the reference looks to.
 struct SignedDeviation {
@@ -25,6 +32,7 @@ struct SignedDeviation {
     /// cut into small ones, so that what happens inside them is seen.
     Scene scene;
     bool is_cut = false;        ///< some are
+    std::size_t caps = 0;       ///< faces that were not measured: parts of their own, last, without distances
     std::vector<float> samples; ///< distances of points spread over the area; of vertices where there is none
     std::size_t looked_up = 0;  ///< points in all
     double low = 0, high = 0;   ///< the smallest and the largest distance that was seen

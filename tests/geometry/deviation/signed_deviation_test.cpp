@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "geometry/clip/clip.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
@@ -86,4 +87,34 @@ TEST_CASE("distances of nothing, of points and of what is not finite", "[geometr
     CHECK(found.any());
     CHECK(found.worst.x == 3);
     CHECK(found.samples.size() == 2);
+}
+
+TEST_CASE("what closes a cut is not measured, unless the reference has it", "[geometry]") {
+    const Mesh ball = shapes::icosphere(4);
+    ClipSettings settings;
+    settings.planes = {{{0, 0, 1}, {0, 0, 0.25}}};
+    settings.cap = settings.cap_numbers = true;
+    const ClipResult half = clip(ball, settings);
+    REQUIRE(half.cap_faces > 0);
+    Mesh isolated = half.front;
+    isolated.positions.push_back({0, 0, 3});
+    for (const Mesh& mesh : {half.front, isolated}) {
+        const Scene scene = scene_with(mesh);
+        CHECK(last_cap(scene) == 1);
+        const auto all = signed_deviation(scene, near_tree(ball));
+        CHECK(all.caps == 0);
+        CHECK(all.low < -0.7); // inside the ball, the cap's middle is as far from it as that
+        const auto found = signed_deviation(scene, near_tree(ball), {.last_cap = 0});
+        CHECK(found.caps == half.cap_faces);
+        CHECK(found.low == Approx(0).margin(1e-12)); // cut edges lie on the ball's faces, but for rounding
+        CHECK(found.high ==
+              (mesh.vertex_count() > half.front.vertex_count() ? Approx(2) : Approx(0).margin(1e-12)));
+        REQUIRE(found.scene.parts.size() == 2); // the caps are there to be seen
+        CHECK(found.scene.parts[1].mesh.face_count() == half.cap_faces);
+        CHECK(found.scene.parts[1].mesh.attributes.empty());
+    }
+    const Scene scene = scene_with(half.front);
+    const auto itself = signed_deviation(scene, near_tree(half.front), {.last_cap = last_cap(scene)});
+    CHECK(itself.caps == 0);
+    CHECK(itself.scene.parts.size() == 1);
 }
