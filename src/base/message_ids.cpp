@@ -797,7 +797,8 @@ std::span<const MessageId> message_ids() {
          "`transform: {bake: true}` moves the vertices instead."},
         {"W-UNITS",
          {},
-         "A scene without a unit is combined with one that has a unit; numbers are used as they are.",
+         "A scene without a unit meets one that has a unit, or a format or an option that means one; numbers "
+         "are used as they are.",
          "Give the unit of the file: `load: {unit: mm}`."},
         {"W-UNORIENTED",
          {},

@@ -71,7 +71,7 @@ class Guides(Case):
         (self.dir / "scan.yaml").write_text(re.search(r"^```yaml\n(.*?)^```", page, flags=re.M | re.S)[1])
         self.mill("check", "scan.yaml")
         self.mill("run", "scan.yaml", "-q", "-D", f"input={SCAN}", "--output-dir", "out")
-        for made in ("nefertiti.glb", "nefertiti.1.glb", "nefertiti.html", "nefertiti.json"):
+        for made in ("nefertiti.0.glb", "nefertiti.1.glb", "nefertiti.html", "nefertiti.json"):
             self.assertTrue((self.dir / "out" / made).stat().st_size > 1000, made)
 
     @unittest.skipIf(SLOW, "pictures of the same scenes, ten times slower")
