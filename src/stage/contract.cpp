@@ -5,6 +5,7 @@
 #include "base/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "stage/crossing_faces.hpp"
 
 #include <fmt/format.h>
 
