@@ -13,7 +13,7 @@ facetmill pipe load ../data/nefertiti.ply --unit mm ! clip 'y=-150' --cap ! simp
 facetmill pipe load ../data/nefertiti.ply --unit mm ! foreach lod=50%,20%,5% '[' simplify '@{lod}' ! write 'lod@{lod.index}.glb' ']'
 
 # Two branches from one scene.
-facetmill pipe load ../data/nefertiti.ply --unit mm ! simplify 10% ! branch smooth '[' relax 3 ! write smooth.ply ']' rough '[' crumple --grid 1 --amplitude 0.3% ! write rough.ply ']'
+facetmill pipe load ../data/nefertiti.ply --unit mm ! branch smooth '[' relax 1 ! write smooth.ply ']' rough '[' crumple --grid 1 --amplitude 0.05% ! write rough.ply ']'
 
 # A check: the exit code is 1 if the mesh is not closed.
 facetmill pipe load ../data/nefertiti.ply ! validate --closed --euler 2
