@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "mesh/power_scale.hpp"
+#include "mesh/primitives_in_use.hpp"
 
 #include <fmt/format.h>
 
@@ -13,13 +14,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether the pattern names the part itself or a material that one of its primitives uses.
+/// Whether the pattern names the part itself or a material that faces, lines or points of it have.
 bool names(std::string_view pattern, const Part& part, const Scene& scene) {
     if (glob_matches(pattern, part.name)) return true;
-    for (const auto& primitive : part.mesh.primitives)
-        if (primitive.material < scene.materials.size() &&
-            glob_matches(pattern, scene.materials[primitive.material].name))
-            return true;
+    std::vector<bool> used; // looked for when a name matches
+    for (std::size_t p = 0; p < part.mesh.primitives.size(); ++p) {
+        const Index material = part.mesh.primitives[p].material;
+        if (material >= scene.materials.size() || !glob_matches(pattern, scene.materials[material].name))
+            continue;
+        if (used.empty()) used = primitives_in_use(part.mesh);
+        if (used[p]) return true;
+    }
     return false;
 }
 

@@ -266,6 +266,16 @@ TEST_CASE("OBJ holds seams, polygons, groups and materials", "[io]") {
     CHECK(back.materials[1].name == "blue_sky");
     REQUIRE(log.files.size() == 1);
     CHECK(log.files[0].path == dir / "a.mtl");
+
+    const auto library_of = [&] {
+        return std::string(
+            io::as_text(io::codec_named("obj")->write(scene, {.title = "a"}).files.back().bytes));
+    };
+    CHECK(library_of().find("newmtl red\n") != std::string::npos);
+    primitive.assign(12, 1); // no face is red now: its material stays out of the library
+    std::get<std::vector<std::uint32_t>>(mesh.find(primitive_attribute, Domain::face)->data) = primitive;
+    CHECK(library_of().find("newmtl red\n") == std::string::npos);
+    CHECK(library_of().find("newmtl blue_sky\n") != std::string::npos);
 }
 
 TEST_CASE("OFF holds polygons and colours", "[io]") {

@@ -56,6 +56,25 @@ TEST_CASE("only selects parts by name, by material and by exclusion", "[stage]")
     CHECK(selected({"engine"}).empty());
 }
 
+TEST_CASE("only selects by the materials of faces, lines and points, not of what is cut off", "[stage]") {
+    Scene scene = two_parts();
+    Mesh& mesh = scene.parts[0].mesh;
+    mesh.primitives.push_back(
+        {.material = 1, .attributes = {}, .json = {}}); // as clip leaves a primitive behind
+    const auto rubber = [&] { return PartFilter{{"rubber"}}.selects(scene.parts[0], scene); };
+    CHECK_FALSE(rubber());
+    mesh.attributes = {{std::string(primitive_attribute), Domain::face, Role::index, 1, false,
+                        std::vector<std::uint32_t>{1}}};
+    CHECK(rubber());
+    mesh.attributes.clear();
+    mesh.corners.clear();
+    CHECK(rubber()); // points have all
+    mesh.lines = {0, 1};
+    CHECK_FALSE(rubber());
+    mesh.line_primitive = {1};
+    CHECK(rubber());
+}
+
 TEST_CASE("places: inputs beside the pipeline, outputs in the output directory", "[stage]") {
     const Places places{"pipelines", "build/out"};
     CHECK(places.input("scan.ply") == "pipelines/scan.ply");

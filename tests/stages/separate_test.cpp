@@ -3,6 +3,7 @@
 #include "support/run_stage.hpp"
 
 #include "geometry/inspect/inspect.hpp"
+#include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;
@@ -23,6 +24,12 @@ TEST_CASE("separate by material; a part of one component stays as it is", "[stag
     CHECK(run.scene.parts[0].name == "part.red");
     CHECK(run.scene.parts[1].name == "part.blue");
     CHECK(run.scene.parts[1].mesh.face_count() == 2);
+    for (Index m = 0; m < 2; ++m) { // each with its own primitive, which it is found by
+        const Mesh& piece = run.scene.parts[m].mesh;
+        REQUIRE(piece.primitives.size() == 1);
+        CHECK(piece.primitives[0].material == m);
+        CHECK(broken_invariants(piece).empty());
+    }
     CHECK(run_stage("separate", "", scene_of(shapes::cube())).scene.parts[0].name == "part");
 }
 

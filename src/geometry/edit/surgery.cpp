@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace facetmill {
 
@@ -121,6 +122,28 @@ std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of
         for (const Index v : descent.vertices.copies) new_vertex[v] = gone;
         normalise_offsets(piece);
         forget_plain_wedges(piece);
+    }
+    return pieces;
+}
+
+std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
+                                            std::size_t count) {
+    const std::vector<Primitive> table = std::exchange(mesh.primitives, {});
+    std::vector<Mesh> pieces = separated(mesh, label_of_face, count);
+    for (Mesh& piece : pieces) {
+        Attribute* attribute = piece.find(primitive_attribute, Domain::face);
+        if (!attribute) {
+            piece.primitives = table;
+            continue;
+        }
+        auto& of_face = std::get<std::vector<std::uint32_t>>(attribute->data);
+        std::map<std::uint32_t, std::uint32_t> renumbered;
+        for (const auto p : of_face) renumbered.emplace(p, 0);
+        for (auto& [old, number] : renumbered) {
+            number = static_cast<std::uint32_t>(piece.primitives.size());
+            piece.primitives.push_back(old < table.size() ? table[old] : Primitive{});
+        }
+        for (auto& p : of_face) p = renumbered.at(p);
     }
     return pieces;
 }

@@ -18,6 +18,11 @@ Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);
 /// use, in order of use. Isolated vertices go. O(corners), for any number of labels.
 std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face, std::size_t count);
 
+/// The same, each mesh with a table of the primitives that its faces have, in the order of the table that
+/// there was. Also for meshes of many primitives O(corners).
+std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
+                                            std::size_t count);
+
 /// The faces whose flag is zero, ascending.
 std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags);
 

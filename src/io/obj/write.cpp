@@ -2,6 +2,7 @@
 #include "base/unique_names.hpp"
 #include "io/flatten.hpp"
 #include "io/obj/materials.hpp"
+#include "mesh/primitives_in_use.hpp"
 
 #include <bit>
 #include <cstring>
@@ -225,6 +226,24 @@ std::vector<std::string> material_names(const std::vector<Material>& materials) 
     return names;
 }
 
+/// The materials that the file uses, under the names that it has for them.
+std::vector<Material> named_materials(const Scene& scene, const std::vector<std::string>& names) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Part& part : scene.parts) {
+        const std::vector<bool> primitives = primitives_in_use(part.mesh);
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            if (const Index m = part.mesh.primitives[p].material; primitives[p] && m < used.size())
+                used[m] = true;
+    }
+    std::vector<Material> named;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m]) continue;
+        named.push_back(scene.materials[m]);
+        named.back().name = names[m];
+    }
+    return named;
+}
+
 void tell_what_is_lost(const Mesh& mesh, Written& written) {
     for (const auto& a : mesh.attributes) {
         const bool face = a.domain == Domain::face &&
@@ -256,8 +275,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Bytes bytes;
     append(bytes, "# written by facetmill\n");
     const std::vector<std::string> materials = material_names(scene.materials);
+    const std::vector<Material> named = named_materials(scene, materials);
     const std::string library = settings.title + ".mtl";
-    if (!materials.empty()) append(bytes, fmt::format("mtllib {}\n", library));
+    if (!named.empty()) append(bytes, fmt::format("mtllib {}\n", library));
     Offsets offsets;
     Index material = none;
     ShareOfSteps parts(std::vector<double>(scene.parts.size(), 1));
@@ -292,9 +312,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     warn_of_textures(written, scene, "OBJ");
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
-    if (!materials.empty()) {
-        std::vector<Material> named = scene.materials;
-        for (std::size_t m = 0; m < named.size(); ++m) named[m].name = materials[m];
+    if (!named.empty()) {
         Bytes mtl;
         append(mtl, material_library(named));
         written.files.push_back({library, std::move(mtl)});

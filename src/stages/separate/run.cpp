@@ -64,8 +64,8 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
             continue;
         }
         require_few(parts.size() + labels.names.size(), o.max_parts);
-        auto pieces = separated(part.mesh, labels.of_face, labels.names.size());
         context.attribute_changes(part, kept_changes(part.mesh.attributes));
+        auto pieces = separated_with_primitives(std::move(part.mesh), labels.of_face, labels.names.size());
         report.separated.push_back({part.name, labels.names.size()});
         for (std::size_t i = 0; i < pieces.size(); ++i)
             parts.push_back(part_of(part, std::move(pieces[i]), names.add(labels.names[i])));
