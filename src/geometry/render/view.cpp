@@ -16,6 +16,41 @@ bool is_shown(const Part& part, const PictureSettings& settings) {
     return !settings.shows || settings.shows(part);
 }
 
+/// [vertices] whether a vertex is seen: of faces, where the mesh has any. Isolated vertices beside them are
+/// not drawn.
+std::vector<std::uint8_t> drawn_vertices(const Mesh& mesh) {
+    std::vector<std::uint8_t> drawn(mesh.vertex_count(), mesh.face_count() == 0);
+    for (Index c = 0; c < mesh.corner_count(); ++c) drawn[mesh.vertex(c)] = 1;
+    return drawn;
+}
+
+/// The box of what is seen, of points as `seen_at` gives them.
+template <class SeenAt>
+Box seen_box(const Scene& scene, const PictureSettings& settings, SeenAt&& seen_at) {
+    Box seen;
+    for (const Part& part : scene.parts) {
+        if (!is_shown(part, settings)) continue;
+        const Transform to_world = part.transform;
+        const auto drawn = drawn_vertices(part.mesh);
+        seen.add(parallel_reduce(
+            part.mesh.vertex_count(), Box{},
+            [&](std::size_t begin, std::size_t end) {
+                Box box;
+                for (std::size_t v = begin; v < end; ++v) {
+                    if (!drawn[v]) continue;
+                    const Vec3 p = seen_at(to_world.point(part.mesh.positions[v]));
+                    if (is_finite(p)) box.add(p);
+                }
+                return box;
+            },
+            [](Box a, const Box& b) {
+                a.add(b);
+                return a;
+            }));
+    }
+    return seen;
+}
+
 /// The area vector of a face, twice.
 Vec3 area_vector(const Part& part, Index face) {
     const Mesh& mesh = part.mesh;
@@ -89,7 +124,7 @@ struct UpAndFront {
 UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings) {
     const UpAndFront y_up{{0, 1, 0}, {0, 0, 1}}, z_up{{0, 0, 1}, {0, -1, 0}};
     if (scene.up != UpAxis::unknown) return scene.up == UpAxis::z ? z_up : y_up;
-    const Box box = scene.bounds();
+    const Box box = seen_box(scene, {}, [](const Vec3& p) { return p; });
     const Vec3 extent = box.extent();
     const Stance stance = stance_of(scene, settings, box);
     // A base is one when it is three hundredths of the surface and the other direction has none half as
@@ -136,30 +171,6 @@ View axes_of_view(const UpAndFront& axes, const PictureSettings& settings) {
     view.right = normalised(right);
     view.up = cross(view.towards, view.right);
     return view;
-}
-
-/// The box of what is seen, of points as `seen_at` gives them.
-template <class SeenAt>
-Box seen_box(const Scene& scene, const PictureSettings& settings, SeenAt&& seen_at) {
-    Box seen;
-    for (const Part& part : scene.parts) {
-        if (!is_shown(part, settings)) continue;
-        const Transform to_world = part.transform;
-        seen.add(parallel_reduce(
-            part.mesh.vertex_count(), Box{},
-            [&](std::size_t begin, std::size_t end) {
-                Box box;
-                for (std::size_t v = begin; v < end; ++v)
-                    if (const Vec3 p = seen_at(to_world.point(part.mesh.positions[v])); is_finite(p))
-                        box.add(p);
-                return box;
-            },
-            [](Box a, const Box& b) {
-                a.add(b);
-                return a;
-            }));
-    }
-    return seen;
 }
 
 /// The box of the scene along the axes of the view.

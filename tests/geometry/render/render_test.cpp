@@ -443,6 +443,16 @@ TEST_CASE("a legend that does not fit is left out", "[geometry]") {
     CHECK(with.rgba == picture_of(scene, s).rgba);
 }
 
+TEST_CASE("a stray vertex that no face has does not make the picture smaller", "[geometry]") {
+    const PictureSettings s = seen_from({0, 0, 1});
+    Scene stray = square();
+    stray.parts[0].mesh.positions.push_back({1e6, 0, 0});
+    CHECK(picture_of(stray, s).rgba == picture_of(square(), s).rgba);
+    CHECK(picture_of(stray, s).scale == picture_of(square(), s).scale);
+    stray.parts[0].mesh.corners.clear(); // points are all drawn
+    CHECK(picture_of(stray, s).scale < 1);
+}
+
 TEST_CASE("the fitting scale is that beside the legend", "[geometry]") {
     Scene scene = square();
     scene.parts[0].mesh.attributes.push_back(
