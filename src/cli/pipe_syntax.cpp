@@ -369,7 +369,9 @@ class Parser {
         Value* slot = map.find(head);
         if (!primary || !slot) return key;
         if (dot == key.npos) return slot->is_map() ? head + "." + primary->name : key;
-        if (slot->is_scalar() && !group->fields->shorthand)
+        if (group->may_be_true && slot->as_bool() == true)
+            *slot = Value::map({}, slot->mark);
+        else if (slot->is_scalar() && !group->fields->shorthand)
             *slot = Value::map({{primary->name, slot->mark, *slot}}, slot->mark);
         return key;
     }

@@ -1,10 +1,12 @@
 #include "options/declaration.hpp"
 
 #include "base/numbers.hpp"
+#include "base/plain_number.hpp"
 #include "base/spelling.hpp"
 #include "options/mark_at.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -16,7 +18,7 @@ bool Range::holds(double x) const {
 }
 
 std::string Range::to_string() const {
-    const auto number = [](double x) { return facetmill::to_string(x); };
+    const auto number = plain_number;
     if (min && max)
         return fmt::format("{} {} x {} {}", number(*min),
                            min_open ? "<" : "<=", max_open ? "<" : "<=", number(*max));
@@ -107,9 +109,15 @@ Json default_json(const Option& option) {
     return text;
 }
 
+/// Whether true gives a group its defaults, and false is as good as not giving it.
+bool is_switch(const Option& option) {
+    return option.fields && option.may_be_true && !option.fields->shorthand;
+}
+
 /// The schema of an option's value with all that the declaration tells.
 Json described(const Option& option) {
     Json schema = option.schema;
+    if (is_switch(option)) schema["anyOf"].push_back({{"type", "boolean"}});
     schema["description"] = option.help;
     if (Json value = default_json(option); !value.is_null()) schema["default"] = std::move(value);
     const Range& range = option.range;
@@ -193,6 +201,8 @@ namespace {
 
 /// Reads one option and checks its range.
 bool parse_option(const Option& option, const Value& value, void* target, Problems& problems) {
+    if (const auto on = is_switch(option) ? value.as_bool() : std::nullopt)
+        return !*on || option.parse(option, Value::map({}, value.mark), target, problems);
     if (!option.parse(option, value, target, problems)) return false;
     const auto magnitude = option.magnitude ? option.magnitude(target) : std::nullopt;
     if (value.deferred || !magnitude || option.range.holds(*magnitude)) return true;
@@ -221,6 +231,20 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
     return true;
 }
 
+/// The option that has the value among its choices, where the bare one cannot: `textures: webp`.
+const Option* other_choice(const Declaration& declaration, const Option& primary, const Value& value) {
+    static constexpr std::array texts{OptionKind::text, OptionKind::path, OptionKind::choice,
+                                      OptionKind::list, OptionKind::group};
+    if (!value.is_scalar() || std::find(texts.begin(), texts.end(), primary.kind) != texts.end())
+        return nullptr;
+    const auto has_it = [&](const Option& o) {
+        return std::any_of(o.choices.begin(), o.choices.end(),
+                           [&](const Choice& c) { return c.name == value.text; });
+    };
+    const auto it = std::find_if(declaration.options.begin(), declaration.options.end(), has_it);
+    return it == declaration.options.end() || &*it == &primary ? nullptr : &*it;
+}
+
 /// A bare value as the map that it is short for.
 Value as_map(const Option& option, const Value& value) {
     return Value::map({{option.name, value.mark, value}}, value.mark);
@@ -233,7 +257,15 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
     if (value.deferred) return true;
     if (!value.is_map() && !value.is_null()) {
         if (shorthand) return shorthand(value, target, problems);
-        if (const Option* o = primary()) return parse(as_map(*o, value), target, owner, problems, also_known);
+        const Option* bare = primary();
+        if (const Option* o = bare ? other_choice(*this, *bare, value) : nullptr) {
+            problems.add(
+                value.mark, "E-TYPE",
+                fmt::format("a bare value of {} is its '{}', found {}", owner, bare->name, value.described()),
+                fmt::format("{} is a value of '{}': give it that name", value.text, o->name));
+            return false;
+        }
+        if (bare) return parse(as_map(*bare, value), target, owner, problems, also_known);
         problems.add(value.mark, "E-VALUE",
                      fmt::format("{} takes no bare value, found {}", owner, value.described()),
                      fmt::format("its options are: {}", fmt::join(names(), ", ")));

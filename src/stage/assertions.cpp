@@ -1,6 +1,7 @@
 #include "stage/assertions.hpp"
 
 #include "base/numbers.hpp"
+#include "base/plain_number.hpp"
 #include "base/words.hpp"
 #include "report/render.hpp"
 #include "stage/context.hpp"
@@ -62,10 +63,11 @@ bool lies_within(const Box& inner, const Box& outer) {
 
 std::string expectation(const Bound& bound) {
     if (bound.truth) return *bound.truth ? "true" : "false";
-    if (bound.min && bound.max && *bound.min == *bound.max) return to_string(*bound.min);
-    if (bound.min && bound.max) return fmt::format("{} to {}", to_string(*bound.min), to_string(*bound.max));
-    return bound.min ? fmt::format("at least {}", to_string(*bound.min))
-                     : fmt::format("at most {}", to_string(bound.max.value_or(0)));
+    if (bound.min && bound.max && *bound.min == *bound.max) return plain_number(*bound.min);
+    if (bound.min && bound.max)
+        return fmt::format("{} to {}", plain_number(*bound.min), plain_number(*bound.max));
+    return bound.min ? fmt::format("at least {}", plain_number(*bound.min))
+                     : fmt::format("at most {}", plain_number(bound.max.value_or(0)));
 }
 
 bool holds(const Bound& bound, double value) {

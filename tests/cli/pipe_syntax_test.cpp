@@ -219,6 +219,12 @@ TEST_CASE("a group that true switches on is a flag", "[cli]") {
         same("write a.glb --draco.position_bits 12", "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
 }
 
+TEST_CASE("a group that true gives its defaults is a flag, with options beside it", "[cli]") {
+    CHECK(same("clean --holes", "[{clean: {holes: true}}]"));
+    CHECK(same("clean --holes --holes.max_edges 9", "[{clean: {holes: {max_edges: 9}}}]"));
+    CHECK(same("clean --holes planar", "[{clean: {holes: planar}}]"));
+}
+
 TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]") {
     const auto same_as = [](std::vector<std::string> arguments, const std::string& text) {
         return yaml(std::move(arguments)) ==

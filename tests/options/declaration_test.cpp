@@ -113,6 +113,41 @@ TEST_CASE("a list option takes one value or several", "[options]") {
     CHECK(s.paths.size() == 2);
 }
 
+TEST_CASE("a bare value that is a choice of another option is answered with its name", "[options]") {
+    CHECK(complaints(Value::scalar("plain")) == "E-TYPE a bare value of relax is its 'iterations', found "
+                                                "'plain' (plain is a value of 'method': give it that "
+                                                "name)\n");
+    CHECK(complaints(Value::scalar("fancy")) == "E-TYPE expected an integer, found 'fancy'\n");
+}
+
+TEST_CASE("true gives a group its defaults where it is a switch, false leaves it out", "[options]") {
+    struct Lines {
+        double spacing = 0.5;
+    };
+    struct Drawing {
+        std::optional<Lines> hatch, frame;
+    };
+    Declare<Drawing> d;
+    const auto declare_lines = [](Declare<Lines>& lines) {
+        lines.option("spacing", &Lines::spacing, "How far apart.").above(0).primary();
+    };
+    d.group("hatch", &Drawing::hatch, "Lines.", declare_lines).option().may_be_true = true;
+    d.group("frame", &Drawing::frame, "A frame.", declare_lines);
+
+    Problems problems;
+    Drawing read;
+    CHECK(d.declaration.parse(map({{"hatch", Value::scalar("false")}}), &read, "draw", problems));
+    CHECK_FALSE(read.hatch);
+    CHECK(d.declaration.parse(map({{"hatch", Value::scalar("true")}}), &read, "draw", problems));
+    REQUIRE(read.hatch);
+    CHECK(read.hatch->spacing == 0.5);
+    CHECK(d.declaration.parse(map({{"hatch", Value::scalar("2")}}), &read, "draw", problems));
+    CHECK(read.hatch->spacing == 2);
+    CHECK_FALSE(d.declaration.parse(map({{"frame", Value::scalar("true")}}), &read, "draw", problems));
+    CHECK(d.declaration.schema()["properties"]["hatch"]["anyOf"].back()["type"] == "boolean");
+    CHECK(d.declaration.schema()["properties"]["frame"]["anyOf"].back()["type"] == "number");
+}
+
 TEST_CASE("a deferred value is good for any option", "[options]") {
     Value later = Value::scalar("${part}");
     later.deferred = true;

@@ -66,6 +66,8 @@ TEST_CASE("a bound holds or says what was expected and found", "[stage]") {
     CHECK_FALSE(few.passed);
     CHECK(few.expected == "at most 10");
     CHECK(few.found == report::Found(12));
+    CHECK(judged_limits(entry("faces", entry("max", Value::scalar("100000"))), p).expected ==
+          "at most 100000");
     const auto closed = judged_limits(entry("closed", Value::scalar("true")), p);
     CHECK_FALSE(closed.passed);
     CHECK(closed.found == report::Found(false));

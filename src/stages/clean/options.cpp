@@ -96,7 +96,10 @@ void declare_clean(Declare<CleanOptions>& d) {
     d.option("non_manifold", &CleanOptions::non_manifold,
              "Separates edges with more than two faces and vertices with several fans.");
     declare_self_intersections(d);
-    d.group("holes", &CleanOptions::holes, "Fills holes; if not given, they stay open.", declare_holes);
+    d.group("holes", &CleanOptions::holes, "Fills holes: true, or how; if not given, they stay open.",
+            declare_holes)
+        .option()
+        .may_be_true = true;
     d.group("components", &CleanOptions::components, "Removes small components; if not given, they are kept.",
             declare_components);
     d.option("open_components", &CleanOptions::open_components,

@@ -32,7 +32,10 @@ void declare_section(Declare<SectionOptions>& d) {
              "The number of planes: with spacing, starting at the plane; without it, in the middle of this "
              "many equal slices of the extent.")
         .between(1, max_planes);
-    d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections.", declare_hatch);
+    d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections: true, or how.",
+            declare_hatch)
+        .option()
+        .may_be_true = true;
     d.option("path", &SectionOptions::path,
              "The drawing to write, to scale, or a list of drawings; the suffix decides the format: .svg, "
              ".dxf or .json.");
