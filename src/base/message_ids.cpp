@@ -514,7 +514,9 @@ std::span<const MessageId> message_ids() {
         {"W-COMBINE-NOTHING",
          {},
          "combine leaves nothing of a part.",
-         "Check that the parts overlap; `facetmill info` prints their bounds."},
+         "An intersection needs parts that overlap, a difference parts that do not cover it; `facetmill "
+         "info` prints "
+         "their bounds."},
         {"W-CROP-ALL",
          {},
          "The outline of crop does not cut the mesh; all of it is kept.",

@@ -72,11 +72,10 @@ Command cache_command() {
             cache_examples,
             {},
             [](Arguments& arguments, Console&) {
-                auto action = std::make_shared<std::string>();
+                auto action = std::make_shared<std::string>("stats");
                 auto json = std::make_shared<bool>(false);
-                arguments.add("ACTION", action.get(), "stats, gc or clear.")
-                    .one_of({"stats", "gc", "clear"})
-                    .required();
+                arguments.add("ACTION", action.get(), "stats, gc or clear. Default: stats.")
+                    .one_of({"stats", "gc", "clear"});
                 arguments.add("--json", json.get(), "Prints JSON (stats).");
                 return [=](const Invocation&) { return cache_work(*action, *json); };
             }};

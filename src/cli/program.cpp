@@ -2,6 +2,7 @@
 #include "base/sandbox.hpp"
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
+#include "docs/ready.hpp"
 #include "docs/stages.hpp"
 #include "docs/versions.hpp"
 #include "stage/common_keys.hpp"
@@ -71,6 +72,17 @@ std::string help_text() {
     return text + help_end;
 }
 
+/// What was meant by a word that is no command: a mesh file, a word of other tools, a ready pipeline, or a
+/// command.
+std::string hint_for(const std::string& name, const std::vector<std::string>& names) {
+    if (name == "convert" || name.find_first_of("./\\") != name.npos)
+        return "a mesh file is converted by facetmill pipe load IN ! write OUT, and looked at by facetmill "
+               "info IN";
+    if (docs::ready_pipeline(name))
+        return fmt::format("a pipeline runs by facetmill run {} -D input=FILE", name);
+    return suggestion(name, names);
+}
+
 const Command& command_named(const std::string& name, const CommandLine& line) {
     std::vector<std::string> names;
     for (const auto& c : commands()) {
@@ -90,7 +102,7 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
         throw Error(ErrorKind::usage, "E-OPTION", fmt::format("facetmill itself has no option '{}'", name),
                     "options come after the command: facetmill run ... " + name, line.mark(0));
     throw Error(ErrorKind::usage, "E-COMMAND", fmt::format("there is no command '{}'", name),
-                suggestion(name, names), line.mark(0));
+                hint_for(name, names), line.mark(0));
 }
 
 std::string option_hint(const Command& command, const Arguments& arguments, const std::string& given) {

@@ -64,12 +64,15 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
             for (const auto& name : *at)
                 if (name.is_string()) leave(name.get<std::string>());
     }
-    if (animations + skins > 0)
+    std::vector<std::string> left_out;
+    if (animations > 0) left_out.push_back(counted(animations, "animation"));
+    if (skins > 0) left_out.push_back(counted(skins, "skin"));
+    if (!left_out.empty())
         written.warnings.push_back(
             {Severity::warning,
              "W-ANIMATION",
-             fmt::format("{} and {} are not written to {}: the mesh is in its rest pose",
-                         counted(animations, "animation"), counted(skins, "skin"), format),
+             fmt::format("{} {} not written to {}: the mesh is in its rest pose",
+                         fmt::join(left_out, " and "), animations + skins == 1 ? "is" : "are", format),
              {},
              "glTF keeps them: write .glb"});
 }

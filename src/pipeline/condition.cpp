@@ -63,7 +63,9 @@ std::optional<bool> compare(const Value& value, const Value& left, const std::st
     else
         problems.add(value.mark, "E-WHEN",
                      fmt::format("'{}' compares numbers, found '{}' and '{}'", op, left.text, right.text),
-                     "texts can be compared by == and !=");
+                     right.text.starts_with('=') || left.text.ends_with('=')
+                         ? "the operators are ==, !=, <, <=, > and >="
+                         : "texts can be compared by == and !=");
     return {};
 }
 

@@ -71,11 +71,13 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
         const StageInfo* info = stage_named(stage->key);
         const bool is_option = info && info->options->find(entry.key);
         known &= !is_option;
-        problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is not a key of an item", entry.key),
-                     is_option
-                         ? fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more",
-                                       stage->key, stage->key, entry.key)
-                         : suggestion(entry.key, keys_beside(stage->key)));
+        std::string hint = suggestion(entry.key, keys_beside(stage->key));
+        if (is_option)
+            hint = fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more", stage->key,
+                               stage->key, entry.key);
+        else if (is_common_key(entry.key))
+            hint = fmt::format("it stands beside one stage: give it to those of {}", stage->key);
+        problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is not a key of an item", entry.key), hint);
     }
     if (!stage && good) problems.add(item.mark, "E-STAGE", "the item has no stage", "- clip: {plane: z=0}");
     return good || known ? stage : nullptr; // its options are looked at, too

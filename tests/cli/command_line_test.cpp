@@ -41,6 +41,19 @@ TEST_CASE("an unknown command is answered with the nearest one", "[cli]") {
                                         "  hint: did you mean 'run'?\n");
 }
 
+TEST_CASE("a file or a ready pipeline in the place of the command is answered with one that takes it",
+          "[cli]") {
+    for (const char* word : {"convert", "scan.ply", "/scans/a"}) {
+        CAPTURE(word);
+        CHECK(message({word, "a.glb"})
+                  .find("hint: a mesh file is converted by facetmill pipe load IN ! write OUT") !=
+              std::string::npos);
+    }
+    CHECK(
+        message({"repair", "a.stl"}).find("hint: a pipeline runs by facetmill run repair -D input=FILE\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("an unknown option is answered with the nearest one", "[cli]") {
     CHECK(message({"run", "a.yaml", "--ouput-dir=x"}) ==
           "command line:1:22: error[E-OPTION]: 'run' has no option '--ouput-dir'\n"

@@ -293,6 +293,7 @@ class Keys(Cache):
         self.assertTrue(list(usual.rglob("*.scene")))
         self.assertEqual(usual.stat().st_mode & 0o777, 0o700)
         self.assertIn(str(usual), self.mill("cache", "stats", env=home).stdout)
+        self.assertEqual(self.mill("cache", "stats", env=home).stdout, self.mill("cache", env=home).stdout)
         for env in ({**home, "XDG_CACHE_HOME": "relative"}, {**home, "CI": "false"}):
             run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "--explain", "-o", "out", env=env)
             self.assertIn("relax: from the cache", run.stderr)

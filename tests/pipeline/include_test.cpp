@@ -110,6 +110,8 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     has("  - include: list.yaml\n", "list.yaml:1:1: error[E-TYPE]");
     has("  - include: broken.yaml\n", "broken.yaml:");
     has("  - include: needs.yaml\n    when: true\n", "'when' is not a key of an item");
+    has("  - include: needs.yaml\n    when: true\n",
+        "hint: it stands beside one stage: give it to those of include");
     CHECK_THROWS_AS(problems_in(folder, "  - include: gone.yaml\n"), Error);
 }
 

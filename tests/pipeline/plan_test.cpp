@@ -333,6 +333,9 @@ TEST_CASE("what a parameter is compared with is read by its type", "[pipeline]")
                                         "                     ^~\n"
                                         "  hint: did you mean 'low'?");
     CHECK(when("n: {type: integer, default: 3}", "${n} == three").find("error[E-TYPE]") == 0);
+    for (const char* other : {"${n} => 2", "${n} =< 2"})
+        CHECK(when("n: {type: integer, default: 3}", other)
+                  .find("hint: the operators are ==, !=, <, <=, > and >=") != std::string::npos);
     CHECK(when("l: {type: length, default: 2mm}", "${l} == 0.2cm") == "true");
     CHECK(
         when("l: {type: length, default: 2mm}", "${l} < 1%").find("error[E-WHEN]: '2mm' is in metres and") ==

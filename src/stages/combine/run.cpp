@@ -181,7 +181,9 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     part.changed = true;
     if (part.mesh.face_count() == 0)
         context.warn("W-COMBINE-NOTHING", fmt::format("combine: nothing of part '{}' remains", part.name),
-                     "check that the parts overlap; facetmill info prints their bounds");
+                     operation == Operation::subtract
+                         ? "the parts of 'with' cover it; facetmill info prints their bounds"
+                         : "check that the parts overlap; facetmill info prints their bounds");
     return report;
 }
 

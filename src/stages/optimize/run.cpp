@@ -1,4 +1,5 @@
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "geometry/edit/equal_wedges.hpp"
 #include "io/gltf/tidy.hpp"
 #include "mesh/equal_meshes.hpp"
@@ -438,6 +439,23 @@ class Optimizing {
     std::vector<bool> bound_;
 };
 
+/// What was erased, without what was not: "2 nodes".
+std::vector<std::string> told(const io::TidyCounts& erased) {
+    std::vector<std::string> words;
+    const auto add = [&](std::size_t count, const char* noun, const char* plural = "") {
+        if (count > 0) words.push_back(counted(count, noun, plural));
+    };
+    add(erased.nodes, "node");
+    add(erased.meshes, "mesh", "meshes");
+    add(erased.materials, "material");
+    add(erased.textures, "texture");
+    add(erased.samplers, "sampler");
+    add(erased.images, "image");
+    add(erased.accessors, "accessor");
+    add(erased.tracks, "track of animations", "tracks of animations");
+    return words;
+}
+
 void declare_erased(DeclareFields<io::TidyCounts>& d) {
     d.field("nodes", &io::TidyCounts::nodes, "That join has emptied, and the groups above them.");
     d.field("meshes", &io::TidyCounts::meshes, "Joined, equal to others, or unused.");
@@ -475,12 +493,12 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
     d.field("joined", &OptimizeReport::joined, "The names of the parts that others went into.");
     d.object("erased", &OptimizeReport::erased, "What the documents lost.", declare_erased);
     d.tell([](const OptimizeReport& r) {
-        const auto& e = r.erased;
-        return std::vector<std::string>{
-            fmt::format("{} -> {} draw calls, {} -> {} parts", grouped(r.draw_calls_before),
-                        grouped(r.draw_calls_after), grouped(r.parts_before), grouped(r.parts_after)),
-            fmt::format("erased: nodes {}, meshes {}, materials {}, textures {}, images {}, accessors {}",
-                        e.nodes, e.meshes, e.materials, e.textures, e.images, e.accessors)};
+        std::vector<std::string> lines{fmt::format("{} -> {} draw calls, {} -> {} parts",
+                                                   grouped(r.draw_calls_before), grouped(r.draw_calls_after),
+                                                   grouped(r.parts_before), grouped(r.parts_after))};
+        if (const auto erased = told(r.erased); !erased.empty())
+            lines.push_back(fmt::format("erased: {}", fmt::join(erased, ", ")));
+        return lines;
     });
 }
 
