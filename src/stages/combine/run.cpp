@@ -199,19 +199,19 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
         if (operand[i] == 2) second.push_back(&scene.parts[i]);
     }
     if (first.empty()) return scene;
-    std::vector<const Part*> gone; // as parts of their own
     if (o.operation == Operation::unite) {
-        gone.assign(first.begin() + 1, first.end());
-        std::vector<const Part*> others = gone;
+        std::vector<const Part*> others(first.begin() + 1, first.end());
         others.insert(others.end(), second.begin(), second.end());
         report.parts.push_back(combine_parts(*first[0], others, o.operation, context));
     } else {
         for (Part* part : first) report.parts.push_back(combine_parts(*part, second, o.operation, context));
     }
-    if (!o.keep) gone.insert(gone.end(), second.begin(), second.end());
     std::vector<Part> rest;
-    for (Part& part : scene.parts)
-        if (std::find(gone.begin(), gone.end(), &part) == gone.end()) rest.push_back(std::move(part));
+    for (std::size_t i = 0; i < operand.size(); ++i) {
+        Part& part = scene.parts[i];
+        const bool joined = operand[i] == 1 && o.operation == Operation::unite && &part != first.front();
+        if (!joined && (operand[i] != 2 || o.keep)) rest.push_back(std::move(part));
+    }
     scene.parts = std::move(rest);
     return scene;
 }

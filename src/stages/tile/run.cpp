@@ -117,11 +117,14 @@ class TileRun {
         std::vector<Part> parts;
         std::vector<const Part*> cut;
         context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
+        auto next = cut.begin(); // they are in the order of the scene
         for (Part& part : scene.parts) {
-            if (std::find(cut.begin(), cut.end(), &part) == cut.end())
+            if (next == cut.end() || *next != &part) {
                 parts.push_back(std::move(part));
-            else
-                cut_part(part, parts, report);
+                continue;
+            }
+            ++next;
+            cut_part(part, parts, report);
         }
         scene.parts = std::move(parts);
         if (report.cap_faces > 0) add_material(scene, cap_material);
