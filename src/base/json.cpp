@@ -9,7 +9,12 @@ namespace facetmill {
 
 Json parse_json(std::string_view text, Broken broken) {
     if (auto read = quick_json(text)) return *std::move(read);
-    return Json::parse(text.data(), text.data() + text.size(), nullptr, broken == Broken::thrown);
+    const char *const begin = text.data(), *const end = begin + text.size();
+    // Of a broken text nothing is made: the library would take the square of the number of members first.
+    const bool whole = Json::accept(begin, end);
+    const auto nothing = [](int, Json::parse_event_t, Json&) { return false; };
+    return Json::parse(begin, end, whole ? nullptr : Json::parser_callback_t(nothing),
+                       broken == Broken::thrown);
 }
 
 } // namespace facetmill

@@ -1,8 +1,8 @@
 #include "base/quick_json.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -85,21 +85,41 @@ class QuickReader {
                 skip_space();
                 if (at_ == end_ || *at_ != '"' || !string(key) || !takes(':') || !value(item, depth))
                     return false;
-                const auto same = [&](const auto& member) { return member.first == key; };
-                if (std::any_of(members_.begin() + static_cast<std::ptrdiff_t>(first), members_.end(), same))
-                    return false;
                 members_.emplace_back(std::move(key), std::move(item));
             } while (takes(','));
             if (!takes('}')) return false;
         }
         constexpr std::size_t some = 8; // documents get further lists: without room, they would be copied
-        Json::object_t all;
-        all.reserve(members_.size() - first + (depth == 1 ? some : 0));
-        for (std::size_t i = first; i < members_.size(); ++i)
-            all.emplace_back(std::move(members_[i].first), std::move(members_[i].second));
-        members_.resize(first);
-        out = std::move(all);
+        out = members_from(first, depth == 1 ? some : 0);
         return true;
+    }
+
+    /// The members from `first` on, which leave the stack. A key that is there again gives its value to the
+    /// first of its name, as in the library.
+    Json::object_t members_from(std::size_t first, std::size_t more) {
+        constexpr std::size_t few = 32; // so many keys are compared one by one; more are kept in order
+        const std::size_t count = members_.size() - first;
+        Json::object_t all;
+        all.reserve(count + more); // names below refers to its keys
+        std::map<std::string_view, Json*> names;
+        for (std::size_t i = first; i < members_.size(); ++i) {
+            std::string& key = members_[i].first;
+            Json* there = nullptr;
+            if (count <= few) {
+                for (auto& member : all)
+                    if (member.first == key) there = &member.second;
+            } else if (const auto found = names.find(key); found != names.end()) {
+                there = found->second;
+            }
+            if (there) {
+                *there = std::move(members_[i].second);
+                continue;
+            }
+            auto& added = all.emplace_back(std::move(key), std::move(members_[i].second));
+            if (count > few) names.emplace(added.first, &added.second);
+        }
+        members_.resize(first);
+        return all;
     }
 
     bool array(Json& out, int depth) {

@@ -9,11 +9,10 @@ namespace facetmill::io {
 
 namespace {
 
-unsigned number_of_byte(Span bytes, std::size_t at) { return std::to_integer<unsigned>(bytes[at]); }
-
-std::size_t big_endian_word(Span bytes, std::size_t at) {
+/// The number of so many bytes at a place that has them, the most significant first.
+std::size_t big_endian(Span bytes, std::size_t at, std::size_t size) {
     std::size_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | number_of_byte(bytes, at + i);
+    for (std::size_t i = 0; i < size; ++i) value = value << 8 | std::to_integer<std::size_t>(bytes[at + i]);
     return value;
 }
 
@@ -21,7 +20,7 @@ std::size_t big_endian_word(Span bytes, std::size_t at) {
 bool png_ends(Span bytes) {
     constexpr std::size_t around = 12; // length, type and checksum of a chunk
     for (std::size_t at = 8; at + around <= bytes.size();) {
-        const std::size_t length = big_endian_word(bytes, at), left = bytes.size() - at - around;
+        const std::size_t length = big_endian(bytes, at, 4), left = bytes.size() - at - around;
         if (length > left) return false;
         if (as_text(bytes.subspan(at + 4, 4)) == "IEND") return true;
         at += around + length;
@@ -33,14 +32,14 @@ bool png_ends(Span bytes) {
 std::size_t first_scan(Span bytes) {
     constexpr unsigned scan = 0xda, fill = 0xff, temporary = 0x01, first_restart = 0xd0, last_alone = 0xd9;
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
-        if (number_of_byte(bytes, at) != 0xff) return 0;
-        const unsigned marker = number_of_byte(bytes, at + 1);
+        if (big_endian(bytes, at, 1) != 0xff) return 0;
+        const auto marker = big_endian(bytes, at + 1, 1);
         if (marker == scan) return at;
         const bool alone = marker == temporary || (marker >= first_restart && marker <= last_alone);
         if (marker == fill)
             ++at;
         else
-            at += alone ? 2 : 2 + (number_of_byte(bytes, at + 2) << 8 | number_of_byte(bytes, at + 3));
+            at += alone ? 2 : 2 + big_endian(bytes, at + 2, 2);
     }
     return 0;
 }

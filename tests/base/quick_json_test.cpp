@@ -4,6 +4,8 @@
 
 #include "support/catch.hpp"
 
+#include <fmt/format.h>
+
 using namespace facetmill;
 
 namespace {
@@ -54,6 +56,7 @@ TEST_CASE("JSON is read as the library reads it", "[base]") {
                                    "\"\"",
                                    R"("\ud83d\ude00 \/")",
                                    "\"\xc3\xa9\"",
+                                   R"({"a": 1, "b": {"c": 2}, "a": {"b": 3}, "b": 4, "a": []})",
                                    R"({"": {"a": [[], {}, [{}]]}})"}) {
         INFO(text);
         const auto read = quick_json(text);
@@ -66,13 +69,34 @@ TEST_CASE("JSON is read as the library reads it", "[base]") {
 }
 
 TEST_CASE("what only the library reads is left to it", "[base]") {
-    for (const std::string text : {R"({"a": 1, "b": 2, "a": 3})", "\xef\xbb\xbf{}"}) {
-        INFO(text);
-        CHECK_FALSE(quick_json(text));
-        CHECK_FALSE(by_library(text).is_discarded());
-        CHECK(same(parse_json(text), by_library(text)));
-    }
+    const std::string marked = "\xef\xbb\xbf{}";
+    CHECK_FALSE(quick_json(marked));
+    CHECK_FALSE(by_library(marked).is_discarded());
+    CHECK(same(parse_json(marked), by_library(marked)));
     CHECK(same(parse_json("1e-400"), by_library("1e-400"))); // left to it by some standard libraries only
+}
+
+TEST_CASE("a key that is there again gives its value to the first, also of many", "[base]") {
+    for (const std::size_t count : {std::size_t{31}, std::size_t{32}, std::size_t{33}, std::size_t{200}}) {
+        std::string text;
+        for (std::size_t i = 0; i < count; ++i) // two thirds of the keys are different ones
+            text += fmt::format("{}\"a key that is long {}\": {}", i ? "," : "{",
+                                hashed(i, 5) % (count * 2 / 3), i);
+        const auto read = quick_json(text + "}");
+        REQUIRE(read);
+        CHECK(read->size() < count);
+        CHECK(same(*read, by_library(text + "}")));
+    }
+}
+
+TEST_CASE("many members are read in their number, not in its square", "[base]") {
+    std::string text; // a million: as a square, an hour
+    for (std::size_t i = 0; i < 1'000'000; ++i) text += fmt::format("{}\"{}\":0", i ? "," : "{", i);
+    const auto read = quick_json(text + "}");
+    REQUIRE(read);
+    CHECK(read->size() == 1'000'000);
+    CHECK(parse_json(text, Broken::discarded).is_discarded()); // without its end, which the library tells
+    CHECK_THROWS_AS(parse_json(text + "]"), Json::parse_error);
 }
 
 TEST_CASE("what is no JSON is refused", "[base]") {

@@ -1,43 +1,21 @@
 #include "stages/validate/document_contents.hpp"
 
 #include "base/json.hpp"
+#include "io/pixels.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
-#include <span>
 #include <utility>
 
 namespace facetmill::validate_stage {
 
 namespace {
 
-using Span = std::span<const std::byte>;
-
-/// Bytes b at i as an unsigned number, the highest first; 0 beyond the end.
-std::size_t big_endian(Span b, std::size_t i, std::size_t count) {
-    std::size_t value = 0;
-    for (std::size_t k = 0; k < count; ++k)
-        value = value << 8 | (i + k < b.size() ? std::to_integer<std::size_t>(b[i + k]) : 0);
-    return value;
-}
-
-/// Width and height of a PNG or JPEG by its header; 0 for others.
-std::pair<std::size_t, std::size_t> sides_of(Span b) {
-    if (big_endian(b, 0, 4) == 0x89504e47) return {big_endian(b, 16, 4), big_endian(b, 20, 4)};
-    if (big_endian(b, 0, 2) != 0xffd8) return {};
-    for (std::size_t i = 2; i + 9 < b.size();) { // segments: ff, kind, length
-        const std::size_t kind = big_endian(b, i + 1, 1);
-        if (big_endian(b, i, 1) != 0xff) return {};
-        const bool frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 && kind != 0xc8 && kind != 0xcc;
-        if (frame) return {big_endian(b, i + 7, 2), big_endian(b, i + 5, 2)};
-        i += 2 + big_endian(b, i + 2, 2);
-    }
-    return {};
-}
+using io::Span;
 
 DocumentImage image_of(std::string name, Span bytes) {
-    const auto [width, height] = sides_of(bytes);
+    const auto [width, height] = io::image_size(bytes).value_or(std::pair(0, 0));
     return {std::move(name), width, height};
 }
 

@@ -8,7 +8,7 @@
 
 namespace facetmill::validate_stage {
 
-/// An image of a document, a PNG or JPEG by its header; of others the sides are 0.
+/// An image of a document, a PNG, JPEG or WebP by its header; of others the sides are 0.
 struct DocumentImage {
     std::string name; ///< its name, its uri, or "image 3"
     std::size_t width = 0, height = 0;

@@ -156,7 +156,7 @@ void each_limit(Look&& look) {
                "each), 1.5MiB, 500KiB or 500K (1024 bytes each) or a number of bytes.",
                documents_bytes});
     look(Limit{"texture_pixels", &L::texture_pixels,
-               "The number of pixels of all PNG and JPEG images together (a count).", texture_pixels});
+               "The number of pixels of all PNG, JPEG and WebP images together (a count).", texture_pixels});
     look(Limit{"names", &L::names, "Patterns; the name of every part must match one of them.", names_of});
     look(Limit{"extensions", &L::extensions, "Names or patterns of the glTF extensions that may be used.",
                extension_names});
