@@ -3,6 +3,8 @@
 
 #include "cache/state.hpp"
 #include "pipeline/plan.hpp"
+#include "report/contents.hpp"
+#include "stage/surface_loss.hpp"
 
 #include <algorithm>
 
@@ -19,6 +21,12 @@ struct Recalled {
 struct Flow {
     Scene scene; ///< as it was before the steps that were recalled
     std::vector<Recalled> recalled;
+    /// What the last stage left, as long as `scene` is that.
+    struct Left {
+        report::Brief brief;
+        std::optional<std::vector<PartSurface>> surfaces;
+    };
+    std::optional<Left> left;
     /// Of the scene after them: scenes with one key are equal. Empty: not known yet.
     std::string key;
     /// Seconds that stages took since the last scene of this way that the cache has, less those that storing
@@ -70,6 +78,7 @@ struct Flow {
     }
     /// The scene has become another, which no key is known of.
     void replaced() {
+        left.reset();
         key.clear();
         begin_anew();
     }

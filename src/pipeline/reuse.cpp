@@ -258,7 +258,7 @@ void Reuse::keep_known(const Step& step, Flow& flow, const RunState& run, const 
             return warning.message.find(step.name) != std::string::npos;
         });
     if (tells_name) memory.told_name = step.name;
-    memory.bounds = flow.scene.bounds();
+    memory.bounds = stage.after->bounds;
     if (step.stage->loads)
         flow.loaded = {before.key, std::move(memory)};
     else
@@ -299,6 +299,7 @@ std::optional<Scene> Reuse::stored_scene(const std::string& key) {
 
 void Reuse::fetch(Flow& flow) {
     if (flow.is_here()) return;
+    flow.left.reset();
     std::size_t first = flow.recalled.size();
     for (; first > flow.inherited; --first) {
         const std::string& key = flow.recalled[first - 1].memory.scene;

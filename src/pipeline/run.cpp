@@ -17,8 +17,10 @@
 #include "report/contents.hpp"
 #include "report/render.hpp"
 #include "report/scene_picture.hpp"
+#include "stage/known_surfaces.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <fmt/format.h>
 #include <set>
 #include <sys/resource.h>
@@ -366,25 +368,29 @@ class Runner {
     bool perform_stage(const Step& step, Flow& flow, report::StageRecord& stage) {
         if (!fetch(step.where, fmt::format("'{}'", step.name), flow)) return false;
         Scene& scene = flow.scene;
-        stage.before = report::brief_of(scene);
+        auto left = std::exchange(flow.left, std::nullopt);
+        if (left && settings_.check_invariants) check_left(step, *left, scene);
+        stage.before = left ? left->brief : report::brief_of(scene);
+        auto surfaces = left ? std::move(left->surfaces) : std::nullopt;
         const auto before = reuse_.before(step, flow, state_);
         const Stopwatch watch;
         const Share share(settings_.progress);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
-            Context context(state_, stage, step.only, scene.bounds(), step.where);
+            Context context(state_, stage, step.only, stage.before->bounds, step.where);
             if (!step.only.patterns.empty() && !step.stage->loads)
                 warn_of_empty_selection(step, scene, context);
-            scene = perform(*step.stage, std::move(scene), step.options.get(), context);
+            scene = perform(*step.stage, std::move(scene), step.options.get(), context, surfaces);
             require_finite(scene);
             if (settings_.check_invariants) check_invariants(step, scene);
         });
         stage.seconds = watch.seconds();
         if (!done) return false;
         stage.after = report::brief_of(scene);
-        if (step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());
+        if (step.stage->loads) state_.load_diagonal = diagonal(stage.after->bounds);
         if (step.stage->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
         reuse_.keep(step, flow, state_, stage, before);
+        flow.left = {*stage.after, std::move(surfaces)};
         return true;
     }
 
@@ -421,6 +427,23 @@ class Runner {
             throw Error(
                 ErrorKind::bug, "E-INVARIANT",
                 fmt::format("'{}' left a scene that breaks an invariant: {}", step.name, broken.front()));
+    }
+
+    static void check_left(const Step& step, const Flow::Left& left, const Scene& scene) {
+        const auto same = [](const PartSurface& a, const PartSurface& b) {
+            const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); }; // it may be no number
+            return a.name == b.name && a.faces == b.faces && bits(a.area) == bits(b.area);
+        };
+        const auto surfaces = left.surfaces ? surfaces_of_parts(scene) : std::vector<PartSurface>();
+        const report::Brief brief = report::brief_of(scene);
+        if (left.brief.parts == brief.parts && left.brief.vertices == brief.vertices &&
+            left.brief.faces == brief.faces && left.brief.bounds.min == brief.bounds.min &&
+            left.brief.bounds.max == brief.bounds.max &&
+            (!left.surfaces || std::equal(surfaces.begin(), surfaces.end(), left.surfaces->begin(),
+                                          left.surfaces->end(), same)))
+            return;
+        throw Error(ErrorKind::bug, "E-INVARIANT",
+                    fmt::format("before '{}' the scene is no longer as the stage before left it", step.name));
     }
 
     /// The surface that a contract on the deviation compares with.

@@ -1,9 +1,11 @@
 #include "stage/stage.hpp"
 
 #include "base/words.hpp"
+#include "stage/known_surfaces.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace facetmill {
 
@@ -48,16 +50,26 @@ void leave_lines(const StageInfo& stage, const Scene& scene, Context& context) {
 } // namespace
 
 Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
-    prepare_crossing_faces(stage.crossing_faces_with ? stage.crossing_faces_with(options)
-                                                     : stage.crossing_faces,
-                           scene, context);
+    std::optional<std::vector<PartSurface>> unknown;
+    return perform(stage, std::move(scene), options, context, unknown);
+}
+
+Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context,
+              std::optional<std::vector<PartSurface>>& surfaces) {
+    auto known = std::exchange(surfaces, std::nullopt);
+    const CrossingFacePolicy crossing =
+        stage.crossing_faces_with ? stage.crossing_faces_with(options) : stage.crossing_faces;
+    if (crossing == CrossingFacePolicy::fill) known.reset(); // filled faces have another area
+    prepare_crossing_faces(crossing, scene, context);
     leave_lines(stage, scene, context);
     const MayLose may_lose = stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose;
     if (stage.checks || stage.loads || may_lose == MayLose::all)
         return stage.run(std::move(scene), options, context);
-    const auto before = surfaces_of_parts(scene);
+    const auto before = known ? *std::move(known) : surfaces_of_parts(scene);
     scene = stage.run(std::move(scene), options, context);
-    warn_of_lost_surface(before, surfaces_of_parts(scene), may_lose, context);
+    auto after = surfaces_of_parts(scene);
+    warn_of_lost_surface(before, after, may_lose, context);
+    surfaces = std::move(after);
     return scene;
 }
 

@@ -3,6 +3,7 @@
 #include "support/run_stage.hpp"
 
 #include "mesh/shapes.hpp"
+#include "stage/known_surfaces.hpp"
 
 using namespace facetmill;
 
@@ -76,6 +77,41 @@ TEST_CASE("surface is missed in every part, and in the scene when the parts are 
     const auto nothing = [](Scene) { return Scene{}; };
     CHECK(warned(MayLose::half, two, nothing) ==
           "'eat' lost surface of the scene: none of its 20 faces is left");
+}
+
+TEST_CASE("what one stage leaves of the surface is what the next one finds", "[stage]") {
+    StageInfo stage{.name = "eat", .about = "", .details = "", .examples = {}};
+    stage.run = [](Scene scene, const void*, Context&) { return leaving(8)(std::move(scene)); };
+    test::StageRun run;
+    run.record.name = "eat";
+    const PartFilter all;
+    Context context(*run.state, run.record, all, sheet().bounds(), {});
+    std::optional<std::vector<PartSurface>> surfaces;
+    const auto eaten = [&] {
+        run.record.warnings.clear();
+        const Scene left = perform(stage, sheet(), nullptr, context, surfaces);
+        CHECK(left.face_count() == 8);
+        return run.record.warnings.size();
+    };
+    CHECK(eaten() == 1);
+    REQUIRE(surfaces);
+    CHECK(surfaces->at(0).faces == 8);
+    CHECK(surfaces->at(0).area == surfaces_of_parts(leaving(8)(sheet())).at(0).area);
+    CHECK(eaten() == 0); // eight of eight, as it was told
+    surfaces->at(0).area = 1e3;
+    CHECK(eaten() == 1);
+
+    surfaces->at(0).area = 1e-3;
+    stage.crossing_faces = CrossingFacePolicy::fill; // before the stage, as others left none
+    CHECK(eaten() == 1);
+    stage.may_lose = MayLose::all;
+    CHECK(eaten() == 0);
+    CHECK_FALSE(surfaces);
+    surfaces.emplace();
+    stage.may_lose = MayLose::tenth;
+    stage.run = [](Scene, const void*, Context&) -> Scene { throw std::runtime_error("no"); };
+    CHECK_THROWS(perform(stage, sheet(), nullptr, context, surfaces));
+    CHECK_FALSE(surfaces);
 }
 
 TEST_CASE("areas beyond numbers are not compared", "[stage]") {

@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace facetmill {
 
 namespace {
 
-/// Compares wedges by the bits of all their attributes, then by index.
-class WedgeOrder {
+/// Compares wedges by the bits of all their attributes.
+class WedgeBits {
   public:
-    explicit WedgeOrder(const Mesh& mesh) {
+    explicit WedgeBits(const Mesh& mesh) {
         for (const auto& a : mesh.attributes)
             if (a.domain == Domain::wedge)
                 std::visit(
@@ -27,10 +28,6 @@ class WedgeOrder {
             if (const int order = std::memcmp(c.data + a * c.width, c.data + b * c.width, c.width))
                 return order;
         return 0;
-    }
-    bool operator()(Index a, Index b) const {
-        const int order = compare(a, b);
-        return order != 0 ? order < 0 : a < b;
     }
 
   private:
@@ -54,6 +51,29 @@ Groups wedges_of_vertices(const Mesh& mesh) {
     auto next = g.offsets;
     for (Index w = 0; w < mesh.wedge_count(); ++w) g.wedges[next[mesh.wedge_vertex[w]]++] = w;
     return g;
+}
+
+/// The first of the wedges of one vertex, which ascend, that each of them equals.
+void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, std::vector<Index>& different,
+                          std::vector<Index>& representative) {
+    constexpr std::size_t few = 32; // so many different ones are compared one by one
+    different.clear();
+    for (std::size_t i = 0; i < wedges.size() && different.size() <= few; ++i) {
+        const Index w = wedges[i];
+        const auto same = std::find_if(different.begin(), different.end(),
+                                       [&](Index other) { return bits.compare(other, w) == 0; });
+        representative[w] = same == different.end() ? w : *same;
+        if (same == different.end()) different.push_back(w);
+    }
+    if (different.size() <= few) return;
+    std::vector<Index> sorted(wedges.begin(), wedges.end());
+    std::sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
+        const int order = bits.compare(a, b);
+        return order != 0 ? order < 0 : a < b;
+    });
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        representative[sorted[i]] =
+            i > 0 && bits.compare(sorted[i - 1], sorted[i]) == 0 ? representative[sorted[i - 1]] : sorted[i];
 }
 
 /// Keeps the wedges that stand for themselves, in order; attributes follow.
@@ -81,19 +101,14 @@ std::size_t merge_equal_wedges(Mesh& mesh) {
     if (!mesh.has_seams()) return 0;
     const std::size_t before = mesh.wedge_count();
     const Groups groups = wedges_of_vertices(mesh);
-    const WedgeOrder order(mesh);
+    const WedgeBits bits(mesh);
     std::vector<Index> representative(mesh.wedge_count());
     parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
-        std::vector<Index> sorted;
-        for (std::size_t v = begin; v < end; ++v) {
-            sorted.assign(groups.wedges.begin() + groups.offsets[v],
-                          groups.wedges.begin() + groups.offsets[v + 1]);
-            std::sort(sorted.begin(), sorted.end(), order);
-            for (std::size_t i = 0; i < sorted.size(); ++i)
-                representative[sorted[i]] = i > 0 && order.compare(sorted[i - 1], sorted[i]) == 0
-                                                ? representative[sorted[i - 1]]
-                                                : sorted[i];
-        }
+        std::vector<Index> different;
+        for (std::size_t v = begin; v < end; ++v)
+            find_representatives(
+                {groups.wedges.data() + groups.offsets[v], groups.wedges.data() + groups.offsets[v + 1]},
+                bits, different, representative);
     });
     keep_representatives(mesh, representative);
     const std::size_t merged = before - mesh.wedge_count();

@@ -2,9 +2,10 @@
 
 #include "base/parallel.hpp"
 #include "io/gltf/quantise.hpp"
+#include "mesh/first_of_equal.hpp"
 
-#include <algorithm>
 #include <cstring>
+#include <functional>
 #include <string_view>
 
 namespace facetmill::io::gltf {
@@ -69,17 +70,10 @@ void merge_alike(const Mesh& mesh, Table& table, const std::vector<Column>& colu
     const std::size_t count = table.wedges.size();
     if (count == 0) return;
     const Rows rows = rows_of(mesh, table, columns, settings);
-    std::vector<Index> sorted(count);
-    for (Index i = 0; i < count; ++i) sorted[i] = i;
-    std::sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
-        const int order = rows.row(a).compare(rows.row(b));
-        return order != 0 ? order < 0 : a < b;
-    });
-    std::vector<Index> first(count), number(count, none), kept;
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool again = i > 0 && rows.row(sorted[i - 1]) == rows.row(sorted[i]);
-        first[sorted[i]] = again ? first[sorted[i - 1]] : sorted[i];
-    }
+    const std::vector<Index> first = first_of_equal(
+        count, [&](Index i) { return std::hash<std::string_view>()(rows.row(i)); },
+        [&](Index i, Index j) { return rows.row(i) == rows.row(j); });
+    std::vector<Index> number(count, none), kept;
     for (Index i = 0; i < count; ++i) {
         if (first[i] == i) {
             number[i] = static_cast<Index>(kept.size());

@@ -2,6 +2,8 @@
 
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
+#include "mesh/first_of_equal.hpp"
+#include "mesh/places.hpp"
 
 #include <algorithm>
 #include <array>
@@ -68,8 +70,16 @@ std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
             places[v][c] = static_cast<std::int64_t>(
                 std::floor((mesh.positions[v][c] - lattice.origin[c]) / lattice.step + 0.5));
     });
-    std::sort(places.begin(), places.end());
-    return static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());
+    const auto hash = [&](Index v) {
+        const auto [x, y, z] = places[v];
+        return place_hash(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y),
+                          static_cast<std::uint64_t>(z));
+    };
+    const auto equal = [&](Index v, Index w) { return places[v] == places[w]; };
+    const std::vector<Index> first = first_of_equal(places.size(), hash, equal);
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < first.size(); ++v) count += first[v] == v;
+    return count;
 }
 
 /// The step, or a half of it, a quarter ..., that keeps the vertices apart; the step itself if none does that

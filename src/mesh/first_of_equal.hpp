@@ -1,0 +1,26 @@
+#pragma once
+// Which of many items is the first that each one equals, by a hash table of their numbers.
+
+#include "mesh/mesh.hpp"
+
+#include <bit>
+
+namespace facetmill {
+
+/// For each of `count` items (fewer than 2^32) the least number of one that it equals. hash(i): a well-mixed
+/// number that equal items share; equal(i, j): whether two items are. Expected O(count), with 8 to 16 bytes
+/// an item beside the result, which depends on equal alone.
+template <class Hash, class Equal>
+std::vector<Index> first_of_equal(std::size_t count, Hash&& hash, Equal&& equal) {
+    std::vector<Index> first(count), slots(std::bit_ceil(2 * count + 1), none);
+    const std::size_t mask = slots.size() - 1;
+    for (Index i = 0; i < count; ++i) {
+        std::size_t s = static_cast<std::size_t>(hash(i)) & mask;
+        while (slots[s] != none && !equal(slots[s], i)) s = (s + 1) & mask;
+        if (slots[s] == none) slots[s] = i;
+        first[i] = slots[s];
+    }
+    return first;
+}
+
+} // namespace facetmill
