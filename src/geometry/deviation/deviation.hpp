@@ -11,9 +11,9 @@ namespace facetmill {
 struct DeviationSettings {
     std::size_t samples =
         100000; ///< each way, spread evenly over the area; besides, every vertex is a sample
-    /// The means are of as many ninths of the samples as it takes for the standard error of the RMS,
-    /// estimated from samples side by side, to be at most this part of it; else of all. The maximum is of all
-    /// even then, but for those of triangles where eight or more are averaged and stay below half of it.
+    /// The means are of as many 18ths of the samples, two at least, as it takes for the standard error of the
+    /// RMS, estimated from samples side by side, to be at most this part of it; else of all. The maximum is
+    /// of all even then.
     double mean_error = 0.005;
     std::uint64_t seed = 1;
     bool certify = false; ///< also compute DirectedDeviation::bound

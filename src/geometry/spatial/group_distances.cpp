@@ -9,7 +9,7 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t few_nodes = 24;  ///< of one level; with more, points by themselves are as fast
+constexpr std::size_t few_nodes = 24;  ///< of one level; with more, smaller groups are as fast
 constexpr std::size_t many_nodes = 64; ///< likewise; with more, smaller groups of parts are as fast
 constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are too coarse for points beyond
 /// How far a sum of a few float32 numbers below 2 may be off; points that close to an edge count as beside
@@ -80,7 +80,7 @@ bool GroupDistances::place(std::span<const Vec3> points, const Vec3& centre, dou
         z_[i / 4][i % 4] = static_cast<float>(p.z);
     }
     for (std::size_t i = 0; i < fours_; ++i) {
-        least_[i] = four(HUGE_VALF);
+        least_[i] = second_[i] = four(HUGE_VALF);
         nearest_[i] = Int4{};
     }
     return true;
@@ -113,11 +113,12 @@ Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::si
 /// Lowers the squared distances to those to one triangle.
 void GroupDistances::compare(const Flat& t, Index triangle) {
     for (std::size_t i = 0; i < fours_; ++i) {
-        const Float4 least = least_[i];
+        const Float4 least = least_[i], second = second_[i];
         if (bits_of(least > four(done_square_)) == 0) continue;
-        const Float4 square = squares_below(least, t, i);
+        const Float4 square = squares_below(second, t, i);
         const Int4 nearer = square < least;
         least_[i] = nearer ? square : least;
+        second_[i] = nearer ? least : lesser(second, square);
         nearest_[i] = nearer ? Int4{} + static_cast<std::int32_t>(triangle) : nearest_[i];
     }
 }
@@ -130,7 +131,9 @@ float GroupDistances::square_exactly(const Vec3& p, Index triangle) const {
 void GroupDistances::compare_exactly(std::span<const Vec3> points, Index triangle) {
     for (std::size_t i = 0; i < 4 * fours_; ++i) {
         const float square = square_exactly(points[i < points.size() ? i : 0], triangle);
-        if (!(square < least_[i / 4][i % 4])) continue;
+        const float least = least_[i / 4][i % 4];
+        second_[i / 4][i % 4] = std::min(second_[i / 4][i % 4], std::max(least, square));
+        if (!(square < least)) continue;
         least_[i / 4][i % 4] = square;
         nearest_[i / 4][i % 4] = static_cast<std::int32_t>(triangle);
     }
@@ -211,8 +214,28 @@ bool GroupDistances::compare_until(float enough_square, std::span<const Vec3> po
 void GroupDistances::take_distances(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         distances_[i] = std::sqrt(double{least_[i / 4][i % 4]}) / scale_;
+        seconds_[i] = std::sqrt(double{second_[i / 4][i % 4]}) / scale_;
         triangles_[i] = static_cast<Index>(nearest_[i / 4][i % 4]);
     }
+}
+
+/// A triangle that is farther from the box of the points is the closest to none of them, and for certain so.
+double GroupDistances::limit() const { return std::sqrt(double{farthest_square()}) / scale_ + 3 * error_; }
+
+/// Compares all points with the triangles below the gathered nodes that may be nearer than those so far, but
+/// for those of one leaf. False when they are so many that points by themselves are as fast.
+bool GroupDistances::compare_nearer(std::span<const Vec3> points, const Box& box, std::uint32_t but) {
+    constexpr std::size_t most_triangles = 3; // for each point
+    BoxQuery query(tree_, box, limit());
+    children_.clear();
+    for (const std::uint32_t leaf : nodes_) {
+        if (leaf == but) continue;
+        for (unsigned bits = query.near(tree_.node(0, leaf)); bits != 0; bits &= bits - 1)
+            children_.push_back(4 * leaf + static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
+    if (children_.size() > most_triangles * points.size()) return false;
+    for (const std::uint32_t triangle : children_) compare(points, triangle);
+    return true;
 }
 
 bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
@@ -222,10 +245,11 @@ bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
     if (closest.triangle == none) return false;
     hint = closest.triangle;
     if (!place(points, box.centre(), box.diagonal() + closest.distance)) return false;
-    compare(points, closest.triangle);
-    const double limit = std::sqrt(double{farthest_square()}) / scale_ + error_;
-    if (!gather(box, limit, few_nodes)) return false;
-    compare_until(-1, points, box, limit);
+    // Those beside the closest bring the limit down.
+    const std::uint32_t leaf = closest.triangle / 4;
+    for (std::size_t t = 4 * std::size_t{leaf}; t < std::min(4 * std::size_t{leaf} + 4, tree_.size()); ++t)
+        compare(points, static_cast<Index>(t));
+    if (!gather(box, limit(), few_nodes) || !compare_nearer(points, box, leaf)) return false;
     take_distances(points.size());
     return true;
 }
@@ -237,8 +261,7 @@ float GroupDistances::enough_square(double distance) const {
 }
 
 bool GroupDistances::all_within(std::span<const Vec3> points, double distance, Index& hint) {
-    forget();
-    too_many_ = false;
+    distances_.fill(HUGE_VAL); // nothing has been shown
     if (tree_.empty() || !(distance > 0)) return false;
     const Box box = box_around(points);
     if (!place(points, box.centre(), box.diagonal() + distance)) return false;
@@ -248,41 +271,50 @@ bool GroupDistances::all_within(std::span<const Vec3> points, double distance, I
     if (hint != none) compare(points, hint);
     bool all = hint != none && farthest_square() <= square;
     if (!all) {
-        too_many_ = !gather(box, distance, few_nodes);
-        all = !too_many_ && compare_until(square, points, box, distance);
+        all = gather(box, distance, few_nodes) && compare_until(square, points, box, distance);
     }
     take_distances(points.size());
     if (all) hint = triangles_[points.size() - 1];
     return all;
 }
 
-/// A bit for each of the points whose squared distance to the triangle is below that.
-std::uint32_t GroupDistances::which_within(std::span<const Vec3> points, float square, Index triangle) const {
+/// A bit for each of the points whose squared distance to the triangle is below that; of those in `among` all
+/// such.
+std::uint32_t GroupDistances::which_within(std::span<const Vec3> points, float square, Index triangle,
+                                           std::uint32_t among) const {
     std::uint32_t within = 0;
     Flat flat;
     const auto [a, b, c] = tree_.triangle(triangle);
-    if (flat.set((a - centre_) * scale_, (b - centre_) * scale_, (c - centre_) * scale_))
+    if (flat.set((a - centre_) * scale_, (b - centre_) * scale_, (c - centre_) * scale_)) {
         for (std::size_t i = 0; i < fours_; ++i)
-            within |= bits_of(squares_below(four(square), flat, i) < four(square)) << 4 * i;
-    else
+            if ((among >> 4 * i & 15) != 0)
+                within |= bits_of(squares_below(four(square), flat, i) < four(square)) << 4 * i;
+    } else {
         for (std::size_t i = 0; i < points.size(); ++i)
-            within |= std::uint32_t{square_exactly(points[i], triangle) < square} << i;
+            if ((among >> i & 1) != 0)
+                within |= std::uint32_t{square_exactly(points[i], triangle) < square} << i;
+    }
     return within;
+}
+
+bool GroupDistances::lay_out(std::span<const Vec3> points, double distance) {
+    if (tree_.empty() || !(distance > 0)) return false;
+    const Box box = box_around(points);
+    if (!place(points, box.centre(), box.diagonal() + distance)) return false;
+    done_square_ = enough_square(distance);
+    return done_square_ > 0;
 }
 
 void GroupDistances::remove_within(std::span<const Vec3> points, double distance,
                                    std::vector<std::uint32_t>& sets, Index& hint) {
-    if (tree_.empty() || !(distance > 0)) return;
-    const Box box = box_around(points);
-    if (!place(points, box.centre(), box.diagonal() + distance)) return;
-    const float square = enough_square(distance);
-    if (!(square > 0)) return;
+    if (!lay_out(points, distance)) return;
     const auto done = [&](Index triangle) {
-        const std::uint32_t within = which_within(points, square, triangle);
-        const auto covered = [&](std::uint32_t set) { return (set & ~within) == 0; };
-        if (within != 0 && std::erase_if(sets, covered) > 0) hint = triangle;
+        const std::uint32_t near = within(points, triangle, ~std::uint32_t{0});
+        const auto covered = [&](std::uint32_t set) { return (set & ~near) == 0; };
+        if (near != 0 && std::erase_if(sets, covered) > 0) hint = triangle;
         return sets.empty();
     };
+    const Box box = box_around(points);
     if ((hint != none && done(hint)) || !gather(box, distance, many_nodes)) return;
     const BoxQuery query(tree_, box, distance);
     for (const std::uint32_t leaf : nodes_)

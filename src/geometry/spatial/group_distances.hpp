@@ -28,10 +28,15 @@ class GroupDistances {
     /// Tries to show that 1 to `most` finite points are all within a distance, which needs fewer triangles.
     /// hint as above. What has been shown of each is distance(i) + error(): not less than its distance.
     bool all_within(std::span<const Vec3> points, double distance, Index& hint);
-    /// Of points that are not tried together nothing has been shown.
-    void forget() { distances_.fill(HUGE_VAL); }
-    /// Whether that was not found out, since there are so many triangles around the points.
-    bool too_many() const { return too_many_; }
+
+    /// Lays out 1 to `most` finite points to ask `within`, until anything else is asked. False when that
+    /// could not be told of a distance so small, or of points so far away.
+    bool lay_out(std::span<const Vec3> points, double distance);
+    /// Which of the points laid out are for certain within the distance of a triangle of the tree: bit i for
+    /// the i-th. Of those in `among` all that can be told.
+    std::uint32_t within(std::span<const Vec3> points, Index triangle, std::uint32_t among) const {
+        return which_within(points, done_square_, triangle, among);
+    }
 
     /// Removes from `sets`, of which each has bit i for the i-th of 1 to `most` finite points, those whose
     /// points all are within a distance of one and the same triangle: so is all between them. What cannot be
@@ -46,6 +51,8 @@ class GroupDistances {
     double error() const { return error_; }
     /// In the tree's order: the closest triangle, or one that is as close up to the error.
     Index triangle(std::size_t i) const { return triangles_[i]; }
+    /// Whether no other triangle is as close as that one.
+    bool is_certain(std::size_t i) const { return seconds_[i] - distances_[i] > 2 * error_; }
 
   private:
     struct Flat;
@@ -53,21 +60,23 @@ class GroupDistances {
     bool place(std::span<const Vec3> points, const Vec3& centre, double reach);
     bool gather(const Box& box, double limit, std::size_t most_nodes);
     bool compare_until(float enough_square, std::span<const Vec3> points, const Box& box, double limit);
+    bool compare_nearer(std::span<const Vec3> points, const Box& box, std::uint32_t but);
+    double limit() const;
     void take_distances(std::size_t count);
     Float4 squares_below(const Float4& limit, const Flat& flat, std::size_t four) const;
     void compare(const Flat& flat, Index triangle);
     float square_exactly(const Vec3& p, Index triangle) const;
     float enough_square(double distance) const;
-    std::uint32_t which_within(std::span<const Vec3> points, float square, Index triangle) const;
+    std::uint32_t which_within(std::span<const Vec3> points, float square, Index triangle,
+                               std::uint32_t among) const;
     void compare_exactly(std::span<const Vec3> points, Index triangle);
     void compare(std::span<const Vec3> points, Index triangle);
     float farthest_square() const;
 
     const FaceTree& tree_;
-    std::array<double, most> distances_{};
+    std::array<double, most> distances_{}, seconds_{}; ///< to the closest triangle, and the next
     std::array<Index, most> triangles_{};
-    double error_ = 0; ///< in the surface's units
-    bool too_many_ = false;
+    double error_ = 0;       ///< in the surface's units
     float done_square_ = -1; ///< points that are this near need not be compared with more triangles
 
     std::vector<std::uint32_t> nodes_,
@@ -77,8 +86,9 @@ class GroupDistances {
     Vec3 centre_;
     double scale_ = 1;
     std::size_t fours_ = 0;
-    std::array<Float4, most / 4> x_, y_, z_, least_; ///< points, and their squared distances
-    std::array<Int4, most / 4> nearest_;             ///< triangles
+    std::array<Float4, most / 4> x_, y_, z_;      ///< points
+    std::array<Float4, most / 4> least_, second_; ///< their squared distances, as above
+    std::array<Int4, most / 4> nearest_;          ///< triangles
 };
 
 } // namespace facetmill

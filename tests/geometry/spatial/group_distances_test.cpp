@@ -44,7 +44,7 @@ TEST_CASE("points of a group are as far as each by itself, up to the error, what
     for (const Mesh& mesh : grouped_meshes()) {
         const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
         GroupDistances together(tree), elsewhere(tree);
-        std::size_t measured = 0;
+        std::size_t measured = 0, certain = 0;
         Index hint = none;
         for (std::uint64_t k = 0; k < 2000; ++k) {
             const auto points = group_of(mesh, k);
@@ -56,7 +56,12 @@ TEST_CASE("points of a group are as far as each by itself, up to the error, what
             Box box;
             for (const Vec3& p : points) box.add(p);
             for (std::size_t i = 0; i < points.size(); ++i) {
-                const double exact = closest_point(tree, points[i]).distance;
+                const Closest closest = closest_point(tree, points[i]);
+                const double exact = closest.distance;
+                if (together.is_certain(i)) {
+                    REQUIRE(together.triangle(i) == closest.triangle);
+                    ++certain;
+                }
                 REQUIRE(std::abs(together.distance(i) - exact) <= together.error());
                 REQUIRE(closest_on(tree, together.triangle(i), points[i]).distance <=
                         exact + 2 * together.error());
@@ -65,6 +70,7 @@ TEST_CASE("points of a group are as far as each by itself, up to the error, what
             }
         }
         CHECK(measured > 500);
+        CHECK(certain > 500);
     }
 }
 
@@ -78,6 +84,9 @@ TEST_CASE("groups too far away for their frame, and without a place, are refused
     hint = none;
     CHECK_FALSE(with_nothing.measure(std::vector<Vec3>{{0, 0, 0}}, hint));
     CHECK_FALSE(with_nothing.all_within(std::vector<Vec3>{{0, 0, 0}}, 1, hint));
+    CHECK_FALSE(with_nothing.lay_out(std::vector<Vec3>{{0, 0, 0}}, 1));
+    CHECK_FALSE(together.lay_out(std::vector<Vec3>{{1e6, 0, 0}}, 1));
+    CHECK_FALSE(together.lay_out(std::vector<Vec3>{{0, 0, 0}}, 0));
     CHECK(with_nothing.distance(0) == HUGE_VAL);
 }
 
@@ -97,6 +106,34 @@ TEST_CASE("a group is within a distance when each point is, whatever the hint", 
             shown += together.all_within(points, farthest * 1.5, hint);
         }
         CHECK(shown > 500);
+    }
+}
+
+TEST_CASE("points are within a distance of a triangle for certain, those that are asked about",
+          "[geometry]") {
+    for (const Mesh& mesh : grouped_meshes()) {
+        const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
+        GroupDistances together(tree);
+        std::size_t near = 0, far = 0;
+        for (std::uint64_t k = 0; k < 2000; ++k) {
+            const auto points = group_of(mesh, k);
+            const Index triangle = closest_point(tree, points[hashed(3, k) % points.size()]).triangle;
+            std::vector<double> exact;
+            for (const Vec3& p : points) exact.push_back(closest_on(tree, triangle, p).distance);
+            const double distance = exact[hashed(4, k) % points.size()];
+            if (!together.lay_out(points, distance)) continue;
+            const auto among = static_cast<std::uint32_t>(hashed(5, k));
+            const std::uint32_t all = together.within(points, triangle, ~std::uint32_t{0}),
+                                some = together.within(points, triangle, among);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                if (all >> i & 1) REQUIRE(exact[i] <= distance);
+                if (exact[i] <= distance - 3 * together.error()) REQUIRE((all >> i & 1));
+                if (among >> i & 1) REQUIRE((some >> i & 1) == (all >> i & 1));
+                ++(all >> i & 1 ? near : far);
+            }
+        }
+        CHECK(near > 500);
+        CHECK(far > 500);
     }
 }
 

@@ -1,0 +1,39 @@
+#pragma once
+// Points spread over a surface by its area, each computed when it is asked for.
+
+#include "mesh/surface.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace facetmill {
+
+/// The k-th of `size` samples lies in the k-th of as many equal parts of the area, taken triangle by
+/// triangle, so those of a triangle follow each other. They depend on the surface, their number and the seed
+/// only.
+class AreaSamples {
+  public:
+    /// Of a surface that stays as it is for as long as its samples are asked for. None when it has no area.
+    AreaSamples(const Surface& surface, std::size_t count, std::uint64_t seed);
+
+    std::size_t size() const { return size_; }
+    /// The first of a triangle, or of those after it; first(surface.size()) is size().
+    std::size_t first(std::size_t triangle) const { return firsts_[triangle]; }
+    std::size_t triangle_of(std::size_t k) const;
+    /// Sample k, which is one of the triangle.
+    Vec3 point(std::size_t k, std::size_t triangle) const;
+
+  private:
+    double begin_of(std::size_t k) const;
+    double place_of(std::size_t k) const;
+    bool is_before(std::size_t k, double area) const;
+    std::size_t count_before(double area) const;
+
+    const Surface& surface_;
+    std::size_t size_ = 0;
+    std::uint64_t seed_;
+    double area_ = 0, start_u_, start_v_;
+    std::vector<std::size_t> firsts_; ///< [triangles + 1]
+};
+
+} // namespace facetmill

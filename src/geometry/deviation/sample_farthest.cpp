@@ -1,0 +1,197 @@
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "geometry/deviation/bound.hpp"
+#include "geometry/deviation/sample_groups.hpp"
+#include "geometry/deviation/sample_walk.hpp"
+#include "geometry/spatial/group_distances.hpp"
+
+#include <array>
+#include <bit>
+
+namespace facetmill {
+
+/// Points whose distance is known, the last few of them, and triangles near them.
+class SampleWalk::Known {
+  public:
+    static constexpr std::size_t few = 8;
+
+    void add(const Vec3& point, double distance, Index triangle) {
+        Item& item = items_[next_];
+        next_ = (next_ + 1) % items_.size();
+        item = {point, distance, triangle};
+    }
+    /// Sets `near` to the triangle of the nearest, if there is one. Returns whether one of them shows that p
+    /// is within `distance`: no point is farther than from it and from there.
+    bool show_within(const Vec3& p, double distance, Index& near) const {
+        double least = HUGE_VAL;
+        for (const Item& item : items_) {
+            const Vec3 off = p - item.point;
+            const double square = dot(off, off), left = distance - item.distance;
+            if (left > 0 && square < left * left * (1 - 1e-9)) return true;
+            if (!(square < least) || item.triangle == none) continue;
+            least = square;
+            near = item.triangle;
+        }
+        return false;
+    }
+
+  private:
+    struct Item {
+        Vec3 point;
+        double distance = HUGE_VAL;
+        Index triangle = none;
+    };
+    std::array<Item, few> items_{};
+    std::size_t next_ = 0;
+};
+
+/// Raises `best` if p is farther, and returns a point that is as near as that, or the closest. The
+/// coordinates of samples are rounded, those of vertices are not.
+Closest SampleWalk::consider(const Vec3& p, Index triangle, Index hint, Farthest& best) const {
+    const double none_below = triangle == none ? 0 : distance_of_none(p);
+    const Closest c = closest_point(to_, p, hint, std::max(best.distance, none_below));
+    const double distance = c.distance <= none_below ? 0 : c.distance;
+    if (distance > best.distance) best = {p, c.point, distance, triangle};
+    return c;
+}
+
+/// Points that wait to be compared with the farthest together.
+struct SampleWalk::Candidates {
+    struct Waiting {
+        Vec3 point;
+        Index triangle; ///< that it is on, none for vertices
+        Index near;     ///< a triangle of the other surface, if one is known
+    };
+
+    const SampleWalk& walk;
+    GroupDistances together;
+    Farthest best;
+    std::vector<Waiting> waiting{};
+    std::vector<Vec3> points{};
+    Index hint = none;
+    Attempts attempts{};
+    Known known{};
+
+    void add_vertex(const Vec3& p) {
+        waiting.push_back({p, none, none});
+        if (waiting.size() == GroupDistances::most) finish();
+    }
+
+    void add_unmeasured(const MeasuredSamples& samples, Index t) {
+        constexpr std::size_t many = 16; // are more work one by one than together, and than the corners
+        const std::size_t begin = samples.points.first(t), end = samples.points.first(t + std::size_t{1});
+        const bool together = end - begin >= many;
+        add_known(samples, t);
+        if (together && is_within(t)) return;
+        for (std::size_t i = begin; i < end; ++i)
+            if (samples.distances[i] == MeasuredSamples::unmeasured)
+                add_sample(samples.points.point(i, t), t, together);
+        if (waiting.size() >= GroupDistances::most / 2) finish();
+    }
+
+    void add_known(const MeasuredSamples& samples, Index t) {
+        const std::size_t begin = samples.points.first(t);
+        std::size_t left = Known::few;
+        for (std::size_t i = samples.points.first(t + std::size_t{1}); i > begin && left > 0;) {
+            if (samples.distances[--i] == MeasuredSamples::unmeasured) continue;
+            known.add(samples.points.point(i, t), at_most(samples.distances[i]), samples.nearest[i]);
+            --left;
+        }
+    }
+
+    /// Whether the corners of a triangle, and so all of it, are within the farthest of one and the same
+    /// triangle.
+    bool is_within(Index t) const {
+        const Vec3 &a = walk.from_.point(t, 0), &b = walk.from_.point(t, 1), &c = walk.from_.point(t, 2);
+        Index near = none;
+        known.show_within((a + b + c) / 3, -1, near);
+        const auto is_near = [&](const Vec3& corner) { // samples are rounded
+            return closest_on(walk.to_, near, corner).distance <= best.distance - distance_of_none(corner);
+        };
+        return near != none && is_near(a) && is_near(b) && is_near(c);
+    }
+
+    void add_sample(const Vec3& p, Index t, bool together) {
+        Index near = none;
+        if (known.show_within(p, best.distance, near)) return;
+        if (together || near == none || !(closest_on(walk.to_, near, p).distance <= best.distance))
+            waiting.push_back({p, t, near});
+    }
+
+    /// What was measured of a sample may be off.
+    double at_most(double distance) const {
+        return distance + std::max(distance / (MeasuredSamples::most_errors - 1),
+                                   best.distance * MeasuredSamples::least_part);
+    }
+
+    void finish() {
+        if (!waiting.empty()) compare(waiting);
+        waiting.clear();
+    }
+
+    void compare(std::span<Waiting> some) {
+        if (some.size() <= GroupDistances::most) return compare_group(some);
+        const std::size_t half = halved(some);
+        compare(some.first(half));
+        compare(some.subspan(half));
+    }
+
+    /// Those that are not yet known to be within the farthest are looked up, one after the other. What is
+    /// closest to one is tried for the others.
+    void compare_group(std::span<const Waiting> some) {
+        points.clear();
+        for (const Waiting& w : some) points.push_back(w.point);
+        std::uint32_t left = ~std::uint32_t{0} >> (GroupDistances::most - some.size());
+        double laid_out = 0;
+        if (some[0].near != none) hint = some[0].near;
+        if (hint != none) left &= ~within(left, laid_out);
+        while (left != 0) {
+            const Waiting& w = some[static_cast<std::size_t>(std::countr_zero(left))];
+            const Closest c = walk.consider(w.point, w.triangle, w.near == none ? hint : w.near, best);
+            hint = c.triangle;
+            known.add(w.point, c.distance, c.triangle);
+            left &= left - 1;
+            left &= ~within(left, laid_out);
+        }
+    }
+
+    /// Which of them are within the farthest of the triangle `hint`, as far as that is tried.
+    std::uint32_t within(std::uint32_t left, double& laid_out) {
+        if (left == 0 || !attempts.next()) return 0;
+        if (laid_out < best.distance) laid_out = together.lay_out(points, best.distance) ? best.distance : 0;
+        const std::uint32_t near = laid_out > 0 ? together.within(points, hint, left) & left : 0;
+        attempts.note(near != 0);
+        return near;
+    }
+};
+
+/// The farthest of what add(triangle, candidates) adds for each triangle, in chunks of so many.
+template <class Add>
+Farthest SampleWalk::farthest(double least, std::size_t chunk, const Add& add) const {
+    Share::loop_tells();
+    return parallel_reduce(
+        order_.size(), Farthest{},
+        [&](std::size_t begin, std::size_t end) {
+            Candidates candidates{*this, GroupDistances(to_), {{}, {}, least}};
+            for (std::size_t i = begin; i < end; ++i) add(order_[i], candidates);
+            candidates.finish();
+            return candidates.best;
+        },
+        farther_of, chunk);
+}
+
+Farthest SampleWalk::farthest_vertex(double least) const {
+    return farthest(least, 4096, [&](Index t, Candidates& candidates) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = from_.corners[3 * std::size_t{t} + k];
+            if (first_uses_[v] == t) candidates.add_vertex(from_.positions[v]);
+        }
+    });
+}
+
+Farthest SampleWalk::farthest_sample(const MeasuredSamples& samples, double least) const {
+    return farthest(least, samples_chunk(),
+                    [&](Index t, Candidates& candidates) { candidates.add_unmeasured(samples, t); });
+}
+
+} // namespace facetmill

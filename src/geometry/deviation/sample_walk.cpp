@@ -1,0 +1,170 @@
+#include "geometry/deviation/sample_walk.hpp"
+
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "geometry/deviation/bound.hpp"
+#include "geometry/deviation/sample_groups.hpp"
+#include "geometry/spatial/group_distances.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace facetmill {
+
+namespace {
+
+/// The part that each of 18 samples in a row is of: the digits of its number in bases 2, 3 and 3 in reverse,
+/// so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen" (1935).
+constexpr std::array<std::uint8_t, MeasuredSamples::all_parts> parts_of_row() {
+    std::array<std::uint8_t, MeasuredSamples::all_parts> parts{};
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        const std::size_t at = part % 2 * 9 + part / 2 % 3 * 3 + part / 6;
+        parts[at] = static_cast<std::uint8_t>(part);
+    }
+    return parts;
+}
+
+std::size_t part_of(std::size_t sample) {
+    static constexpr auto parts = parts_of_row();
+    return parts[sample % parts.size()];
+}
+
+/// Which triangle, of those that use it, is the first; none for vertices that are not finite.
+std::vector<Index> first_uses(const Surface& surface) {
+    std::vector<Index> first(surface.positions.size(), none);
+    for (std::size_t c = surface.corners.size(); c-- > 0;)
+        first[surface.corners[c]] = static_cast<Index>(c / 3);
+    parallel_for(first.size(), [&](std::size_t v) {
+        if (!is_finite(surface.positions[v])) first[v] = none;
+    });
+    return first;
+}
+
+} // namespace
+
+SampleWalk::SampleWalk(const Surface& from, std::span<const Index> order, const FaceTree& to)
+    : from_(from), order_(order), to_(to), first_uses_(first_uses(from)) {}
+
+std::size_t SampleWalk::vertex_count() const {
+    return first_uses_.size() -
+           static_cast<std::size_t>(std::count(first_uses_.begin(), first_uses_.end(), none));
+}
+
+std::vector<Vec3> SampleWalk::vertices() const {
+    std::vector<Vec3> points;
+    for (std::size_t v = 0; v < first_uses_.size(); ++v)
+        if (first_uses_[v] != none) points.push_back(from_.positions[v]);
+    return points;
+}
+
+std::size_t SampleWalk::samples_chunk() const { return std::clamp<std::size_t>(order_.size() / 64, 1, 4096); }
+
+/// Samples that wait to be measured together. Only those that may be the farthest are looked up.
+struct SampleWalk::Groups {
+    struct Waiting {
+        Vec3 point;
+        std::size_t sample;
+        Index triangle;
+    };
+
+    const SampleWalk& walk;
+    MeasuredSamples& samples;
+    GroupDistances together;
+    Farthest best;
+    std::vector<Waiting> waiting{};
+    std::vector<Vec3> points{};
+    Index hint = none;
+    static constexpr std::size_t fewest = 8;
+    std::size_t size = GroupDistances::most; ///< up to so many are tried together
+    Attempts attempts{};
+
+    void add(Index t, std::size_t parts) {
+        for (std::size_t i = samples.points.first(t); i < samples.points.first(t + std::size_t{1}); ++i)
+            if (part_of(i) < parts && samples.distances[i] == MeasuredSamples::unmeasured)
+                waiting.push_back({samples.points.point(i, t), i, t});
+        if (waiting.size() >= GroupDistances::most / 2) finish();
+    }
+
+    void finish() {
+        if (!waiting.empty()) measure(waiting);
+        waiting.clear();
+    }
+
+    /// Halved across the middle of the longest side until they are few enough to be measured together, which
+    /// is fewer where the other surface has many triangles.
+    void measure(std::span<Waiting> some) {
+        if (some.size() <= size) {
+            if (measure_group(some)) return;
+            if (some.size() <= fewest) {
+                for (const Waiting& w : some) measure_alone(w, hint);
+                return;
+            }
+            size = std::max(fewest, some.size() / 2);
+        }
+        const std::size_t half = halved(some);
+        measure(some.first(half));
+        measure(some.subspan(half));
+    }
+
+    /// False when each is to be measured by itself.
+    bool measure_group(std::span<const Waiting> some) {
+        if (!measures_together(some)) return false;
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            const double distance = together.distance(k);
+            const double allowed = std::max(distance / MeasuredSamples::most_errors,
+                                            best.distance * MeasuredSamples::least_part);
+            if (together.error() > allowed) {
+                const Index near = together.triangle(k);
+                together.is_certain(k) ? take(some[k], closest_on(walk.to_, near, some[k].point))
+                                       : measure_alone(some[k], near);
+                continue;
+            }
+            samples.distances[some[k].sample] = told_from_zero(distance, some[k].point);
+            samples.nearest[some[k].sample] = together.triangle(k);
+            if (distance + together.error() > best.distance)
+                walk.consider(some[k].point, some[k].triangle, together.triangle(k), best);
+        }
+        return true;
+    }
+
+    bool measures_together(std::span<const Waiting> some) {
+        if (some.size() < 2 || (some.size() <= fewest && !attempts.next())) return false;
+        points.clear();
+        for (const Waiting& w : some) points.push_back(w.point);
+        const bool measured = together.measure(points, hint);
+        if (some.size() <= fewest) attempts.note(measured);
+        if (measured && 2 * some.size() > size) size = std::min(2 * size, GroupDistances::most);
+        return measured;
+    }
+
+    /// Exactly.
+    void measure_alone(const Waiting& w, Index near) {
+        Closest c;
+        if (near != none) c = closest_on(walk.to_, near, w.point);
+        if (told_from_zero(c.distance, w.point) > 0) c = closest_point(walk.to_, w.point, near);
+        hint = c.triangle;
+        take(w, c);
+    }
+
+    void take(const Waiting& w, const Closest& c) {
+        const double distance = told_from_zero(c.distance, w.point);
+        samples.distances[w.sample] = distance;
+        samples.nearest[w.sample] = c.triangle;
+        if (distance > best.distance) best = {w.point, c.point, distance, w.triangle};
+    }
+};
+
+Farthest SampleWalk::measure(MeasuredSamples& samples, std::size_t parts, double least) const {
+    Share::loop_tells();
+    return parallel_reduce(
+        order_.size(), Farthest{},
+        [&](std::size_t begin, std::size_t end) {
+            Groups groups{*this, samples, GroupDistances(to_), {{}, {}, least}};
+            for (std::size_t i = begin; i < end; ++i) groups.add(order_[i], parts);
+            groups.finish();
+            return groups.best;
+        },
+        farther_of, samples_chunk());
+}
+
+} // namespace facetmill

@@ -1,0 +1,74 @@
+#pragma once
+// The points of one surface that a deviation asks about, and their distances to another: its samples and
+// vertices, triangle by triangle in an order in which each is near the one before, so that those of
+// neighbours are measured together.
+
+#include "geometry/deviation/area_samples.hpp"
+#include "geometry/spatial/closest_point.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace facetmill {
+
+/// The samples of a surface and their distances to another, as far as they are measured.
+struct MeasuredSamples {
+    static constexpr std::size_t all_parts = 18; ///< how many parts they are measured in
+    static constexpr double unmeasured = -1;
+    /// A distance that is not this many times its error is computed again, exactly, unless the error is this
+    /// part of the farthest so far.
+    static constexpr double most_errors = 256, least_part = 1.0 / 16384;
+
+    MeasuredSamples(const Surface& surface, std::size_t count, std::uint64_t seed)
+        : points(surface, count, seed), distances(points.size(), unmeasured), nearest(points.size(), none) {}
+
+    AreaSamples points;
+    std::vector<double> distances; ///< [samples]
+    std::vector<Index> nearest;    ///< [samples] of those measured, a triangle of the other surface's tree
+};
+
+/// A point and the one closest to it.
+struct Farthest {
+    Vec3 from, to;
+    double distance = -1;
+    Index triangle = none; ///< that the sample is on; none for a vertex
+};
+inline Farthest farther_of(const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }
+
+class SampleWalk {
+  public:
+    /// order: the triangles, each near the one before.
+    SampleWalk(const Surface& from, std::span<const Index> order, const FaceTree& to);
+
+    /// Those that triangles use and that are finite.
+    std::size_t vertex_count() const;
+    std::vector<Vec3> vertices() const;
+
+    /// Measures the first `parts` of the samples, but for those that are; returns the farthest of them, when
+    /// it is beyond `least`. A part is spread evenly over all; so are several, as far as they go.
+    Farthest measure(MeasuredSamples& samples, std::size_t parts, double least) const;
+
+    // Those that turn out nearer than one before are not searched to the end:
+
+    /// The farthest vertex, when it is beyond `least`.
+    Farthest farthest_vertex(double least) const;
+    /// The farthest of the samples that have not been measured, likewise.
+    Farthest farthest_sample(const MeasuredSamples& samples, double least) const;
+
+  private:
+    class Known;
+    struct Candidates;
+    struct Groups;
+    template <class Add>
+    Farthest farthest(double least, std::size_t chunk, const Add& add) const;
+    std::size_t samples_chunk() const;
+    Closest consider(const Vec3& p, Index triangle, Index hint, Farthest& best) const;
+
+    const Surface& from_;
+    std::span<const Index> order_;
+    const FaceTree& to_;
+    std::vector<Index> first_uses_;
+};
+
+} // namespace facetmill
