@@ -46,8 +46,13 @@ std::uint16_t attribute_of(const std::byte* record) {
 /// file's digest; none where it gave false.
 template <class Take>
 std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& take) {
-    const std::uint64_t bytes = input.bytes().size(), count = stl_faces(input);
-    const std::uint64_t held = (bytes - stl_head) / stl_record;
+    const std::uint64_t bytes = input.bytes().size();
+    if (bytes < stl_head)
+        io::malformed(
+            input.name(), 0, "E-STL",
+            fmt::format("{} bytes are neither STL text nor binary, which has {} before the first triangle",
+                        bytes, stl_head));
+    const std::uint64_t count = stl_faces(input), held = (bytes - stl_head) / stl_record;
     if (count > held)
         io::malformed(input.name(), 0, "E-STL",
                       fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}",

@@ -179,7 +179,10 @@ TEST_CASE("broken files end in cells as in memory", "[cells]") {
                            "y\nproperty float z\nelement face 1\nproperty list uchar int "
                            "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"},
              {"end.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1"},
-             {"word.stl", "solid x\nfacet normal 0 0 1\nouter lop\nvertex 0 0 0\n"}}) {
+             {"word.stl", "solid x\nfacet normal 0 0 1\nouter lop\nvertex 0 0 0\n"},
+             {"byte.stl", std::string(1, '\x7f')},
+             {"head.stl", std::string(83, '\x7f')},
+             {"count.stl", std::string(83, '\0') + '\x01'}}) {
         INFO(name);
         test::put(folder / name, text);
         CHECK(failure_of(folder / name, true) == failure_of(folder / name, false));
