@@ -136,6 +136,6 @@ void apply(Mesh& mesh, const Transform& t);
 
 } // namespace facetmill
 
-// Compiled once, in mesh.cpp.
+// Compiled once, in instantiated.cpp.
 extern template class std::vector<facetmill::Attribute>;
 extern template class std::vector<facetmill::Primitive>;

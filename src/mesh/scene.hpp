@@ -68,6 +68,6 @@ struct Scene {
 
 } // namespace facetmill
 
-// Compiled once, in scene.cpp.
+// Compiled once, in instantiated.cpp.
 extern template class std::vector<facetmill::Part>;
 extern template class std::vector<facetmill::Material>;

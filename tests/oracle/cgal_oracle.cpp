@@ -2,11 +2,12 @@
 
 // GCC 12 suspects Polygon_2's own iterators once they are inlined.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #if __has_include(<CGAL/AABB_triangle_primitive_3.h>)
+#include <CGAL/AABB_traits_3.h>
 #include <CGAL/AABB_triangle_primitive_3.h>
 #else
+#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

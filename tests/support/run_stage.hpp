@@ -24,9 +24,9 @@ struct StageRun {
     }
 };
 
-inline const StageInfo& stage_for_test(const std::string& name) {
+inline const StageInfo& stage_for_test(std::string_view name) {
     const StageInfo* stage = stage_named(name);
-    if (!stage) throw std::logic_error("no stage " + name);
+    if (!stage) throw std::logic_error("no stage " + std::string(name));
     return *stage;
 }
 
