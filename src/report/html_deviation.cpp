@@ -65,10 +65,9 @@ std::string beyond_text(const DeviationView& view) {
 
 std::string caps_text(const DeviationView& view) {
     if (view.caps == 0) return {};
-    return fmt::format(" {} cuts (caps) are grey and not measured: {} has no surface there.",
-                       view.caps == 1 ? "The face that closes"
-                                      : fmt::format("The {} faces that close", grouped(view.caps)),
-                       escaped(view.from));
+    return (view.caps == 1 ? " The face that closes a cut (cap) is"
+                           : fmt::format(" The {} faces that close cuts (caps) are", grouped(view.caps))) +
+           fmt::format(" grey and not measured: {} has no surface there.", escaped(view.from));
 }
 
 } // namespace

@@ -78,10 +78,6 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
     return all;
 }
 
-} // namespace
-
-namespace {
-
 bool are_distinct(const std::vector<Index>& place) {
     for (Index v = 0; v < place.size(); ++v)
         if (place[v] != v) return false;

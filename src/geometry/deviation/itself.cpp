@@ -1,5 +1,7 @@
 #include "geometry/deviation/itself.hpp"
 
+#include "geometry/deviation/area_samples.hpp"
+
 #include <algorithm>
 
 namespace facetmill {
@@ -15,7 +17,7 @@ DirectedDeviation deviation_from_itself(const Surface& surface, const DeviationS
     std::vector<std::uint8_t> used(surface.positions.size());
     for (const Index v : surface.corners) used[v] = 1;
     d.vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
-    d.samples = sample_area(surface, settings.samples, settings.seed).size();
+    d.samples = AreaSamples(surface, settings.samples, settings.seed).size();
     d.averaged = d.samples > 0 ? d.samples : d.vertices;
     return d;
 }
