@@ -108,9 +108,9 @@ void Builder::drop_extension(const std::string& name) {
 
 void Builder::drop_released() {
     if (released_accessors_.empty() && released_views_.empty()) return;
-    Json &all_accessors = json_["accessors"], &all_views = json_["bufferViews"];
-    auto dead_accessors = flags_of(released_accessors_, all_accessors.size()),
-         dead_views = flags_of(released_views_, all_views.size());
+    auto dead_accessors = flags_of(released_accessors_, count_of(json_, "accessors")),
+         dead_views = flags_of(released_views_, count_of(json_, "bufferViews"));
+    Json& all_accessors = json_["accessors"];
     visit_accessor_references(json_, [&](Json& r) { keep(dead_accessors, r); });
     // What the dropped accessors name does not count as use.
     for (std::size_t a = 0; a < dead_accessors.size(); ++a)
@@ -119,7 +119,10 @@ void Builder::drop_released() {
                 if (const auto v = r.get<std::size_t>(); v < dead_views.size()) dead_views[v] = 1;
             });
     for (std::size_t a = 0; a < dead_accessors.size(); ++a)
-        if (!dead_accessors[a]) accessor_views(all_accessors[a], [&](Json& r) { keep(dead_views, r); });
+        if (dead_accessors[a])
+            all_accessors[a] = nullptr; // its extensions need not be known
+        else
+            accessor_views(all_accessors[a], [&](Json& r) { keep(dead_views, r); });
     other_views(json_, [&](Json& r) { keep(dead_views, r); });
     const Numbers accessors = numbers_of(dead_accessors), views = numbers_of(dead_views);
 

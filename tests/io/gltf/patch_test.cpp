@@ -54,6 +54,29 @@ TEST_CASE("a changed part changes its mesh only", "[io]") {
     CHECK(after == before);
 }
 
+TEST_CASE("what is gone need not be known to be dropped", "[io]") {
+    Json document = Json::parse(rich);
+    document["accessors"][0]["extensions"]["EXT_of_somebody"] = {{"a", 1}};
+    Scene scene = test::read_text(document.dump());
+    scene.parts[0].mesh = shapes::cube();
+    scene.parts[0].changed = true;
+    CHECK(written_json(scene)["accessors"].size() == 2);
+}
+
+TEST_CASE("positions without a view are gone with their part", "[io]") {
+    Json document = Json::parse(rich);
+    document["accessors"][0].erase("bufferView"); // all are zero
+    document["accessors"][0]["max"] = {0, 0, 0};
+    document.erase("bufferViews");
+    document.erase("buffers");
+    Scene scene = test::read_text(document.dump());
+    scene.parts.clear();
+    const Json after = written_json(scene);
+    CHECK(after["nodes"][1] == Json::parse(rich)["nodes"][1]);
+    CHECK_FALSE(after.contains("accessors"));
+    CHECK_FALSE(after.contains("bufferViews"));
+}
+
 TEST_CASE("a part that moved gets a matrix, its neighbours keep their words", "[io]") {
     Scene scene = test::read_text(rich);
     CHECK(scene.parts[0].transform.m[2][3] == 3);
