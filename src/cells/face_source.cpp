@@ -9,6 +9,7 @@
 #include "io/encoding.hpp"
 #include "io/output_files.hpp"
 #include "io/packing.hpp"
+#include "io/stl/stl.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -20,8 +21,9 @@ namespace {
 
 enum class Format { none, ply, stl, obj, off, gltf };
 
+constexpr std::size_t mapped_from = std::size_t{1} << 16; ///< bytes
+
 /// Mapped, so that only what is looked at takes memory. The file must be none that is_packed.
-constexpr std::size_t mapped_from = std::size_t{1} << 16;
 io::Input open_mapped(const std::filesystem::path& path) { return io::Input::open(path, mapped_from); }
 
 [[noreturn]] void changed_while_read(const io::Input& input) {
@@ -224,7 +226,8 @@ std::uint64_t estimated_faces(const std::filesystem::path& path) {
     const io::Input input = open_mapped(path);
     const Format format = format_of(input);
     if (format == Format::ply) return ply_faces(input);
-    if (format == Format::stl) return is_text_stl(input) ? size / stl_text_bytes : stl_faces(input);
+    if (format == Format::stl)
+        return is_text_stl(input) ? size / stl_text_bytes : io::stl::promised_triangles(input.bytes());
     if (format == Format::off && !why_not(input, format)) return off_faces(input);
     if (format == Format::gltf && !why_not(input, format)) return gltf_faces(input);
     return size / text_bytes;

@@ -18,7 +18,7 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr std::size_t stl_head = 84, stl_record = 50, normal_size = 12;
+constexpr std::size_t stl_head = io::stl::head, stl_record = io::stl::record, normal_size = 12;
 
 using Point = std::array<float, 3>;
 
@@ -46,19 +46,9 @@ std::uint16_t attribute_of(const std::byte* record) {
 /// file's digest; none where it gave false.
 template <class Take>
 std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& take) {
-    const std::uint64_t bytes = input.bytes().size();
-    if (bytes < stl_head)
-        io::malformed(
-            input.name(), 0, "E-STL",
-            fmt::format("{} bytes are neither STL text nor binary, which has {} before the first triangle",
-                        bytes, stl_head));
-    const std::uint64_t count = stl_faces(input), held = (bytes - stl_head) / stl_record;
-    if (count > held)
-        io::malformed(input.name(), 0, "E-STL",
-                      fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}",
-                                  count, held, bytes));
+    const std::uint64_t count = io::stl::held_triangles(input);
     Sha256 sum;
-    Stream all(file, 0, bytes, &sum);
+    Stream all(file, 0, input.bytes().size(), &sum);
     all.take(stl_head);
     for (std::uint64_t f = 0; f < count; ++f) {
         const std::byte* const record = all.take(stl_record);
@@ -79,7 +69,7 @@ class StlSource final : public FaceSource {
   public:
     StlSource(File file, const io::ReadSettings& settings, Contents contents)
         : FaceSource(std::move(contents)), settings_(settings), file_(file.file),
-          count_(stl_faces(file.input)) {
+          count_(io::stl::promised_triangles(file.input.bytes())) {
         own_contents().files.push_back(std::move(file));
     }
 
@@ -252,12 +242,6 @@ class StlReader final : public RowReader {
 
 bool is_text_stl(const io::Input& input) {
     return input.bytes().size() < stl_head || io::stl::is_text(input.bytes());
-}
-
-std::uint64_t stl_faces(const io::Input& input) {
-    std::uint32_t count = 0;
-    std::memcpy(&count, input.bytes().data() + stl_head - sizeof count, sizeof count);
-    return count;
 }
 
 std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,

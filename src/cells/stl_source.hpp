@@ -6,8 +6,6 @@
 namespace facetmill::cells {
 
 bool is_text_stl(const io::Input& input);
-/// As the header says. The file must be binary: its first 84 bytes are read.
-std::uint64_t stl_faces(const io::Input& input);
 /// A binary file. Throws as open_faces.
 std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
                                      FaceSource::Contents contents);

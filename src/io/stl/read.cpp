@@ -18,15 +18,7 @@ namespace facetmill::io::stl {
 
 namespace {
 
-constexpr std::size_t head = 84, record = 50; ///< bytes before the triangles, and of each
-
 static_assert(std::endian::native == std::endian::little, "STL is read as it lies in memory");
-
-std::uint32_t promised_triangles(Span bytes) {
-    std::uint32_t n = 0;
-    std::memcpy(&n, bytes.data() + 80, sizeof n);
-    return n;
-}
 
 bool has_binary_size(Span bytes) {
     return bytes.size() >= head && bytes.size() == head + record * std::size_t{promised_triangles(bytes)};
@@ -143,16 +135,7 @@ void add_attribute_bytes(Mesh& mesh, const Records& records) {
 
 Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log) {
     const Span bytes = input.bytes();
-    if (bytes.size() < head)
-        malformed(
-            input.name(), 0, "E-STL",
-            fmt::format("{} bytes are neither STL text nor binary, which has {} before the first triangle",
-                        bytes.size(), head));
-    const std::size_t n = promised_triangles(bytes), held = (bytes.size() - head) / record;
-    if (n > held)
-        malformed(input.name(), 0, "E-STL",
-                  fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}", n, held,
-                              bytes.size()));
+    const std::size_t n = held_triangles(input);
     if (head + n * record != bytes.size())
         log.warnings.push_back({Severity::warning, "W-TRAILING",
                                 fmt::format("{} bytes after the last of {} triangles are skipped",
@@ -231,6 +214,28 @@ class TextReader {
 };
 
 } // namespace
+
+std::uint32_t promised_triangles(Span bytes) {
+    std::uint32_t n = 0;
+    std::memcpy(&n, bytes.data() + head - sizeof n, sizeof n);
+    return n;
+}
+
+std::uint32_t held_triangles(const Input& input) {
+    const std::size_t bytes = input.bytes().size();
+    if (bytes < head)
+        malformed(
+            input.name(), 0, "E-STL",
+            fmt::format("{} bytes are neither STL text nor binary, which has {} before the first triangle",
+                        bytes, head));
+    const std::uint32_t n = promised_triangles(input.bytes());
+    const std::size_t held = (bytes - head) / record;
+    if (n > held)
+        malformed(input.name(), 0, "E-STL",
+                  fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}", n, held,
+                              bytes));
+    return n;
+}
 
 bool is_text(Span bytes) {
     if (has_binary_size(bytes)) return false;

@@ -88,14 +88,14 @@ const std::vector<std::uint16_t>* attribute_bytes(const Mesh& mesh) {
 
 void write_binary(Bytes& bytes, const Mesh& mesh) {
     constexpr std::string_view title = "binary STL, written by facetmill";
-    bytes.resize(84 + 50 * mesh.face_count());
+    bytes.resize(head + record * mesh.face_count());
     std::memcpy(bytes.data(), title.data(), title.size());
     const auto n = static_cast<std::uint32_t>(mesh.face_count());
     std::memcpy(bytes.data() + 80, &n, sizeof n);
     const auto* const extra = attribute_bytes(mesh);
     parallel_for(mesh.face_count(), [&](std::size_t f) {
         const Triangle t = triangle(mesh, static_cast<Index>(f));
-        std::byte* at = bytes.data() + 84 + 50 * f;
+        std::byte* at = bytes.data() + head + record * f;
         std::memcpy(at, &t.normal, 12);
         std::memcpy(at + 12, &t.corners, 36);
         if (extra) std::memcpy(at + 48, &(*extra)[f], 2);
