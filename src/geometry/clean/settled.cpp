@@ -5,19 +5,8 @@
 
 namespace facetmill::clean_steps {
 
-namespace {
-
-bool all_distinct(const Mesh& mesh) {
-    const auto place = lowest_at_place(mesh);
-    for (Index v = 0; v < place.size(); ++v)
-        if (place[v] != v) return false;
-    return true;
-}
-
-} // namespace
-
 bool is_tidy(const Mesh& mesh, const std::vector<std::uint8_t>& settled, std::size_t uncut) {
-    if (settled.empty() || !mesh.all_triangles() || !all_distinct(mesh)) return false;
+    if (settled.empty() || !mesh.all_triangles() || !are_distinct(lowest_at_place(mesh))) return false;
     for (auto f = static_cast<Index>(uncut); f < mesh.face_count(); ++f)
         if (is_degenerate(mesh, f)) return false;
     std::vector<Index> faces;

@@ -78,12 +78,6 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
     return all;
 }
 
-bool are_distinct(const std::vector<Index>& place) {
-    for (Index v = 0; v < place.size(); ++v)
-        if (place[v] != v) return false;
-    return true;
-}
-
 SelfIntersections crossings(const Mesh& mesh, const SelfIntersectionSettings& settings,
                             const std::vector<Index>& place) {
     Mesh plain;
@@ -96,6 +90,12 @@ SelfIntersections crossings(const Mesh& mesh, const SelfIntersectionSettings& se
 }
 
 } // namespace
+
+bool are_distinct(const std::vector<Index>& place) {
+    for (Index v = 0; v < place.size(); ++v)
+        if (place[v] != v) return false;
+    return true;
+}
 
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, std::size_t max_box_pairs) {
     return crossings(mesh, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs},
