@@ -1,7 +1,7 @@
 #include "pipeline/document.hpp"
 
 #include "base/words.hpp"
-#include "pipeline/yaml_text.hpp"
+#include "pipeline/yaml_faults.hpp"
 
 #include <fmt/format.h>
 #include <map>
@@ -55,6 +55,13 @@ class Builder : public YAML::EventHandler {
     Value root;
     bool second_document = false; ///< set before the parser looks for another document
 
+    /// For what is said when the parser gives up.
+    ReadSoFar read_so_far() const {
+        ReadSoFar read{quoted_, {}};
+        if (!stack_.empty() && stack_.back().flow) read.open = stack_.back().value.mark;
+        return read;
+    }
+
     void OnDocumentStart(const YAML::Mark& mark) override {
         if (!second_document) return;
         problems_.add(source_.mark(offset(mark)), "E-YAML", "a second document begins here",
@@ -78,8 +85,9 @@ class Builder : public YAML::EventHandler {
                   const std::string& text) override {
         const std::size_t at = content(mark);
         if (tag == "?") refuse_unquoted(at, text);
+        if (tag != "?") note_quotes(at);
         Value value = Value::scalar(text, scalar_mark(source_, at, text, tag == "?"), tag != "?");
-        if (tag != "?" && tag != "!") apply_tag(tag, value);
+        if (tag != "?" && tag != "!") apply_tag(tag, value, mark);
         value.deferred = unknown_.contains(at);
         complete(std::move(value), anchor);
     }
@@ -100,13 +108,13 @@ class Builder : public YAML::EventHandler {
 
     void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                          YAML::EmitterStyle::value style) override {
-        open(Value::list({}, source_.mark(content(mark))), tag, anchor, style);
+        open(Value::list({}, source_.mark(content(mark))), tag, mark, anchor, style);
     }
     void OnSequenceEnd() override { close(); }
 
     void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                     YAML::EmitterStyle::value style) override {
-        open(Value::map({}, source_.mark(content(mark))), tag, anchor, style);
+        open(Value::map({}, source_.mark(content(mark))), tag, mark, anchor, style);
     }
     void OnMapEnd() override {
         for (const auto& merged : stack_.back().merges) merge(stack_.back(), merged);
@@ -148,7 +156,21 @@ class Builder : public YAML::EventHandler {
                         fmt::format("write \"{}\"", written)}};
     }
 
-    void apply_tag(const std::string& tag, Value& value) {
+    /// The parser takes the end of the file for the end of a text in quotes, and with it all stages in
+    /// between.
+    void note_quotes(std::size_t at) {
+        if (at >= source_.text().size() || (source_.text()[at] != '"' && source_.text()[at] != '\'')) return;
+        const auto end = end_of_quoted(source_.text(), at);
+        if (end) {
+            quoted_ = {at, *end};
+            return;
+        }
+        problems_.add(source_.mark(at), "E-YAML", "the quote is never closed", "close it in its line");
+        throw Stop{};
+    }
+
+    /// mark: of the node, which begins with the tag.
+    void apply_tag(const std::string& tag, Value& value, const YAML::Mark& mark) {
         constexpr std::string_view core = "tag:yaml.org,2002:";
         const std::string_view name = tag.starts_with(core) ? std::string_view(tag).substr(core.size()) : "";
         if (name == "str" && value.is_scalar())
@@ -159,10 +181,16 @@ class Builder : public YAML::EventHandler {
             value.kind = Value::Kind::null;
             value.text.clear();
         } else if (!((name == "seq" && value.is_list()) || (name == "map" && value.is_map())))
-            problems_.add(
-                value.mark, "E-YAML",
-                fmt::format("the tag {} has no meaning here", name.empty() ? tag : fmt::format("!!{}", name)),
-                "leave it out");
+            refuse_tag(name.empty() ? tag : fmt::format("!!{}", name), mark);
+    }
+
+    void refuse_tag(const std::string& tag, const YAML::Mark& mark) {
+        const std::string& text = source_.text();
+        std::size_t at = offset(mark); // an anchor may stand before it
+        while (at < text.size() && text[at] == '&')
+            at = std::min(text.find_first_not_of(" ", text.find(' ', at)), text.size());
+        problems_.add(source_.mark(at, source_.characters(at, std::min(at + tag.size(), text.size()))),
+                      "E-YAML", fmt::format("the tag {} has no meaning here", tag), tag_hint(tag));
     }
 
     /// Counts what is about to be added.
@@ -178,9 +206,10 @@ class Builder : public YAML::EventHandler {
         }
     }
 
-    void open(Value value, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
+    void open(Value value, const std::string& tag, const YAML::Mark& mark, YAML::anchor_t anchor,
+              YAML::EmitterStyle::value style) {
         grow({}, value.mark);
-        if (tag != "?" && tag != "!" && !tag.empty()) apply_tag(tag, value);
+        if (tag != "?" && tag != "!" && !tag.empty()) apply_tag(tag, value, mark);
         Frame frame;
         frame.value = std::move(value);
         frame.anchor = anchor;
@@ -265,6 +294,7 @@ class Builder : public YAML::EventHandler {
     Problems& problems_;
     std::vector<Frame> stack_;
     std::map<YAML::anchor_t, Anchored> anchors_;
+    std::optional<Extent> quoted_; ///< the last text in quotes
     std::size_t nodes_ = 0;
 };
 
@@ -284,10 +314,9 @@ Value parse_text(const std::string& text, const SourceIndex& index, const std::s
         return root;
     } catch (const Stop&) {
     } catch (const YAML::Exception& e) {
-        const auto [message, hint] = explained(e.msg);
         const std::size_t at =
             e.mark.is_null() ? 0 : static_cast<std::size_t>(std::max(0, e.mark.pos)) + mark_bytes;
-        problems.add(index.mark(at), "E-YAML", message, bare_item_hint(index, at).value_or(hint));
+        problems.add(Error(ErrorKind::usage, {yaml_fault(index, at, e.msg, builder.read_so_far())}));
     }
     return {};
 }

@@ -107,30 +107,4 @@ std::optional<std::size_t> end_of_unquoted(const std::string& all, std::size_t a
     return std::min(all.size(), all.find_first_of(" ,]}\r\n", std::min(closed, all.size() - 1) + 1));
 }
 
-std::pair<std::string, std::string> explained(const std::string& message) {
-    if (message == "end of map flow not found")
-        return {"expected ',' or '}' here", "a text with special characters must be quoted"};
-    if (message == "end of sequence flow not found")
-        return {"expected ',' or ']' here", "a text with special characters must be quoted"};
-    if (message == "illegal map value")
-        return {"a ':' cannot stand here", "quote a text that holds ': ', and mind the indentation"};
-    if (message == "end of map not found") return {"expected a key of the map here", "mind the indentation"};
-    if (message == "end of sequence not found")
-        return {"expected an item of the list ('- ...') here", "mind the indentation"};
-    if (message == "illegal EOF in scalar") return {"the quote is never closed", ""};
-    return {message, ""};
-}
-
-std::optional<std::string> bare_item_hint(const SourceIndex& source, std::size_t at) {
-    const std::string& text = source.text();
-    const std::size_t line = text.rfind('\n', std::min(at, text.size() - 1) - (at > 0 ? 1 : 0));
-    if (text.empty() || line == std::string::npos || line == 0) return {};
-    const std::size_t before = text.rfind('\n', line - 1);
-    std::string above = text.substr(before == std::string::npos ? 0 : before + 1,
-                                    line - (before == std::string::npos ? 0 : before + 1));
-    above.erase(0, above.find_first_not_of(' '));
-    if (!above.starts_with("- ") || above.find_first_of(":{}[]\"'#") != std::string::npos) return {};
-    return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
-}
-
 } // namespace facetmill::pipeline

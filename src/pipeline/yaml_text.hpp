@@ -47,10 +47,4 @@ Mark scalar_mark(const SourceIndex& source, std::size_t at, const std::string& t
 /// none when it is no expression.
 std::optional<std::size_t> end_of_unquoted(const std::string& all, std::size_t at, const std::string& text);
 
-/// What yaml-cpp says, in words for people where its own are opaque, and a hint.
-std::pair<std::string, std::string> explained(const std::string& message);
-
-/// "- relax" and then "when: ..." below it: the name needs a colon to have keys beside it.
-std::optional<std::string> bare_item_hint(const SourceIndex& source, std::size_t at);
-
 } // namespace facetmill::pipeline

@@ -144,10 +144,14 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
                               "  ---\n"
                               "  ^\n"
                               "  hint: one file holds one pipeline; remove the '---' or make two files"},
-        {"a: !thing 3\n", "p.yaml:1:11: error[E-YAML]: the tag !thing has no meaning here\n"
+        {"a: !thing 3\n", "p.yaml:1:4: error[E-YAML]: the tag !thing has no meaning here\n"
                           "  a: !thing 3\n"
-                          "            ^\n"
-                          "  hint: leave it out"},
+                          "     ^~~~~~\n"
+                          "  hint: leave it out; a text that begins with ! is quoted: \"!thing\""},
+        {"a: 1\nonly: !eye*\nb: 2\n", "p.yaml:2:7: error[E-YAML]: the tag !eye* has no meaning here\n"
+                                      "  only: !eye*\n"
+                                      "        ^~~~~\n"
+                                      "  hint: leave it out; a text that begins with ! is quoted: \"!eye*\""},
         {"<<: 3\n", "p.yaml:1:1: error[E-YAML]: '<<' merges a map or a list of maps, found '3'\n"
                     "  <<: 3\n"
                     "  ^~\n"
@@ -161,6 +165,10 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {"a: {b: 1\nc: 2\n", "p.yaml:2:2: error[E-YAML]: expected ',' or '}' here\n"
                              "  c: 2\n"
                              "   ^\n"
+                             "  hint: what opens in line 1, column 4 is not closed"},
+        {"a: {b: 1 c: 2}\n", "p.yaml:1:11: error[E-YAML]: expected ',' or '}' here\n"
+                             "  a: {b: 1 c: 2}\n"
+                             "            ^\n"
                              "  hint: a text with special characters must be quoted"},
         {"a: b: c\n", "p.yaml:1:5: error[E-YAML]: a ':' cannot stand here\n"
                       "  a: b: c\n"
@@ -171,6 +179,43 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
          "    when: true\n"
          "        ^\n"
          "  hint: a stage with keys beside it needs a colon: '- relax:' in the line above"},
+        {"s:\n- a: \"scan.ply\n- b: 1\n", "p.yaml:2:6: error[E-YAML]: the quote is never closed\n"
+                                          "  - a: \"scan.ply\n"
+                                          "       ^\n"
+                                          "  hint: close it in its line"},
+        {"s:\n- a: 'it''s\n- b: 1\n", "p.yaml:2:6: error[E-YAML]: the quote is never closed\n"
+                                      "  - a: 'it''s\n"
+                                      "       ^\n"
+                                      "  hint: close it in its line"},
+        {"s:\n- a: \"x\n- b: \"y\"\n",
+         "p.yaml:3:7: error[E-YAML]: expected a key of the map here\n"
+         "  - b: \"y\"\n"
+         "        ^\n"
+         "  hint: the quote that opens in line 2 is closed by this one: close it in its own line"},
+        {"a: 'it's.glb'\n", "p.yaml:1:8: error[E-YAML]: expected a key of the map here\n"
+                            "  a: 'it's.glb'\n"
+                            "         ^\n"
+                            "  hint: inside '...' a ' is written '', or take \"...\""},
+        {"s:\n\t- a: 1\n", "p.yaml:2:2: error[E-YAML]: an item of a list ('- ...') cannot stand here\n"
+                           "  \t- a: 1\n"
+                           "  \t^\n"
+                           "  hint: indent with blanks: YAML takes no tabs there"},
+        {"a: %10\n", "p.yaml:1:4: error[E-YAML]: a value cannot begin with '%'\n"
+                     "  a: %10\n"
+                     "     ^\n"
+                     "  hint: write 10%"},
+        {"a: {b: *.ply, c: 1}\n", "p.yaml:1:8: error[E-YAML]: no anchor is named by '*.ply'\n"
+                                  "  a: {b: *.ply, c: 1}\n"
+                                  "         ^\n"
+                                  "  hint: in quotes it is a text: \"*.ply\""},
+        {"a: **/*.ply # all\n", "p.yaml:1:4: error[E-YAML]: no anchor is named by '**/*.ply'\n"
+                                "  a: **/*.ply # all\n"
+                                "     ^\n"
+                                "  hint: in quotes it is a text: \"**/*.ply\""},
+        {"a: @x\n", "p.yaml:1:4: error[E-YAML]: a value cannot begin with '@'\n"
+                    "  a: @x\n"
+                    "     ^\n"
+                    "  hint: in quotes it is a text: \"@x\""},
         {std::string("a: \0", 4),
          "p.yaml:1:4: error[E-YAML]: the control character 0x00 may not be in a pipeline\n"
          "  hint: a pipeline is a text in UTF-8"},
