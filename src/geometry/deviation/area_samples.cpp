@@ -24,18 +24,6 @@ std::vector<double> areas_up_to(const Surface& surface) {
     return areas;
 }
 
-double fraction(double x) { return x - std::floor(x); }
-
-/// u and v: of Roberts' additive sequence in the plane, which fills large triangles more evenly than chance.
-Vec3 sample_on(const Surface& surface, std::size_t triangle, double u, double v) {
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    const Vec3& a = surface.point(triangle, 0);
-    return a + (surface.point(triangle, 1) - a) * u + (surface.point(triangle, 2) - a) * v;
-}
-
 } // namespace
 
 AreaSamples::AreaSamples(const Surface& surface, std::size_t count, std::uint64_t seed)
@@ -79,9 +67,14 @@ std::size_t AreaSamples::triangle_of(std::size_t k) const {
     return static_cast<std::size_t>(after - firsts_.begin()) - 1;
 }
 
-Vec3 AreaSamples::point(std::size_t k, std::size_t triangle) const {
-    return sample_on(surface_, triangle, fraction(start_u_ + static_cast<double>(k) * 0.7548776662466927),
-                     fraction(start_v_ + static_cast<double>(k) * 0.5698402909980532));
+AreaSamples::OnTriangle AreaSamples::on(std::size_t triangle) const {
+    OnTriangle on;
+    on.corner_ = surface_.point(triangle, 0);
+    on.ab_ = surface_.point(triangle, 1) - on.corner_;
+    on.ac_ = surface_.point(triangle, 2) - on.corner_;
+    on.start_u_ = start_u_;
+    on.start_v_ = start_v_;
+    return on;
 }
 
 std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count, std::uint64_t seed) {

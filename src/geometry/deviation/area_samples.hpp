@@ -3,6 +3,7 @@
 
 #include "mesh/surface.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,30 @@ class AreaSamples {
     std::size_t first(std::size_t triangle) const { return firsts_[triangle]; }
     std::size_t triangle_of(std::size_t k) const;
     /// Sample k, which is one of the triangle.
-    Vec3 point(std::size_t k, std::size_t triangle) const;
+    Vec3 point(std::size_t k, std::size_t triangle) const { return on(triangle).point(k); }
+
+    /// A triangle, to ask for several of its samples.
+    class OnTriangle {
+      public:
+        /// Sample k: of Roberts' additive sequence in the plane, which fills large triangles more evenly than
+        /// chance.
+        Vec3 point(std::size_t k) const {
+            double u = fraction(start_u_ + static_cast<double>(k) * 0.7548776662466927);
+            double v = fraction(start_v_ + static_cast<double>(k) * 0.5698402909980532);
+            if (u + v > 1) {
+                u = 1 - u;
+                v = 1 - v;
+            }
+            return corner_ + ab_ * u + ac_ * v;
+        }
+
+      private:
+        friend AreaSamples;
+        static double fraction(double x) { return x - std::floor(x); }
+        Vec3 corner_, ab_, ac_;
+        double start_u_, start_v_;
+    };
+    OnTriangle on(std::size_t triangle) const;
 
   private:
     double begin_of(std::size_t k) const;

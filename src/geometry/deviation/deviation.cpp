@@ -35,21 +35,21 @@ struct DistanceSums {
     double error() const { return squares > 0 ? std::sqrt(differences / 2) / squares / 2 : HUGE_VAL; }
 };
 
-DistanceSums sums_of(const std::vector<double>& distances) {
+/// Of the samples of the parts before that.
+DistanceSums sums_of(const std::vector<double>& distances, std::size_t parts = all_parts) {
     return parallel_reduce(
         distances.size(), DistanceSums{},
         [&](std::size_t begin, std::size_t end) {
             DistanceSums s;
             double last = unmeasured;
-            for (std::size_t i = begin; i < end; ++i) {
-                if (distances[i] == unmeasured) continue;
+            MeasuredSamples::each_of(0, parts, begin, end, [&](std::size_t i) {
                 const double square = distances[i] * distances[i];
                 if (last != unmeasured) s.differences += (square - last) * (square - last);
                 last = square;
                 ++s.count;
                 s.distances += distances[i];
                 s.squares += square;
-            }
+            });
             return s;
         },
         [](const DistanceSums& a, const DistanceSums& b) { return a.plus(b); });
@@ -103,7 +103,7 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk
         ShareOfRounds rounds;
         for (std::size_t parts = settings.mean_error > 0 ? all_parts / 9 : all_parts;;) {
             raise_maximum(d, from, walk.measure(samples, parts, d.maximum));
-            sums = sums_of(samples.distances);
+            sums = sums_of(samples.distances, parts);
             if (parts == all_parts || sums.error() <= settings.mean_error) break;
             parts = next_parts(parts, sums.error() / settings.mean_error);
             rounds.next();

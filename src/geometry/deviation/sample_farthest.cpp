@@ -80,12 +80,13 @@ struct SampleWalk::Candidates {
     void add_unmeasured(const MeasuredSamples& samples, Index t) {
         constexpr std::size_t many = 16; // are more work one by one than together, and than the corners
         const std::size_t begin = samples.points.first(t), end = samples.points.first(t + std::size_t{1});
+        if (begin == end) return;
         const bool together = end - begin >= many;
         add_known(samples, t);
         if (together && is_within(t)) return;
-        for (std::size_t i = begin; i < end; ++i)
-            if (samples.distances[i] == MeasuredSamples::unmeasured)
-                add_sample(samples.points.point(i, t), t, together);
+        const AreaSamples::OnTriangle on = samples.points.on(t);
+        MeasuredSamples::each_of(samples.parts, MeasuredSamples::all_parts, begin, end,
+                                 [&](std::size_t i) { add_sample(on.point(i), t, together); });
         if (waiting.size() >= GroupDistances::most / 2) finish();
     }
 

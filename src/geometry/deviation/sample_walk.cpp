@@ -13,20 +13,16 @@ namespace facetmill {
 
 namespace {
 
-/// The part that each of 18 samples in a row is of: the digits of its number in bases 2, 3 and 3 in reverse,
-/// so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen" (1935).
-constexpr std::array<std::uint8_t, MeasuredSamples::all_parts> parts_of_row() {
-    std::array<std::uint8_t, MeasuredSamples::all_parts> parts{};
-    for (std::size_t part = 0; part < parts.size(); ++part) {
+/// The part that each of 18 samples in a row is of has the digits of the sample's number in bases 2, 3 and 3
+/// in reverse, so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen"
+/// (1935). For each part, bits for the samples of those before it.
+constexpr auto rows_before_parts() {
+    std::array<std::uint32_t, MeasuredSamples::all_parts + 1> rows{};
+    for (std::size_t part = 0; part < MeasuredSamples::all_parts; ++part) {
         const std::size_t at = part % 2 * 9 + part / 2 % 3 * 3 + part / 6;
-        parts[at] = static_cast<std::uint8_t>(part);
+        rows[part + 1] = rows[part] | std::uint32_t{1} << at;
     }
-    return parts;
-}
-
-std::size_t part_of(std::size_t sample) {
-    static constexpr auto parts = parts_of_row();
-    return parts[sample % parts.size()];
+    return rows;
 }
 
 /// Which triangle, of those that use it, is the first; none for vertices that are not finite.
@@ -41,6 +37,11 @@ std::vector<Index> first_uses(const Surface& surface) {
 }
 
 } // namespace
+
+std::uint32_t MeasuredSamples::row_before(std::size_t part) {
+    static constexpr auto rows = rows_before_parts();
+    return rows[part];
+}
 
 SampleWalk::SampleWalk(const Surface& from, std::span<const Index> order, const FaceTree& to)
     : from_(from), order_(order), to_(to), first_uses_(first_uses(from)) {}
@@ -78,10 +79,14 @@ struct SampleWalk::Groups {
     std::size_t size = GroupDistances::most; ///< up to so many are tried together
     Attempts attempts{};
 
+    /// The samples of a triangle that are of the parts before this and are not measured.
     void add(Index t, std::size_t parts) {
-        for (std::size_t i = samples.points.first(t); i < samples.points.first(t + std::size_t{1}); ++i)
-            if (part_of(i) < parts && samples.distances[i] == MeasuredSamples::unmeasured)
-                waiting.push_back({samples.points.point(i, t), i, t});
+        const std::size_t begin = samples.points.first(t), end = samples.points.first(t + std::size_t{1});
+        if (begin == end) return;
+        const AreaSamples::OnTriangle on = samples.points.on(t);
+        MeasuredSamples::each_of(samples.parts, parts, begin, end, [&](std::size_t i) {
+            waiting.push_back({on.point(i), i, t});
+        });
         if (waiting.size() >= GroupDistances::most / 2) finish();
     }
 
@@ -156,7 +161,7 @@ struct SampleWalk::Groups {
 
 Farthest SampleWalk::measure(MeasuredSamples& samples, std::size_t parts, double least) const {
     Share::loop_tells();
-    return parallel_reduce(
+    const Farthest farthest = parallel_reduce(
         order_.size(), Farthest{},
         [&](std::size_t begin, std::size_t end) {
             Groups groups{*this, samples, GroupDistances(to_), {{}, {}, least}};
@@ -165,6 +170,8 @@ Farthest SampleWalk::measure(MeasuredSamples& samples, std::size_t parts, double
             return groups.best;
         },
         farther_of, samples_chunk());
+    samples.parts = std::max(samples.parts, parts);
+    return farthest;
 }
 
 } // namespace facetmill

@@ -6,6 +6,7 @@
 #include "geometry/deviation/area_samples.hpp"
 #include "geometry/spatial/closest_point.hpp"
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,9 +24,31 @@ struct MeasuredSamples {
     MeasuredSamples(const Surface& surface, std::size_t count, std::uint64_t seed)
         : points(surface, count, seed), distances(points.size(), unmeasured), nearest(points.size(), none) {}
 
+    /// Calls call(i) for those samples in [begin, end) that are of parts [first, last), in their order. A
+    /// part is spread evenly over all samples; so are several, as far as they go.
+    template <class Call>
+    static void each_of(std::size_t first, std::size_t last, std::size_t begin, std::size_t end,
+                        const Call& call) {
+        if (begin == end) return;
+        const std::uint32_t wanted = row_before(last) & ~row_before(first);
+        std::size_t row = begin - begin % all_parts;
+        for (std::uint32_t left = wanted & ~std::uint32_t{0} << (begin - row); row < end;
+             row += all_parts, left = wanted)
+            for (; left != 0; left &= left - 1) {
+                const std::size_t i = row + static_cast<std::size_t>(std::countr_zero(left));
+                if (i >= end) return;
+                call(i);
+            }
+    }
+
     AreaSamples points;
+    std::size_t parts = 0;         ///< those before it are measured
     std::vector<double> distances; ///< [samples]
     std::vector<Index> nearest;    ///< [samples] of those measured, a triangle of the other surface's tree
+
+  private:
+    /// Of the first samples, one of each part: bit i if the i-th is of a part before that.
+    static std::uint32_t row_before(std::size_t part);
 };
 
 /// A point and the one closest to it.
@@ -46,7 +69,7 @@ class SampleWalk {
     std::vector<Vec3> vertices() const;
 
     /// Measures the first `parts` of the samples, but for those that are; returns the farthest of them, when
-    /// it is beyond `least`. A part is spread evenly over all; so are several, as far as they go.
+    /// it is beyond `least`.
     Farthest measure(MeasuredSamples& samples, std::size_t parts, double least) const;
 
     // Those that turn out nearer than one before are not searched to the end:

@@ -16,7 +16,7 @@ constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are
 /// it.
 constexpr float rounding = 0x1p-20F;
 
-Float4 four(float x) { return Float4{} + x; }
+Float4 four(float x) { return Float4{x, x, x, x}; }
 
 Box box_around(std::span<const Vec3> points) {
     Box box;
@@ -30,9 +30,9 @@ Box box_around(std::span<const Vec3> points) {
 /// along the edge, all of unit length: what is near the group is then a small number and loses nothing.
 struct GroupDistances::Flat {
     struct Edge {
-        float out[3], reach, along[3], begin, end;
+        Float4 out[3], reach, along[3], begin, end; ///< each number four times
     };
-    float normal[3], offset;
+    Float4 normal[3], offset;
     Edge edges[3];
 
     /// False for slivers, whose plane is uncertain, and for what is far beyond the group.
@@ -41,8 +41,8 @@ struct GroupDistances::Flat {
         const double square = dot(n, n), size = dot(ab, ab) + dot(ac, ac);
         if (!(square > 1e-12 * size * size) || !(size + dot(a, a) < 1e20) || !(square > 1e-60)) return false;
         const Vec3 unit = n * (1 / std::sqrt(square));
-        for (std::size_t k = 0; k < 3; ++k) normal[k] = static_cast<float>(unit[k]);
-        offset = static_cast<float>(dot(unit, a));
+        for (std::size_t k = 0; k < 3; ++k) normal[k] = four(static_cast<float>(unit[k]));
+        offset = four(static_cast<float>(dot(unit, a)));
         set(edges[0], a, b, ab, unit);
         set(edges[1], b, c, c - b, unit);
         set(edges[2], c, a, a - c, unit);
@@ -53,12 +53,12 @@ struct GroupDistances::Flat {
     static void set(Edge& edge, const Vec3& from, const Vec3& to, const Vec3& way, const Vec3& normal) {
         const Vec3 along = way * (1 / std::sqrt(dot(way, way))), out = cross(along, normal);
         for (std::size_t k = 0; k < 3; ++k) {
-            edge.along[k] = static_cast<float>(along[k]);
-            edge.out[k] = static_cast<float>(out[k]);
+            edge.along[k] = four(static_cast<float>(along[k]));
+            edge.out[k] = four(static_cast<float>(out[k]));
         }
-        edge.reach = static_cast<float>(dot(out, from));
-        edge.begin = static_cast<float>(dot(along, from));
-        edge.end = static_cast<float>(dot(along, to));
+        edge.reach = four(static_cast<float>(dot(out, from)));
+        edge.begin = four(static_cast<float>(dot(along, from)));
+        edge.end = four(static_cast<float>(dot(along, to)));
     }
 };
 
@@ -165,19 +165,26 @@ struct BoxQuery {
             low[axis] = four(rounded_down(tree.local(box.min[axis], axis)));
             high[axis] = four(rounded_up(tree.local(box.max[axis], axis)));
         }
-        const double farthest = distance * tree.scale * (1 + 1e-6);
-        square = four(static_cast<float>(farthest * farthest) + 1e-37F);
+        square = four(square_of(tree, distance));
     }
-    /// A bit for each of the four.
-    unsigned near(const FaceTree::Node& node) const {
+    /// In the tree's frame, rounded up.
+    static float square_of(const FaceTree& tree, double distance) {
+        const double farthest = distance * tree.scale * (1 + 1e-6);
+        return static_cast<float>(farthest * farthest) + 1e-37F;
+    }
+    /// The squared distances to four boxes.
+    Float4 squares(const FaceTree::Node& node) const {
         Float4 sum{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Float4 d = greater(
                 greater(load(node.min[axis]) - high[axis], low[axis] - load(node.max[axis])), Float4{});
             sum += d * d;
         }
-        return bits_of(sum * (1 - 1e-6F) <= square);
+        return sum;
     }
+    /// A bit for each of the four that is within the distance.
+    unsigned near(const Float4& squares) const { return bits_of(squares * (1 - 1e-6F) <= square); }
+    unsigned near(const FaceTree::Node& node) const { return near(squares(node)); }
 };
 
 } // namespace
@@ -228,13 +235,23 @@ bool GroupDistances::compare_nearer(std::span<const Vec3> points, const Box& box
     constexpr std::size_t most_triangles = 3; // for each point
     BoxQuery query(tree_, box, limit());
     children_.clear();
+    squares_.clear();
     for (const std::uint32_t leaf : nodes_) {
         if (leaf == but) continue;
-        for (unsigned bits = query.near(tree_.node(0, leaf)); bits != 0; bits &= bits - 1)
-            children_.push_back(4 * leaf + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        const Float4 squares = query.squares(tree_.node(0, leaf));
+        for (unsigned bits = query.near(squares); bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<unsigned>(std::countr_zero(bits));
+            children_.push_back(4 * leaf + lane);
+            squares_.push_back(squares[lane]);
+        }
     }
     if (children_.size() > most_triangles * points.size()) return false;
-    for (const std::uint32_t triangle : children_) compare(points, triangle);
+    float farthest = query.square[0];
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+        if (!(squares_[i] * (1 - 1e-6F) <= farthest)) continue;
+        compare(points, children_[i]);
+        farthest = BoxQuery::square_of(tree_, limit());
+    }
     return true;
 }
 

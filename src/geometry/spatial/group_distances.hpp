@@ -81,6 +81,8 @@ class GroupDistances {
 
     std::vector<std::uint32_t> nodes_,
         children_; ///< of one level and the one below, that may hold the closest
+    std::vector<float>
+        squares_; ///< of the distances of the points' box to the children's, in the tree's frame
 
     // In the group's frame.
     Vec3 centre_;
