@@ -124,6 +124,11 @@ TEST_CASE("what one of several runs has used may go when it is over", "[cache]")
         CHECK(second.put(key(9), Kind::scene, test::bytes_of(bytes)));
         CHECK_FALSE(second.put(key(10), Kind::scene, test::bytes_of(bytes + bytes)));
     }
+    for (int i = 1; i < 10; ++i) {
+        const auto path = shop.file(key(i));
+        std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) -
+                                                   std::chrono::minutes(99 - i));
+    }
     Store third(store);
     CHECK(third.has(key(0), Kind::scene));
     CHECK(third.put(key(10), Kind::scene, test::bytes_of(bytes + bytes)));
