@@ -24,6 +24,20 @@ TEST_CASE("thicken takes its thickness in the world, and reports it as measured"
               .record.result["parts"][0]["cylinders"] == 18);
 }
 
+TEST_CASE("thicken resolves folds on request, and names that where they are told", "[stages]") {
+    const Scene scene = scene_of(test::noisy_icosphere(2, 0.3, 1));
+    const auto folded = run_stage("thicken", "0.2", scene);
+    REQUIRE(folded.record.warnings.size() > 0);
+    CHECK(folded.record.warnings.back().hint.starts_with("thicken: {self_intersections: resolve} makes"));
+    const auto resolved = run_stage("thicken", "{thickness: 0.2, self_intersections: resolve}", scene);
+    CHECK(resolved.record.result["parts"][0]["resolved"] == true);
+    CHECK(resolved.record.result["parts"][0]["self_intersections"] == 0);
+    for (const auto& w : resolved.record.warnings) CHECK(w.id == "W-THICKEN-THIN");
+    CHECK(run_stage("thicken", "{thickness: 0.2, self_intersections: false}", scene)
+              .record.result["parts"][0]
+              .count("self_intersections") == 0);
+}
+
 TEST_CASE("thicken leaves no skin without joints", "[stages]") {
     const auto wires = run_stage("thicken", "{thickness: 0.1, mode: edges}", test::skinned_cube());
     CHECK_FALSE(wires.scene.parts[0].skinned);

@@ -10,6 +10,7 @@
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"
 #include "geometry/thicken/moved_surface.hpp"
+#include "geometry/thicken/resolve.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
 #include "mesh/lineage.hpp"
@@ -203,27 +204,28 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
     return added;
 }
 
-/// Distances to the back from the front's vertices and the middles of its faces, in world; of the faces that
-/// have both.
-std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Mesh& surface, const Transform& to_world,
-                                           const std::vector<std::uint8_t>& filled) {
+/// Where a face of the solid is.
+enum class Face : std::uint8_t { front, back, neither };
+
+/// Distances to the faces of the back from the vertices and the middles of those of the front, in world.
+/// face: [faces], neither for the rest.
+std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Transform& to_world,
+                                           const std::vector<Face>& face) {
     Mesh back;
     back.positions = solid.positions;
     back.wedge_vertex = solid.wedge_vertex;
     for (Vec3& p : back.positions) p = to_world.point(p);
-    std::vector<std::uint8_t> looked(surface.vertex_count(), 1);
-    for (Index f = 0; f < surface.face_count(); ++f)
-        for (Index c = surface.face_begin(f); c < surface.face_end(f); ++c)
-            looked[surface.vertex(c)] = !filled[f];
+    std::vector<std::uint8_t> of_front(solid.vertex_count(), 0);
     std::vector<Vec3> points;
-    for (Index v = 0; v < surface.vertex_count(); ++v)
-        if (looked[v]) points.push_back(back.positions[v]);
-    const auto behind = static_cast<Index>(surface.face_count());
-    for (Index f = 0; f < behind; ++f) {
-        if (filled[f]) continue;
-        add_face(back, solid.face_wedges(behind + f));
-        points.push_back(to_world.point(corner_mean(solid, f)));
+    for (Index f = 0; f < face.size(); ++f) {
+        if (face[f] == Face::back) add_face(back, solid.face_wedges(f));
+        if (face[f] != Face::front) continue;
+        for (Index c = solid.face_begin(f); c < solid.face_end(f); ++c) of_front[solid.vertex(c)] = 1;
     }
+    for (Index v = 0; v < of_front.size(); ++v)
+        if (of_front[v]) points.push_back(back.positions[v]);
+    for (Index f = 0; f < face.size(); ++f)
+        if (face[f] == Face::front) points.push_back(to_world.point(corner_mean(solid, f)));
     const FaceTree tree(surface_of(back));
     double sum = 0, least = HUGE_VAL;
     std::size_t count = 0;
@@ -320,9 +322,30 @@ std::size_t components_of(const Mesh& mesh, const std::vector<std::uint8_t>& fla
     return static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
 }
 
+/// Makes the solid again without its folds.
+void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, ThickenResult& r) {
+    const auto faces_of = [](const std::vector<std::uint8_t>& is_back) {
+        std::vector<Face> face(is_back.size());
+        std::transform(is_back.begin(), is_back.end(), face.begin(),
+                       [](bool back) { return back ? Face::back : Face::front; });
+        return face;
+    };
+    ResolvedSolid solid = r.wall_faces > 0 ? united_solid(d.mesh, to_world, moves.out + moves.in)
+                                           : resolved_solid(moves, to_world);
+    if (solid.failed) return;
+    r.changes = changes_in_sequence(r.changes, std::move(solid.changes));
+    d.mesh = std::move(solid.mesh);
+    if (r.wall_faces == 0) r.wall = measure(d.mesh, to_world, faces_of(solid.is_back));
+    r.resolved = true;
+    r.turned = r.buried = 0;
+    r.first_turned.reset();
+    r.self_intersections = find_self_intersections(d.mesh, {.limit = 0, .separate_touching = true}).count;
+}
+
 /// Finds what is wrong with the solid, and takes away the sides of closed components that vanished: what is
 /// left of those is filled.
-void settle(Doubled& d, const Mesh& surface, const ThickenSettings& s, double out, ThickenResult& r) {
+void settle(Doubled& d, const Mesh& surface, const std::vector<Vec3>& ways, const ThickenSettings& s,
+            double out, ThickenResult& r) {
     const std::size_t faces = surface.face_count();
     std::vector<std::uint8_t> gone(d.mesh.face_count(), 0), filled(faces, 0);
     judge(moved_to(d.mesh, 0, out, surface, s.to_world), gone.data(), surface, s.to_world, r);
@@ -330,7 +353,13 @@ void settle(Doubled& d, const Mesh& surface, const ThickenSettings& s, double ou
     judge(moved_to(d.mesh, behind, out - s.thickness, surface, s.to_world), gone.data() + faces, surface,
           s.to_world, r);
     for (std::size_t f = 0; f < faces; ++f) filled[f] = gone[f] | gone[faces + f];
-    r.wall = measure(d.mesh, surface, s.to_world, filled);
+    std::vector<Face> face(2 * faces, Face::neither);
+    for (std::size_t f = 0; f < faces; ++f)
+        if (!filled[f]) {
+            face[f] = Face::front;
+            face[faces + f] = Face::back;
+        }
+    r.wall = measure(d.mesh, s.to_world, face);
     const bool any = std::find(filled.begin(), filled.end(), 1) != filled.end();
     if (any) {
         r.filled = components_of(surface, filled);
@@ -340,6 +369,17 @@ void settle(Doubled& d, const Mesh& surface, const ThickenSettings& s, double ou
     if (!s.self_intersections || (r.wall && s.thickness > size_of(surface, s.to_world))) return;
     r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
     if (r.self_intersections == 0 && r.unbalanced == 0) r.buried = buried_components(d.mesh);
+    if (!s.resolve || r.unbalanced > 0 || (r.self_intersections == 0 && r.turned == 0 && r.buried == 0))
+        return;
+    const auto back = gone.begin() + static_cast<std::ptrdiff_t>(faces);
+    resolve(d,
+            {surface,
+             ways,
+             out,
+             s.thickness - out,
+             {gone.begin(), back},
+             {back, back + static_cast<std::ptrdiff_t>(faces)}},
+            s.to_world, r);
 }
 
 ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
@@ -370,7 +410,7 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     if (!mesh.has_seams() && wall_normals.empty()) d.mesh.wedge_vertex = {};
     r.limited = ways.limited;
     r.still = ways.still;
-    settle(d, mesh, s, out, r);
+    settle(d, mesh, ways.of_vertex, s, out, r);
     r.mesh = std::move(d.mesh);
     return r;
 }

@@ -19,6 +19,9 @@ struct ThickenSettings {
     double miter_limit = 3;         ///< a vertex moves at most so many times the distance, at least 1
     bool self_intersections = true; ///< count them in the result
     Transform to_world{};           ///< where thickness is meant and measured; not singular
+    /// A solid that folds over or passes through itself is made again without its folds (by the boolean
+    /// operations of geometry/clean/combine.hpp); for what is closed once it has walls.
+    bool resolve = false;
 };
 
 struct ThickenResult {
@@ -42,6 +45,10 @@ struct ThickenResult {
     /// filled: nearly all meet.
     std::optional<std::size_t> self_intersections;
     std::size_t buried = 0; ///< closed components within the walls of others, when no faces intersect
+    /// With `resolve`: whether it was made again; turned and buried are 0 then, and self_intersections leaves
+    /// out pairs that only touch. When that was needed and did not succeed, the solid is as without
+    /// `resolve`.
+    bool resolved = false;
 };
 
 /// Makes a solid of the surface: the front as it is (moved outward by the thickness, or half of it), a copy
@@ -50,10 +57,11 @@ struct ThickenResult {
 /// and the solid is what the other side bounds. A vertex moves so that the planes of its faces move by the
 /// distance each, as nearly as one point allows (least squares, weighted by the angles of the faces at the
 /// vertex); where that goes farther than miter_limit it is held back. A side that folds over is left as it
-/// is: the solid is right where turned, self_intersections and buried are 0, and thin where the wall is.
-/// Wedges of the back have normals turned; walls have their own when the mesh has normals. Requires a
-/// consistently oriented surface to be closed afterwards. Sheets that meet at an edge of more than two faces,
-/// or only at a vertex, are taken apart first, as clean does: each becomes a solid of its own. O(n log n).
+/// is unless `resolve` is set: the solid is right where turned, self_intersections and buried are 0, and thin
+/// where the wall is. Wedges of the back have normals turned; walls have their own when the mesh has normals.
+/// Requires a consistently oriented surface to be closed afterwards. Sheets that meet at an edge of more than
+/// two faces, or only at a vertex, are taken apart first, as clean does: each becomes a solid of its own. O(n
+/// log n).
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {

@@ -22,6 +22,12 @@ walls (W-THICKEN). The wall thickness is measured from the vertices of the front
 back. The report gives all of these. Attributes are kept on both sides, with normals reversed on the
 back; walls take the attributes of their edge and have normals of their own.
 
+With self_intersections: resolve, a solid that folds over or intersects itself is made again by
+boolean operations (as in combine): what the surface encloses, without what its moved copy does.
+Where there is no room for the thickness, the wall is thinner or fills the space behind it; cavities
+and pieces of less than a cube of the thickness are left out. An open surface becomes the solid that
+its two sides and walls wind around.
+
 Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and replaces
 lines by cylinders.)";
 

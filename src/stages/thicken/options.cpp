@@ -4,6 +4,32 @@ namespace facetmill::thicken_stage {
 
 using Mode = ThickenOptions::Mode;
 
+namespace {
+
+/// A choice for which true and false are spellings, too.
+void declare_self_intersections(Declare<ThickenOptions>& d) {
+    using enum ThickenOptions::SelfIntersections;
+    Option& o =
+        d.choice<ThickenOptions::SelfIntersections>(
+             "self_intersections", &ThickenOptions::self_intersections,
+             {{"ignore", ignore, "they are not searched for (also: false)"},
+              {"count", count, "intersecting pairs of faces are counted (also: true)"},
+              {"resolve", resolve,
+               "where walls fold or intersect, the solid is made again without that, by boolean operations"}},
+             "What is done about walls that intersect.")
+            .option();
+    o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
+        const auto yes = v.is_scalar() && !v.deferred ? v.as_bool() : std::nullopt;
+        if (!yes) return plain(self, v, target, problems);
+        static_cast<ThickenOptions*>(target)->self_intersections = *yes ? count : ignore;
+        return true;
+    };
+    o.schema = {{"anyOf", Json::array({o.schema, {{"type", "boolean"}}})}};
+    o.may_be_true = true;
+}
+
+} // namespace
+
 void declare_thicken(Declare<ThickenOptions>& d) {
     d.option("thickness", &ThickenOptions::thickness,
              "The thickness of the solid, or the diameter of cylinders.")
@@ -27,8 +53,7 @@ void declare_thicken(Declare<ThickenOptions>& d) {
         .between(1, 100);
     d.option("sides", &ThickenOptions::sides, "The number of sides of each cylinder (a count).")
         .between(3, 360);
-    d.option("self_intersections", &ThickenOptions::self_intersections,
-             "Searches the result for self-intersections and reports them.");
+    declare_self_intersections(d);
 }
 
 } // namespace facetmill::thicken_stage

@@ -8,13 +8,16 @@ namespace facetmill::thicken_stage {
 
 struct ThickenOptions {
     enum class Mode { surface, edges, boundary_edges };
+    enum class SelfIntersections { ignore, count, resolve };
 
     Length thickness;
     ThickenSide side = ThickenSide::inward;
     Mode mode = Mode::surface;
     double miter_limit = 3;
     std::int64_t sides = 8;
-    bool self_intersections = true;
+    SelfIntersections self_intersections = SelfIntersections::count;
+
+    bool looks() const { return self_intersections != SelfIntersections::ignore; }
 };
 
 void declare_thicken(Declare<ThickenOptions>& d);

@@ -46,6 +46,11 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
     d.field("turned_faces", of_surface(&ThickenResult::turned),
             "Faces of the front and the back that were inverted by the offset: the wall folds there.")
         .only_when(surface);
+    d.field("resolved", of_surface(&ThickenResult::resolved),
+            "Whether walls that fold or intersect were made again without that, as self_intersections: "
+            "resolve asks "
+            "for; turned_faces is 0 then.")
+        .only_when(surface);
     d.field("buried_components", of_surface(&ThickenResult::buried),
             "Closed components of the solid within the walls of others.")
         .only_when(surface);
@@ -56,7 +61,7 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
         return s && s->looked && s->has_faces ? std::optional(s->result.self_intersections) : std::nullopt;
     };
     d.field("self_intersections", pairs, "Pairs of faces that intersect.")
-        .only_when("self_intersections is on and the part has faces")
+        .only_when("self_intersections is not ignore and the part has faces")
         .null_when("the part is smaller than its thickness, so they were not searched for");
     constexpr const char* edges = "edges became cylinders";
     d.field("cylinders", where_it_is(&ThickenedEdges::cylinders), "Edges that became cylinders.")
@@ -77,6 +82,7 @@ std::string line_of(const ThickenedSurface& surface) {
         line += fmt::format(" wall thickness at least {:.6g}, mean {:.6g},", r.wall->thinnest, r.wall->mean);
     if (r.filled > 0) line += fmt::format(" {} filled,", counted(r.filled, "component"));
     if (r.turned > 0) line += fmt::format(" {} turned over,", counted(r.turned, "face"));
+    if (r.resolved) line += " folds resolved,";
     if (r.self_intersections)
         line += fmt::format(" {},", counted(*r.self_intersections, "self-intersection"));
     line.pop_back();
@@ -98,8 +104,11 @@ void declare_thicken_report(DeclareFields<ThickenReport>& d) {
     });
 }
 
-void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, bool looked,
+void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, const ThickenOptions& o,
                    Context& context) {
+    const bool resolves = o.self_intersections == ThickenOptions::SelfIntersections::resolve;
+    const std::string way_out =
+        resolves ? "" : "thicken: {self_intersections: resolve} makes the solid again without that; or ";
     if (r.unbalanced > 0)
         context.warn("W-THICKEN-OPEN",
                      fmt::format("thicken: part '{}' is not closed at {}: its surface is not oriented "
@@ -117,7 +126,7 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
         context.warn("W-THICKEN",
                      fmt::format("thicken: {} pairs of faces of part '{}' intersect", *r.self_intersections,
                                  part.name),
-                     "use a smaller thickness, the other side, or a smoother surface (relax)");
+                     way_out + "use a smaller thickness, the other side, or a smoother surface (relax)");
     if (r.turned > 0)
         context.warn(
             "W-THICKEN",
@@ -125,13 +134,14 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                         "{:.6g} {:.6g} {:.6g}: there is no room for {:.6g}",
                         r.turned, part.name, r.first_turned->x, r.first_turned->y, r.first_turned->z,
                         thickness),
-            "use a smaller thickness, the other side, or larger and smoother faces (simplify, relax)");
+            way_out +
+                "use a smaller thickness, the other side, or larger and smoother faces (simplify, relax)");
     if (r.buried > 0)
         context.warn("W-THICKEN",
                      fmt::format("thicken: {} closed components of part '{}' lie within the walls of others",
                                  r.buried, part.name),
-                     "use a smaller thickness, or thicken the components one by one (separate)");
-    if (looked && !r.self_intersections)
+                     way_out + "use a smaller thickness, or thicken the components one by one (separate)");
+    if (o.looks() && !r.self_intersections)
         context.warn("W-THICKEN",
                      fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g}, so it was not "
                                  "searched for self-intersections",

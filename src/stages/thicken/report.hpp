@@ -27,6 +27,7 @@ struct ThickenReport {
 void declare_thicken_report(DeclareFields<ThickenReport>& d);
 
 /// Warns where the solid is open, thinner than asked for (in world units), or runs into itself.
-void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, bool looked, Context& context);
+void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, const ThickenOptions& o,
+                   Context& context);
 
 } // namespace facetmill::thicken_stage

@@ -28,8 +28,8 @@ class SurfaceThickener {
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         const bool has_faces = part.mesh.face_count() > 0;
-        if (has_faces) warn_of_walls(part, r, thickness, o_.self_intersections, context);
-        return ThickenedSurface{part.name, std::move(r), has_faces, o_.self_intersections};
+        if (has_faces) warn_of_walls(part, r, thickness, o_, context);
+        return ThickenedSurface{part.name, std::move(r), has_faces, o_.looks()};
     }
 
   private:
@@ -42,8 +42,8 @@ class SurfaceThickener {
         const std::size_t as = work_as_[static_cast<std::size_t>(&part - scene_.parts.data())];
         const Vec3 origin = in_world(part, {});
         const auto make = [&] {
-            return thicken(part.mesh,
-                           {thickness, o_.side, o_.miter_limit, o_.self_intersections, part.transform});
+            return thicken(part.mesh, {thickness, o_.side, o_.miter_limit, o_.looks(), part.transform,
+                                       o_.self_intersections == ThickenOptions::SelfIntersections::resolve});
         };
         if (uses_[as] == 1) return make();
         auto& [result, from] = known_.try_emplace({as, thickness}, Known{{}, origin}).first->second;
