@@ -1,5 +1,6 @@
 #include "base/quick_json.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -19,8 +20,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// them that grows copies all that is below them. Here members wait on a stack until their number is known.
 class QuickReader {
   public:
-    QuickReader(std::string_view text, int deepest)
-        : at_(text.data()), end_(at_ + text.size()), deepest_(deepest) {}
+    QuickReader(std::string_view text, int deepest, std::span<const std::string_view> unread)
+        : at_(text.data()), end_(at_ + text.size()), deepest_(deepest), unread_(unread) {}
 
     bool document(Json& out) {
         if (!value(out, 0)) return false;
@@ -83,7 +84,8 @@ class QuickReader {
                 std::string key;
                 Json item;
                 skip_space();
-                if (at_ == end_ || *at_ != '"' || !string(key) || !takes(':') || !value(item, depth))
+                if (at_ == end_ || *at_ != '"' || !string(key) || !takes(':') ||
+                    !(is_unread(key, depth) ? emptied(item, depth) : value(item, depth)))
                     return false;
                 members_.emplace_back(std::move(key), std::move(item));
             } while (takes(','));
@@ -92,6 +94,48 @@ class QuickReader {
         constexpr std::size_t some = 8; // documents get further lists: without room, they would be copied
         out = members_from(first, depth == 1 ? some : 0);
         return true;
+    }
+
+    bool is_unread(std::string_view key, int depth) const {
+        return depth == 1 && std::find(unread_.begin(), unread_.end(), key) != unread_.end();
+    }
+
+    /// As value, but that arrays and objects come out empty.
+    bool emptied(Json& out, int depth) {
+        skip_space();
+        if (at_ == end_ || (*at_ != '{' && *at_ != '[')) return value(out, depth);
+        out = *at_ == '{' ? Json::object() : Json::array();
+        return passes(depth);
+    }
+
+    /// Passes over what `value` would read.
+    bool passes(int depth) {
+        skip_space();
+        if (at_ == end_) return false;
+        switch (*at_) {
+        case '{':
+            return depth < deepest_ && passes_items('}', depth + 1);
+        case '[':
+            return depth < deepest_ && passes_items(']', depth + 1);
+        case '"':
+            return string(passed_string_);
+        default:
+            return value(passed_, depth);
+        }
+    }
+
+    /// The members of an object or the items of an array.
+    bool passes_items(char end, int depth) {
+        ++at_;
+        if (takes(end)) return true;
+        do {
+            if (end == '}') {
+                skip_space();
+                if (at_ == end_ || *at_ != '"' || !string(passed_string_) || !takes(':')) return false;
+            }
+            if (!passes(depth)) return false;
+        } while (takes(','));
+        return takes(end);
     }
 
     /// The members from `first` on, which leave the stack. A key that is there again gives its value to the
@@ -210,15 +254,18 @@ class QuickReader {
     const char* at_;
     const char* const end_;
     const int deepest_;
+    const std::span<const std::string_view> unread_;
+    std::string passed_string_; // that nobody asks for
+    Json passed_;
     std::vector<std::pair<std::string, Json>> members_; // of the objects that are not yet at their end
     std::vector<Json> items_;                           // of such arrays
 };
 
 } // namespace
 
-std::optional<Json> quick_json(std::string_view text, int deepest) {
+std::optional<Json> quick_json(std::string_view text, int deepest, std::span<const std::string_view> unread) {
     std::optional<Json> read(std::in_place);
-    if (!QuickReader(text, deepest).document(*read)) read.reset();
+    if (!QuickReader(text, deepest, unread).document(*read)) read.reset();
     return read;
 }
 

@@ -4,6 +4,7 @@
 #include "base/json.hpp"
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace facetmill {
@@ -12,6 +13,9 @@ namespace facetmill {
 /// one that is nested deeper than `deepest` levels, and for the rare ones that only the library reads: a byte
 /// order mark, perhaps numbers next to zero. The library says what is wrong, if anything is. Its time grows
 /// with the square of an object's members, that of this with their number.
-std::optional<Json> quick_json(std::string_view text, int deepest = 256);
+/// unread: members of the outermost object that are checked like the others; of them, arrays and objects come
+/// out empty.
+std::optional<Json> quick_json(std::string_view text, int deepest = 256,
+                               std::span<const std::string_view> unread = {});
 
 } // namespace facetmill

@@ -4,6 +4,7 @@
 
 #include "support/catch.hpp"
 
+#include <array>
 #include <fmt/format.h>
 
 using namespace facetmill;
@@ -68,6 +69,24 @@ TEST_CASE("JSON is read as the library reads it", "[base]") {
     CHECK_FALSE(quick_json("[[]]", 1));
 }
 
+TEST_CASE("unread members are as strict and come out empty", "[base]") {
+    constexpr std::array<std::string_view, 2> unread{"u", "w"};
+    const auto read = quick_json(
+        R"({"a": [1], "u": [{"u": [2]}, "\u00e9"], "v": {"u": [3]}, "w": {"x": 1}, "u": [4]})", 256, unread);
+    REQUIRE(read);
+    CHECK(same(*read, by_library(R"({"a": [1], "u": [], "v": {"u": [3]}, "w": {}})")));
+    CHECK(same(quick_json(R"({"u": 1.5, "w": "x"})", 256, unread).value(),
+               by_library(R"({"u": 1.5, "w": "x"})")));
+    CHECK(quick_json("{\"u\": " + nested(255) + "}", 256, unread));
+    CHECK_FALSE(quick_json("{\"u\": " + nested(256) + "}", 256, unread));
+    for (const std::string text :
+         {"[1,]", "[1 2]", "{\"a\" 1}", "{\"a\": 1,}", "{1: 1}", "[01]", "[1e400]", "[\"\xff\"]",
+          "[\"a\nb\"]", "{\"\\x\": 1}", "[nul]", "[}", "{\"a\": 1]", "["}) {
+        INFO(text);
+        CHECK_FALSE(quick_json("{\"u\": " + text + "}", 256, unread));
+    }
+}
+
 TEST_CASE("what only the library reads is left to it", "[base]") {
     const std::string marked = "\xef\xbb\xbf{}";
     CHECK_FALSE(quick_json(marked));
@@ -115,6 +134,7 @@ TEST_CASE("what is no JSON is refused", "[base]") {
 
 TEST_CASE("damaged JSON is read as the library reads it, or left to it", "[base]") {
     constexpr std::string_view bytes("{}[]\",:\\ue0-.19t\n\x80\xc3", 20);
+    constexpr std::array<std::string_view, 1> unread{"u"};
     std::size_t accepted = 0;
     for (std::uint64_t round = 0; round < 2000; ++round) {
         std::string text(document);
@@ -126,6 +146,8 @@ TEST_CASE("damaged JSON is read as the library reads it, or left to it", "[base]
         const auto read = quick_json(text);
         const Json wanted = by_library(text);
         if (read) CHECK(same(*read, wanted));
+        const std::string within = "{\"u\": " + text + "}";
+        CHECK(quick_json(within, 256, unread).has_value() == quick_json(within).has_value());
         accepted += read.has_value();
     }
     CHECK(accepted > 100);

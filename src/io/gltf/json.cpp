@@ -43,8 +43,8 @@ std::string shown(const Json& json) {
 
 } // namespace
 
-Json parse_document(std::string_view text) {
-    if (auto read = quick_json(text, deepest)) return *std::move(read);
+Json parse_document(std::string_view text, std::span<const std::string_view> unread) {
+    if (auto read = quick_json(text, deepest, unread)) return *std::move(read);
     check_depth(text);
     try {
         return parse_json(text);
@@ -60,7 +60,7 @@ std::string to_string(const Json& document) {
 }
 
 std::string Place::path() const {
-    std::string path = above_;
+    std::string path = above_ ? *above_ : "";
     for (std::size_t i = 0; i < step_count_; ++i) {
         if (!steps_[i].key)
             path += fmt::format("[{}]", steps_[i].item);
@@ -70,12 +70,15 @@ std::string Place::path() const {
     return path;
 }
 
-Place Place::after(const Step& step, const Json& json) const {
-    if (step_count_ == steps_.size()) return Place(json, path()).after(step, json);
-    Place next = *this;
-    next.json_ = &json;
-    next.steps_[next.step_count_++] = step;
-    return next;
+Place::Place(const Place& from, const Step& step, const Json& json) : json_(&json) {
+    if (from.step_count_ == steps_.size()) {
+        above_ = std::make_shared<const std::string>(from.path());
+    } else {
+        above_ = from.above_;
+        steps_ = from.steps_;
+        step_count_ = from.step_count_;
+    }
+    steps_[step_count_++] = step;
 }
 
 void Place::fail(const std::string& message, const char* id, std::string hint) const {
@@ -87,23 +90,29 @@ void Place::expected(const char* what) const {
     fail(fmt::format("expected {}, found {}", what, shown(*json_)));
 }
 
-std::optional<Place> Place::find(const char* key) const {
+const Place::Member* Place::member(const char* key) const {
     if (!json_->is_object()) expected("an object");
     const std::string_view wanted(key);
     for (const auto& member : json_->get_ref<const Json::object_t&>())
-        if (member.first == wanted) return after({&member.first, 0}, member.second);
+        if (member.first == wanted) return &member;
+    return nullptr;
+}
+
+std::optional<Place> Place::find(const char* key) const {
+    if (const Member* found = member(key))
+        return std::optional<Place>(std::in_place, *this, Step{&found->first, 0}, found->second);
     return std::nullopt;
 }
 
 Place Place::at(const char* key) const {
-    auto found = find(key);
+    const Member* found = member(key);
     if (!found) fail(fmt::format("\"{}\" is missing", key));
-    return *std::move(found);
+    return {*this, {&found->first, 0}, found->second};
 }
 
 Place Place::at(std::size_t i) const {
     if (i >= size()) fail(fmt::format("item {} of {} is missing", i, size()));
-    return after({nullptr, i}, (*json_)[i]);
+    return {*this, {nullptr, i}, (*json_)[i]};
 }
 
 std::size_t Place::size() const {

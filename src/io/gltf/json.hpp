@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,14 +16,17 @@ namespace facetmill::io::gltf {
 
 /// Parses a document. Throws malformed: E-JSON with the byte where the text stops being JSON, or when it is
 /// nested deeper than 256 levels (the JSON library writes and copies recursively).
-Json parse_document(std::string_view text);
+/// unread: lists of the document that are checked, and may be left empty.
+Json parse_document(std::string_view text, std::span<const std::string_view> unread = {});
 /// The document as text; invalid UTF-8 in names that came from elsewhere is replaced, never written.
 std::string to_string(const Json& document);
 
 /// A value of the document and where it stands. Every access checks and throws malformed (E-GLTF).
 class Place {
   public:
-    Place(const Json& json, std::string path) : json_(&json), above_(std::move(path)) {}
+    Place(const Json& json, std::string path) : json_(&json) {
+        if (!path.empty()) above_ = std::make_shared<const std::string>(std::move(path));
+    }
 
     const Json& json() const { return *json_; }
     std::string path() const; ///< "accessors[3].count"
@@ -45,19 +50,24 @@ class Place {
     [[noreturn]] void fail(const std::string& message, const char* id = "E-GLTF",
                            std::string hint = {}) const;
 
-  private:
     /// From an object to a member, by its key in the document, or from an array to an item.
     struct Step {
         const std::string* key = nullptr;
         std::size_t item = 0;
     };
+    /// A step below another.
+    Place(const Place& from, const Step& step, const Json& json);
+
+  private:
+    using Member = Json::object_t::value_type;
+
     [[noreturn]] void expected(const char* what) const;
-    Place after(const Step& step, const Json& json) const;
+    const Member* member(const char* key) const;
 
     const Json* json_;
-    std::string above_;           // the path of the value from which the steps lead to this one
     std::array<Step, 6> steps_{}; // spelled only where somebody asks: most values are as they should be
     std::size_t step_count_ = 0;
+    std::shared_ptr<const std::string> above_; // the path of the value from which they lead here; none: ""
 };
 
 /// A top-level array of the document ("accessors"), or none when it is absent.
