@@ -71,6 +71,78 @@ class DepthLimit : public nlohmann::json_sax<Json> {
 
 } // namespace
 
+namespace {
+
+/// The library writes each byte by a virtual call. RFC 8949; what is no value of JSON becomes null.
+class CborWriter {
+  public:
+    explicit CborWriter(io::Bytes& out) : out_(out) {}
+
+    void write(const Json& json) {
+        switch (json.type()) {
+        case Json::value_t::boolean:
+            return byte(json.get<bool>() ? yes : no);
+        case Json::value_t::number_unsigned:
+            return head(natural, json.get<std::uint64_t>());
+        case Json::value_t::number_integer: {
+            const auto value = json.get<std::int64_t>();
+            return value < 0 ? head(negative, ~static_cast<std::uint64_t>(value))
+                             : head(natural, static_cast<std::uint64_t>(value));
+        }
+        case Json::value_t::number_float:
+            byte(float64);
+            return most_significant_first(std::bit_cast<std::uint64_t>(json.get<double>()), 8);
+        case Json::value_t::string:
+            return write(json.get_ref<const std::string&>());
+        case Json::value_t::array:
+            head(list, json.size());
+            for (const Json& item : json) write(item);
+            return;
+        case Json::value_t::object:
+            head(object, json.size());
+            for (const auto& [key, value] : json.get_ref<const Json::object_t&>()) {
+                write(key);
+                write(value);
+            }
+            return;
+        default:
+            return byte(null);
+        }
+    }
+
+  private:
+    enum Major : unsigned { natural = 0, negative = 1, text = 3, list = 4, object = 5 };
+    enum Simple : unsigned { no = 0xF4, yes = 0xF5, null = 0xF6, float64 = 0xFB };
+
+    void byte(unsigned value) { out_.push_back(static_cast<std::byte>(value)); }
+    void most_significant_first(std::uint64_t value, unsigned bytes) {
+        while (bytes-- > 0) byte(static_cast<unsigned>(value >> (bits_of_byte * bytes)) & 0xFF);
+    }
+    void head(Major major, std::uint64_t n) {
+        constexpr unsigned in_one = 24; // smaller numbers stand in the first byte
+        const unsigned power = n <= 0xFF ? 0 : n <= 0xFFFF ? 1 : n <= 0xFFFFFFFF ? 2 : 3;
+        if (n < in_one) return byte(major << 5 | static_cast<unsigned>(n));
+        byte(major << 5 | (in_one + power));
+        most_significant_first(n, 1U << power);
+    }
+    void write(const std::string& string) {
+        head(text, string.size());
+        const auto* begin = reinterpret_cast<const std::byte*>(string.data());
+        out_.insert(out_.end(), begin, begin + string.size());
+    }
+
+    io::Bytes& out_;
+};
+
+} // namespace
+
+void ByteWriter::put(const Json& json) {
+    io::Bytes cbor;
+    CborWriter(cbor).write(json);
+    count(cbor.size());
+    raw(cbor.data(), cbor.size());
+}
+
 Json json_of_cbor(io::Span cbor) {
     const auto* begin = reinterpret_cast<const std::uint8_t*>(cbor.data());
     DepthLimit limit;

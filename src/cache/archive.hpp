@@ -99,11 +99,8 @@ class ByteWriter {
         count(text.size());
         raw(text.data(), text.size());
     }
-    void put(const Json& json) {
-        const auto cbor = Json::to_cbor(json);
-        count(cbor.size());
-        raw(cbor.data(), cbor.size());
-    }
+    /// As CBOR.
+    void put(const Json& json);
     template <Record R>
     void put(const R& record) {
         Members<R>::each(record, [this](const auto&... fields) { (put(fields), ...); });

@@ -64,7 +64,12 @@ std::string digest_of(const Scene& scene) {
 }
 std::optional<Scene> decoded_scene(io::Span bytes) { return read_from<Scene>(bytes); }
 
-io::Bytes encoded(const Memory& memory) { return bytes_of(memory); }
+io::Bytes encoded(const Memory& memory) { return encoded(memory, memory.record); }
+io::Bytes encoded(const Memory& memory, const report::StageRecord& record) {
+    ByteWriter writer;
+    Members<Memory>::each(memory, [&](const auto&, const auto&... others) { writer(record, others...); });
+    return std::move(writer.bytes);
+}
 std::optional<Memory> decoded_memory(io::Span bytes) { return read_from<Memory>(bytes); }
 
 std::size_t size_of(const Scene& scene) {

@@ -26,6 +26,8 @@ struct Memory {
     Box bounds;                             ///< of that scene
 };
 io::Bytes encoded(const Memory& memory);
+/// With that record in the place of its own, which is not copied.
+io::Bytes encoded(const Memory& memory, const report::StageRecord& record);
 std::optional<Memory> decoded_memory(io::Span bytes);
 
 /// A key of whatever depends on these texts and nothing else.

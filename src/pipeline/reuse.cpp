@@ -249,7 +249,6 @@ void Reuse::keep_known(const Step& step, Flow& flow, const RunState& run, const 
     flow.key = step.stage->loads ? "" : before.key;
     flow.unsaved += stage.seconds;
     cache::Memory memory;
-    memory.record = stage;
     memory.inputs = since(run.record.inputs, before.inputs);
     memory.absent = since(run.record.absent, before.absent);
     memory.scene = flow.key;
@@ -259,10 +258,12 @@ void Reuse::keep_known(const Step& step, Flow& flow, const RunState& run, const 
         });
     if (tells_name) memory.told_name = step.name;
     memory.bounds = stage.after->bounds;
-    if (step.stage->loads)
+    if (step.stage->loads) {
+        memory.record = stage;
         flow.loaded = {before.key, std::move(memory)};
-    else
-        flow.memories.emplace_back(before.key, cache::encoded(memory));
+    } else {
+        flow.memories.emplace_back(before.key, cache::encoded(memory, stage));
+    }
     store_scene(flow);
 }
 

@@ -218,6 +218,33 @@ TEST_CASE("what a run tells of a stage comes back, but for its places", "[cache]
     CHECK(back->bounds.max == memory.bounds.max);
 }
 
+TEST_CASE("JSON of every kind and size comes back", "[cache]") {
+    Json list = Json::array({nullptr, true, false, 0.1, -0.0, 1e308, 5e-324});
+    for (const std::uint64_t power : {0, 4, 5, 8, 16, 32, 63})
+        for (const std::uint64_t n :
+             {(std::uint64_t{1} << power) - 1, std::uint64_t{1} << power, 3 * (std::uint64_t{1} << power)}) {
+            list.push_back(n);
+            list.push_back(-1 - static_cast<std::int64_t>(n / 2));
+        }
+    list.push_back(UINT64_MAX);
+    list.push_back(INT64_MIN);
+    for (const std::size_t size : {0, 23, 24, 255, 256, 70'000}) {
+        list.push_back(std::string(size, '\xff')); // whatever a file had for a name
+        Json object = Json::object();
+        for (std::size_t i = 0; i < size % 1000; ++i) object[std::to_string(i)] = Json::array({i});
+        list.push_back(object);
+    }
+    cache::Memory memory;
+    report::StageRecord other;
+    other.result = {{"list", list}};
+    const auto back = cache::decoded_memory(cache::encoded(memory, other));
+    REQUIRE(back);
+    CHECK(back->record.result == other.result);
+    const Json& found = back->record.result["list"];
+    for (std::size_t i = 0; i < list.size(); ++i) CHECK(found[i].type() == list[i].type());
+    CHECK(std::signbit(found[4].get<double>()));
+}
+
 TEST_CASE("values that are nested deeper than any that is stored are corrupt, and nothing worse", "[cache]") {
     const auto nested = [](std::size_t depth) {
         io::Bytes cbor(depth, std::byte{0x81}); // arrays of one
