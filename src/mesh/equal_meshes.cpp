@@ -2,6 +2,7 @@
 
 #include "base/random.hpp"
 
+#include <bit>
 #include <functional>
 #include <map>
 #include <type_traits>
@@ -79,14 +80,17 @@ std::vector<std::size_t> first_with_equal_mesh(const Scene& scene) {
     return first;
 }
 
-std::array<double, 9> axes_in_world(const Transform& to_world) {
+std::uint64_t key_of(double number) { return std::bit_cast<std::uint64_t>(number == 0 ? 0.0 : number); }
+
+std::array<std::uint64_t, 9> axes_in_world(const Transform& to_world) {
     const Vec3 x = to_world.vector({1, 0, 0}), y = to_world.vector({0, 1, 0}), z = to_world.vector({0, 0, 1});
-    return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+    return {key_of(x.x), key_of(x.y), key_of(x.z), key_of(y.x), key_of(y.y),
+            key_of(y.z), key_of(z.x), key_of(z.y), key_of(z.z)};
 }
 
 std::vector<std::size_t> first_with_equal_shape(const Scene& scene) {
     std::vector<std::size_t> first = first_with_equal_mesh(scene);
-    std::map<std::pair<std::size_t, std::array<double, 9>>, std::size_t> known;
+    std::map<std::pair<std::size_t, std::array<std::uint64_t, 9>>, std::size_t> known;
     for (std::size_t p = 0; p < first.size(); ++p)
         first[p] = known.try_emplace({first[p], axes_in_world(scene.parts[p].transform)}, p).first->second;
     return first;

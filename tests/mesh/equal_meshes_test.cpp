@@ -3,6 +3,8 @@
 #include "mesh/equal_meshes.hpp"
 #include "mesh/shapes.hpp"
 
+#include <limits>
+
 using namespace facetmill;
 
 TEST_CASE("parts with equal meshes are found, wherever they stand, and others told apart", "[mesh]") {
@@ -35,4 +37,16 @@ TEST_CASE("parts of one shape differ by a move alone", "[mesh]") {
     CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 0, 2, 2});
     scene.parts[1].mesh.positions[0].x -= 1;
     CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 1, 2, 2});
+}
+
+TEST_CASE("parts that stand nowhere are of no other shape", "[mesh]") {
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    Scene scene;
+    for (int i = 0; i < 6; ++i) scene.parts.emplace_back().mesh = shapes::cube();
+    scene.parts[1].transform.m[0][0] = nowhere;
+    scene.parts[2].transform.m[0][0] = 2;
+    scene.parts[3].transform.m[0][0] = nowhere;
+    scene.parts[4].transform.m[1][0] = -0.0;
+    scene.parts[5].transform.m[2][2] = nowhere;
+    CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 1, 2, 1, 0, 5});
 }

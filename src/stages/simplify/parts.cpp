@@ -219,8 +219,8 @@ class Simplifier {
         uses_.assign(work_as_.size(), 1);
         if (work_as_.size() < 2 || o_.lock.box) return; // the box meets each elsewhere
         const std::vector<std::size_t> equal = first_with_equal_mesh(scene_);
-        std::map<std::pair<std::size_t, double>, std::size_t> worked;
-        std::map<std::pair<std::size_t, std::array<double, 9>>, std::size_t> measured;
+        std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> worked;
+        std::map<std::pair<std::size_t, std::array<std::uint64_t, 9>>, std::size_t> measured;
         for (std::size_t p = 0; p < equal.size(); ++p) {
             const bool touches = !contacts_.shared.empty() && !contacts_.shared[p].empty();
             if (touches || !context_.selects(scene_.parts[p], scene_)) continue;
@@ -230,7 +230,7 @@ class Simplifier {
                 scale = greatest_stretch(to_world);
             else if (shares_by_error(o_))
                 scale = rounded_scale(greatest_stretch(to_world));
-            work_as_[p] = worked.try_emplace({equal[p], scale}, p).first->second;
+            work_as_[p] = worked.try_emplace({equal[p], key_of(scale)}, p).first->second;
             if (work_as_[p] != p) ++uses_[work_as_[p]];
             measured_as_[p] = measured.try_emplace({work_as_[p], axes_in_world(to_world)}, p).first->second;
         }

@@ -46,7 +46,7 @@ class SurfaceThickener {
                                        o_.self_intersections == ThickenOptions::SelfIntersections::resolve});
         };
         if (uses_[as] == 1) return make();
-        auto& [result, from] = known_.try_emplace({as, thickness}, Known{{}, origin}).first->second;
+        auto& [result, from] = known_.try_emplace({as, key_of(thickness)}, Known{{}, origin}).first->second;
         if (result.mesh.positions.empty()) result = make();
         ThickenResult r = result;
         if (r.first_turned) *r.first_turned += origin - from;
@@ -55,9 +55,9 @@ class SurfaceThickener {
 
     const Scene& scene_;
     const ThickenOptions& o_;
-    std::vector<std::size_t> work_as_;                      ///< [parts] the first of its shape
-    std::vector<std::size_t> uses_;                         ///< [parts] how many have its shape
-    std::map<std::pair<std::size_t, double>, Known> known_; ///< by the first part and the thickness
+    std::vector<std::size_t> work_as_;                             ///< [parts] the first of its shape
+    std::vector<std::size_t> uses_;                                ///< [parts] how many have its shape
+    std::map<std::pair<std::size_t, std::uint64_t>, Known> known_; ///< by the first part and the thickness
 };
 
 ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
