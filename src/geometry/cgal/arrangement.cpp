@@ -1,6 +1,7 @@
 #include "geometry/cgal/arrangement.hpp"
 
 #include "base/parallel.hpp"
+#include "base/predicates.hpp"
 #include "geometry/cgal/plane_cut.hpp"
 #include "geometry/intersect/plane_crossing.hpp"
 #include "geometry/spatial/box_tree.hpp"
@@ -228,6 +229,18 @@ std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group
     return count;
 }
 
+template <class T>
+std::vector<T> appended(std::vector<T> all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+/// Of what a ray along any axis can hit of a box, the sum over the axes.
+double half_area(const Box& box) {
+    const Vec3 size = box.max - box.min;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
 /// More than these take longer than a minute or so.
 constexpr std::size_t max_pairs = 1'000'000, max_crossings = 2'000'000;
 
@@ -241,8 +254,12 @@ struct Arrangement::Own {
     std::vector<Piece> pieces;
     SidesOfNodes sides;
     std::optional<Index> overfull;
-    static constexpr std::size_t run = 16;
-    std::vector<Box> runs; ///< of so many triangles in a row
+    /// Triangles in a row that are near each other, sixteen at most.
+    struct Run {
+        Box box;
+        Index begin = 0, end = 0;
+    };
+    std::vector<Run> runs; ///< of all triangles, in order
     Box bounds;
 
     void cut() {
@@ -281,40 +298,61 @@ struct Arrangement::Own {
         return box;
     }
 
-    /// The boxes of runs of triangles, which mostly are near each other.
-    void find_runs() {
-        runs.resize((soup.triangles.size() + run - 1) / run);
-        parallel_for(
-            runs.size(),
-            [&](std::size_t i) {
-                for (std::size_t t = i * run; t < std::min(soup.triangles.size(), (i + 1) * run); ++t)
-                    runs[i].add(box_of(static_cast<Index>(t)));
-            },
-            512);
-        bounds = box_of_all(runs);
+    /// Appends the triangles from begin to end as one run, or as several where its box would be much larger
+    /// than theirs together, and hold rays that pass between them. The box of all.
+    Box add_runs(Index begin, Index end, std::vector<Run>& all) const {
+        if (end - begin == 1) return all.emplace_back(Run{box_of(begin), begin, end}).box;
+        const std::size_t before = all.size();
+        const Index middle = begin + (end - begin) / 2;
+        const Box left = add_runs(begin, middle, all), right = add_runs(middle, end, all);
+        Box both = left;
+        both.add(right);
+        if (all.size() == before + 2 && !(half_area(both) > 2 * (half_area(left) + half_area(right)))) {
+            all.pop_back();
+            all.back() = {both, begin, end};
+        }
+        return both;
     }
 
-    /// The triangles whose boxes meet any of these, each with its place; those of one place ascend.
-    std::vector<std::pair<Index, Index>> meetings(const std::vector<Box>& boxes) const {
+    void find_runs() {
+        constexpr std::size_t longest = 16;
+        const std::size_t count = soup.triangles.size();
+        const auto among = [&](std::size_t first, std::size_t last) {
+            std::vector<Run> some;
+            for (std::size_t begin = first * longest; begin < std::min(count, last * longest);
+                 begin += longest)
+                add_runs(static_cast<Index>(begin), static_cast<Index>(std::min(count, begin + longest)),
+                         some);
+            return some;
+        };
+        runs =
+            parallel_reduce((count + longest - 1) / longest, std::vector<Run>{}, among, appended<Run>, 512);
+        for (const Run& run : runs) bounds.add(run.box);
+    }
+
+    /// The triangles whose boxes meet any of these, each with its place; those of one place ascend. Boxes
+    /// that are long the same way are of one tree.
+    std::vector<std::pair<Index, Index>> meetings(const std::array<std::vector<Index>, 3>& places,
+                                                  const std::vector<Box>& boxes) const {
         using Pairs = std::vector<std::pair<Index, Index>>; // (triangle, box)
-        const BoxTree tree(boxes);
+        std::vector<BoxTree> trees;
+        for (const auto& of_one : places) {
+            std::vector<Box> long_one_way;
+            for (const Index at : of_one) long_one_way.push_back(boxes[at]);
+            trees.emplace_back(std::move(long_one_way));
+        }
         const auto among = [&](std::size_t first, std::size_t last) {
             Pairs pairs;
             for (std::size_t i = first; i < last; ++i)
-                tree.visit(runs[i], [&](Index at) {
-                    const std::size_t end = std::min(soup.triangles.size(), (i + 1) * run);
-                    for (auto t = static_cast<Index>(i * run); t < end; ++t)
-                        if (boxes_meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
-                });
+                for (std::size_t k = 0; k < trees.size(); ++k)
+                    trees[k].visit(runs[i].box, [&](Index item) {
+                        const Index at = places[k][item];
+                        for (Index t = runs[i].begin; t < runs[i].end; ++t)
+                            if (boxes_meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
+                    });
             return pairs;
         };
-        return parallel_reduce(
-            runs.size(), Pairs{}, among,
-            [](Pairs all, const Pairs& more) {
-                all.insert(all.end(), more.begin(), more.end());
-                return all;
-            },
-            512);
+        return parallel_reduce(runs.size(), Pairs{}, among, appended<Pairs::value_type>, 512);
     }
 };
 
@@ -341,6 +379,7 @@ using Point = ExactNodes::Point;
 /// one after.
 struct Ray {
     Point from;
+    Box around; ///< from, as nearly as its doubles tell
     int axis;
     bool forward;
 
@@ -348,11 +387,24 @@ struct Ray {
     int side(const Vec3& a, const Vec3& b) const {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
+        if (const int sure = sure_side(a, b, i, j)) return sure;
         using Flat = ExactKernel::Point_2;
         const int exact = CGAL::orientation(Flat(a[i], a[j]), Flat(b[i], b[j]), Flat(from[u], from[v]));
         if (exact != 0) return exact;
         if (a[j] != b[j]) return a[j] > b[j] ? 1 : -1;
         return a[i] < b[i] ? 1 : a[i] > b[i] ? -1 : 0;
+    }
+
+    /// The side by rounded numbers, or 0 where those do not decide it: products of differences are off by
+    /// less than 1e-15 of themselves, `from` by no more than the box around it is long.
+    int sure_side(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) const {
+        const double x = b[i] - a[i], y = b[j] - a[j];
+        const double left = x * (around.min[j] - a[j]), right = y * (around.min[i] - a[i]);
+        const double off =
+            std::abs(x) * (around.max[j] - around.min[j]) + std::abs(y) * (around.max[i] - around.min[i]);
+        const double bound = 1e-15 * (std::abs(left) + std::abs(right)) + 1.01 * off + orientation_smallest;
+        const double area = left - right;
+        return area > bound ? 1 : area < -bound ? -1 : 0;
     }
 
     /// 1 when it leaves through the front of the triangle, -1 when it enters, 0 when it does not pass
@@ -386,12 +438,13 @@ struct Sight {
         const int axis =
             *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal[i]); });
         const auto k = static_cast<std::size_t>(axis);
-        ray = {CGAL::centroid(p, q, r), axis, a[k] > bounds.centre()[k]};
+        ray = {CGAL::centroid(p, q, r), {}, axis, a[k] > bounds.centre()[k]};
         for (int i = 0; i < 3; ++i) {
             const auto [low, high] = CGAL::to_interval(ray.from[i]);
             along.min[static_cast<std::size_t>(i)] = low;
             along.max[static_cast<std::size_t>(i)] = high;
         }
+        ray.around = along;
         if (ray.forward)
             along.max[k] = std::max(along.max[k], bounds.max[k]);
         else
@@ -406,14 +459,16 @@ std::vector<Arrangement::Seen> Arrangement::look_ahead(const std::vector<Look>& 
     std::vector<Seen> seen(looks.size());
     std::vector<Sight> sights;
     std::vector<Box> boxes;
+    std::array<std::vector<Index>, 3> along; // each axis
     for (std::size_t i = 0; i < looks.size(); ++i) {
         sights.emplace_back(own_->nodes, looks[i].nodes, own_->bounds);
         boxes.push_back(sights.back().along);
+        along[static_cast<std::size_t>(sights.back().ray.axis)].push_back(static_cast<Index>(i));
         seen[i].way = sights.back().way;
     }
     if (looks.empty()) return seen;
     const auto& soup = own_->soup;
-    for (const auto& [t, i] : own_->meetings(boxes)) {
+    for (const auto& [t, i] : own_->meetings(along, boxes)) {
         const auto& but = looks[i].but;
         if (std::find(but.begin(), but.end(), t) != but.end()) continue;
         const auto& [a, b, c] = soup.triangles[t];

@@ -45,10 +45,14 @@ std::array<int, 3> axes_by(const Vec3& rough_normal) {
 /// The plane of a triangle, seen along an axis from where the triangle turns left.
 class Frame {
   public:
-    Frame(const Point3& a, const Point3& b, const Point3& c, const Vec3& rough_normal) : origin_(a) {
+    /// is_level: for each axis whether the triangle has one coordinate along it.
+    Frame(const Point3& a, const Point3& b, const Point3& c, const Vec3& rough_normal,
+          const std::array<bool, 3>& is_level)
+        : origin_(a) {
         normal_ = CGAL::cross_product(b - a, c - a);
         const auto axes = axes_by(rough_normal);
         drop_ = *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal_[i]); });
+        is_level_ = is_level[static_cast<std::size_t>(drop_)];
         u_ = (drop_ + 1) % 3;
         v_ = (drop_ + 2) % 3;
         if (CGAL::is_negative(normal_[drop_])) std::swap(u_, v_);
@@ -56,18 +60,22 @@ class Frame {
 
     Point2 flat(const Point3& p) const { return {p[u_], p[v_]}; }
     Point3 lifted(const Point2& p) const {
-        const ExactKernel::FT du = p.x() - origin_[u_], dv = p.y() - origin_[v_];
         std::array<ExactKernel::FT, 3> x;
         x[static_cast<std::size_t>(u_)] = p.x();
         x[static_cast<std::size_t>(v_)] = p.y();
-        x[static_cast<std::size_t>(drop_)] =
-            origin_[drop_] - (normal_[u_] * du + normal_[v_] * dv) / normal_[drop_];
+        x[static_cast<std::size_t>(drop_)] = is_level_ ? origin_[drop_] : height(p);
         return {x[0], x[1], x[2]};
     }
 
   private:
+    ExactKernel::FT height(const Point2& p) const {
+        const ExactKernel::FT du = p.x() - origin_[u_], dv = p.y() - origin_[v_];
+        return origin_[drop_] - (normal_[u_] * du + normal_[v_] * dv) / normal_[drop_];
+    }
+
     Point3 origin_;
     ExactKernel::Vector_3 normal_;
+    bool is_level_ = false; ///< the plane stands across the axis
     int drop_ = 2, u_ = 0, v_ = 1;
 };
 
@@ -183,7 +191,9 @@ class Cutter {
     Frame frame_of(Index t) const {
         const auto& [a, b, c] = soup_.triangles[t];
         const Vec3 &p = soup_.points[a], &q = soup_.points[b], &r = soup_.points[c];
-        return {nodes_.at(a), nodes_.at(b), nodes_.at(c), cross(q - p, r - p)};
+        std::array<bool, 3> is_level{};
+        for (std::size_t k = 0; k < 3; ++k) is_level[k] = p[k] == q[k] && q[k] == r[k];
+        return {nodes_.at(a), nodes_.at(b), nodes_.at(c), cross(q - p, r - p), is_level};
     }
 
     Vertex vertex_of(Index node) {

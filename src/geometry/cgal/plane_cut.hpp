@@ -5,6 +5,8 @@
 #include "mesh/mesh.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <deque>
@@ -55,6 +57,7 @@ class ExactNodes {
         return node;
     }
     Point point_of(const SideCrossing& crossing) const {
+        if (const auto plain = plain_point_of(crossing)) return *plain;
         const Point p = at(crossing.low), q = at(crossing.high);
         const auto& corner = soup_.triangles[crossing.triangle];
         const Point o = at(corner[0]);
@@ -89,6 +92,20 @@ class ExactNodes {
             if (!made.point) made.point = point_of(made.crossing);
         });
         return *made.point;
+    }
+
+    /// Where a line along an axis passes through a plane across it: no number needs to be computed.
+    std::optional<Point> plain_point_of(const SideCrossing& crossing) const {
+        if (std::max(crossing.low, crossing.high) >= points_.size()) return {};
+        const Vec3 &p = points_[crossing.low], &q = points_[crossing.high];
+        const auto& [a, b, c] = soup_.triangles[crossing.triangle];
+        std::array<double, 3> place{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const bool level = points_[a][k] == points_[b][k] && points_[b][k] == points_[c][k];
+            if (p[k] != q[k] && !level) return {};
+            place[k] = level ? points_[a][k] : p[k];
+        }
+        return Point(place[0], place[1], place[2]);
     }
 
     static double nearest(const ExactKernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); }

@@ -94,8 +94,9 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     const double error_of_part = 4 * error / std::abs(whole.high) + 0x1p-98;
     Vec3 place;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (p[k] == q[k]) {
-            place[k] = p[k] + 0.0; // of zero the positive one
+        const bool level = a[k] == b[k] && b[k] == c[k]; // all of the plane is there
+        if (p[k] == q[k] || level) {
+            place[k] = (level ? a[k] : p[k]) + 0.0; // of zero the positive one
             continue;
         }
         const Twofold way = difference(q[k], p[k]);

@@ -68,9 +68,33 @@ TEST_CASE("the place of a crossing is the exact one, rounded towards zero", "[ge
     CHECK(told + 5 > crossings); // nearly always
 }
 
+TEST_CASE("a crossing of a plane across an axis is in it", "[geometry]") {
+    std::size_t crossings = 0, told = 0, wrong = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+        std::array<Vec3, 5> p;
+        for (std::uint64_t i = 0; i < 5; ++i) p[i] = random_point(seed, i, {3, -40, 0.1}, 24);
+        const std::size_t axis = seed % 3;
+        p[3][axis] = p[4][axis] = p[2][axis];
+        if (seed % 2 == 0) // the line is along the axis
+            for (std::size_t k = 0; k < 3; ++k)
+                if (k != axis) p[1][k] = p[0][k];
+        const std::array triangle{p[2], p[3], p[4]};
+        const auto place = plane_crossing(p[0], p[1], triangle);
+        const bool crosses = sgn(above(p[0], triangle)) * sgn(above(p[1], triangle)) < 0;
+        crossings += crosses;
+        if (!place) continue;
+        ++told;
+        wrong += !crosses || *place != exact_crossing(p[0], p[1], triangle) || (*place)[axis] != p[2][axis];
+    }
+    CHECK(wrong == 0);
+    CHECK(crossings > 1000);
+    CHECK(told + 5 > crossings); // nearly always
+}
+
 TEST_CASE("a crossing at a double, or that may be none, is not told", "[geometry]") {
     const std::array triangle{Vec3{0, 0, 0.5}, Vec3{1, 0, 0.5}, Vec3{0, 1, 0.5}};
-    CHECK(!plane_crossing({0.1, 0.1, 0}, {0.2, 0.3, 1}, triangle)); // at exactly 0.5
+    const std::array diagonal{Vec3{0, 0, 0}, Vec3{1, 0, 1}, Vec3{0, 1, 0}};
+    CHECK(!plane_crossing({0.5, 0.1, 0}, {0.5, 0.1, 1}, diagonal)); // at exactly 0.5
     CHECK(!plane_crossing({0.1, 0.1, 0}, {0.2, 0.3, 0.25}, triangle));
     CHECK(!plane_crossing({0.1, 0.1, 0}, {0.2, 0.3, 0.5}, triangle));
     CHECK(!plane_crossing({1e300, 0, 0}, {0.2, 0.3, 1}, triangle));
