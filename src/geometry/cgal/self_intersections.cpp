@@ -105,12 +105,13 @@ class SelfIntersectionSearch::Search {
     };
 
   public:
-    explicit Search(const Mesh& mesh)
+    explicit Search(const Mesh& mesh, const Box& frame = {})
         : face_count_(mesh.face_count()), surface_(surface_of(mesh)), boxes_(surface_.size()),
-          pairs_(with_boxes({})) {
+          pairs_(with_boxes({}), {}, frame) {
         number_facets();
     }
 
+    const Box& frame() const { return pairs_.all(); }
     void choose(const std::vector<std::uint8_t>& among) { pairs_.choose(of_triangles(among)); }
 
     /// Before all neighbours are looked at, as the vertices are now.
@@ -295,7 +296,8 @@ class SelfIntersectionSearch::Search {
     std::vector<Star> plain_;   ///< [vertices] of plain_stars, or nothing
 };
 
-SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh) : search_(std::make_unique<Search>(mesh)) {}
+SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh, const Box& frame)
+    : search_(std::make_unique<Search>(mesh, frame)) {}
 SelfIntersectionSearch::SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept = default;
 SelfIntersectionSearch& SelfIntersectionSearch::operator=(SelfIntersectionSearch&&) noexcept = default;
 SelfIntersectionSearch::~SelfIntersectionSearch() = default;
@@ -303,6 +305,8 @@ SelfIntersectionSearch::~SelfIntersectionSearch() = default;
 void SelfIntersectionSearch::move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
     if (!search_->move_to(mesh, moved)) search_ = std::make_unique<Search>(mesh);
 }
+
+const Box& SelfIntersectionSearch::frame() const { return search_->frame(); }
 
 SelfIntersections SelfIntersectionSearch::pairs(const SelfIntersectionSettings& settings) {
     search_->choose(settings.among);

@@ -50,7 +50,7 @@ std::size_t rings_in(int round) {
 void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels, AvoidResult& result) {
     constexpr std::size_t few = 64;
     const auto look_at = [&](std::size_t s) {
-        const auto pairs = tests[s].new_pairs();
+        const auto pairs = tests[s].new_pairs(levels);
         if (result.found == 0 && !pairs.empty()) {
             result.first = pairs.front();
             result.first_sheet = s;
@@ -66,7 +66,7 @@ void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels
         look_at(s);
         result.at_least = result.found > 0;
         if (result.at_least) return;
-        tests[s].touch_only(std::vector<std::uint8_t>(tests[s].mesh().face_count(), 1));
+        tests[s].touch_only(std::vector<std::uint8_t>(tests[s].face_count(), 1));
     }
     for (std::size_t s = 0; s < tests.size(); ++s) look_at(s);
 }
@@ -82,7 +82,7 @@ class Patience {
   public:
     explicit Patience(const std::vector<TestSheet>& tests) {
         for (const TestSheet& test : tests)
-            most_ += std::max(pairs_a_face * test.mesh().face_count(), times_before * test.pairs_before());
+            most_ += std::max(pairs_a_face * test.face_count(), times_before * test.pairs_before());
     }
     /// For the next round, so many more pairs having been looked at.
     Lowering next(std::size_t box_pairs) {
@@ -124,7 +124,7 @@ class Separation {
             bool too_many = false;
             ShareOfSteps of_sheets(std::vector<double>(tests_.size(), 1));
             for (TestSheet& test : tests_) {
-                const MeetingFaces& meeting = trouble.emplace_back(test.in_trouble());
+                const MeetingFaces& meeting = trouble.emplace_back(test.in_trouble(levels_));
                 box_pairs += meeting.box_pairs;
                 too_many |= meeting.too_many;
                 of_sheets.next();
@@ -227,21 +227,20 @@ void hold_joint_vertices(std::span<CrumpleSheet> sheets) {
     }
 }
 
-double avoid_intersections_memory(double triangles) { return 300 * triangles; }
+double avoid_intersections_memory(double triangles, double largest) {
+    constexpr double kept = 100, searched = 200;
+    return kept * triangles +
+           searched * std::min(triangles, largest + static_cast<double>(max_open_triangles));
+}
 
-AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs) {
+AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs,
+                                std::size_t max_open) {
     AvoidResult result;
     const CrumplePlaces places(sheets);
     std::vector<std::uint8_t> levels(places.count);
     ShareOfSteps steps({1, 2});
-    std::vector<TestSheet> tests;
-    tests.reserve(sheets.size());
-    ShareOfSteps of_sheets(std::vector<double>(sheets.size(), 1));
-    for (std::size_t s = 0; s < sheets.size(); ++s) {
-        tests.emplace_back(sheets[s], places.of_vertex[s], max_pairs);
-        result.exempt += tests.back().exempt();
-        of_sheets.next();
-    }
+    std::vector<TestSheet> tests = tests_of(sheets, places, max_pairs, max_open);
+    for (const TestSheet& test : tests) result.exempt += test.exempt();
     steps.next();
     if (only_look) {
         for (TestSheet& test : tests) test.place(levels, {});
@@ -253,7 +252,7 @@ AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, 
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         auto& positions = sheets[s].mesh->positions;
         for (std::size_t v = 0; v < positions.size(); ++v) ++result.shares[levels[places.of_vertex[s][v]]];
-        parallel_for(positions.size(), [&](std::size_t v) { positions[v] = tests[s].position(v); });
+        positions = tests[s].positions(levels);
     }
     return result;
 }

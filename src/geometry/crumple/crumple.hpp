@@ -100,6 +100,9 @@ struct CrumpleSheet {
 /// be called once, before anything moves.
 void hold_joint_vertices(std::span<CrumpleSheet> sheets);
 
+/// Triangles of sheets that are kept ready to be searched: half a gigabyte.
+inline constexpr std::size_t max_open_triangles = std::size_t{4} << 20;
+
 struct AvoidResult {
     std::size_t exempt = 0; ///< pairs of faces that met before
     /// With `only_look`, new pairs of faces that the full moves would make (max_pairs at most), and faces
@@ -134,14 +137,18 @@ struct AvoidResult {
 /// Positions are rounded to float32 in part space, before and after: what is decided, exactly, is what files
 /// hold. Polygons stand for their triangles as triangulated() cuts them. With only_look nothing is lowered.
 /// The same for any number of threads. A round takes about as long as finding the self-intersections of the
-/// faces that it lowered; the tree of boxes is sorted once.
+/// faces that it lowered; the tree of boxes is sorted once. Of many sheets, only those of the first max_open
+/// triangles keep it, and the others make it again when a round looks at them, to the same result. Sheets
+/// that are alike before they move are searched for crossings once.
 ///
 /// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than max_pairs pairs of a sheet
 /// meet before: they could not all be exempt.
 AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look = false,
-                                std::size_t max_pairs = std::size_t{8} << 20);
+                                std::size_t max_pairs = std::size_t{8} << 20,
+                                std::size_t max_open = max_open_triangles);
 
-/// About the bytes that avoid_intersections takes for a mesh of so many triangles, besides the mesh.
-double avoid_intersections_memory(double triangles);
+/// About the bytes that avoid_intersections takes for sheets of so many triangles, besides their meshes, when
+/// the largest has so many.
+double avoid_intersections_memory(double triangles, double largest);
 
 } // namespace facetmill

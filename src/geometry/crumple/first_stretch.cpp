@@ -69,8 +69,8 @@ bool mostly_in_trouble(std::vector<TestSheet>& tests, std::vector<std::uint8_t>&
     std::size_t faces = 0, meeting = 0;
     for (TestSheet& test : tests) {
         test.place(levels, {});
-        const MeetingFaces trouble = test.in_trouble();
-        const std::size_t count = test.mesh().face_count();
+        const MeetingFaces trouble = test.in_trouble(levels);
+        const std::size_t count = test.face_count();
         faces += count;
         meeting += trouble.too_many
                        ? count
@@ -91,10 +91,7 @@ double sampled_stretch(std::span<const CrumpleSheet> sheets, double mean_edge, s
     for (SampledSheet& sample : samples) sampled.push_back({&sample.mesh, std::move(sample.sheet.moves)});
     const CrumplePlaces places(sampled);
     std::vector<std::uint8_t> levels(places.count);
-    std::vector<TestSheet> tests;
-    tests.reserve(sampled.size());
-    for (std::size_t s = 0; s < sampled.size(); ++s)
-        tests.emplace_back(sampled[s], places.of_vertex[s], max_pairs);
+    std::vector<TestSheet> tests = tests_of(sampled, places, max_pairs);
     double stretch = max_stretch;
     while (stretch > least_stretch && mostly_in_trouble(tests, levels, stretch)) stretch /= 2;
     return stretch;
@@ -110,7 +107,7 @@ double first_stretch(std::span<const CrumpleSheet> sheets, const std::vector<Tes
         const auto far = test.overstretched(levels, little_stretch);
         faces += far.size();
         drawn += static_cast<std::size_t>(std::count(far.begin(), far.end(), 1));
-        edges += mean_edge(test.mesh(), {}) * static_cast<double>(far.size());
+        edges += mean_edge(test.mesh_before(), {}) * static_cast<double>(far.size());
     }
     if (2 * drawn <= faces || !(edges > 0) || !std::isfinite(edges)) return max_stretch;
     return sampled_stretch(sheets, edges / static_cast<double>(faces), max_pairs);

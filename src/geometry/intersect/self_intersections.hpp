@@ -57,7 +57,8 @@ struct MeetingFaces {
 /// a look takes after that is for the faces that have moved and for those around them.
 class SelfIntersectionSearch {
   public:
-    explicit SelfIntersectionSearch(const Mesh& mesh);
+    /// frame: of another search, whose boxes were rounded in it, so that as many pairs of boxes meet here.
+    explicit SelfIntersectionSearch(const Mesh& mesh, const Box& frame = {});
     SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept;
     SelfIntersectionSearch& operator=(SelfIntersectionSearch&&) noexcept;
     ~SelfIntersectionSearch();
@@ -65,6 +66,9 @@ class SelfIntersectionSearch {
     /// The vertices of the mesh, which is the same else, have moved: those of the faces that are flagged, or
     /// where none are given, of any.
     void move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved);
+
+    /// Holds all that there has been, and what another search was given.
+    const Box& frame() const;
 
     /// As find_self_intersections.
     SelfIntersections pairs(const SelfIntersectionSettings& settings);

@@ -5,8 +5,9 @@
 
 namespace facetmill {
 
-BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among) {
+BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among, const Box& frame) {
     all_ = box_of_all(boxes);
+    all_.add(frame);
     items_ = order_along_curve(boxes.size(), all_, [&](std::size_t i) {
         return boxes[i].empty() ? all_.min : boxes[i].min * 0.5 + boxes[i].max * 0.5;
     });

@@ -18,8 +18,12 @@ namespace facetmill {
 /// of float32 and a little larger than given: some pairs only nearly meet.
 class BoxPairs {
   public:
-    /// `among` as in choose.
-    explicit BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among = {});
+    /// `among` as in choose. frame: what boxes are rounded in holds this, too.
+    explicit BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among = {},
+                      const Box& frame = {});
+
+    /// Holds all boxes that there have been, and the frame.
+    const Box& all() const { return all_; }
 
     /// From now on only pairs with an item whose number is flagged; empty: all pairs.
     void choose(std::span<const std::uint8_t> among);

@@ -8,6 +8,7 @@
 #include "stages/crumple/options.hpp"
 #include "stages/crumple/report.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::crumple_stage {
@@ -25,12 +26,16 @@ SplitResult split_part(const Part& part, std::int64_t grid) {
 /// Refuses before anything is split what could not be kept apart afterwards.
 void require_room(const Scene& scene, const CrumpleOptions& o, const Context& context) {
     if (o.self_intersections == Intersections::allow) return;
-    double triangles = 0;
-    for (const Part& part : scene.parts)
-        if (context.selects(part, scene))
-            triangles += static_cast<double>(part.mesh.corner_count()) - 2.0 * part.mesh.face_count();
-    triangles *= static_cast<double>(o.grid) * static_cast<double>(o.grid);
-    require_memory(avoid_intersections_memory(triangles),
+    double triangles = 0, largest = 0;
+    for (const Part& part : scene.parts) {
+        if (!context.selects(part, scene)) continue;
+        const double own = static_cast<double>(part.mesh.corner_count()) - 2.0 * part.mesh.face_count();
+        triangles += own;
+        largest = std::max(largest, own);
+    }
+    const double pieces = static_cast<double>(o.grid) * static_cast<double>(o.grid);
+    triangles *= pieces;
+    require_memory(avoid_intersections_memory(triangles, largest * pieces),
                    fmt::format("crumple: avoiding intersections of {:.3g} triangles", triangles),
                    "use a smaller grid, or self_intersections: allow");
 }

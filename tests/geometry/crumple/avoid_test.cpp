@@ -167,6 +167,40 @@ TEST_CASE("places that sheets share keep their share in all of them", "[geometry
     CHECK(met == 25);
 }
 
+TEST_CASE("sheets that are opened again for each round come out the same, whatever they are beside",
+          "[geometry]") {
+    std::vector<Mesh> alone, kept, opened;
+    std::vector<CrumpleSheet> of_kept, of_opened;
+    for (int i = 0; i < 4; ++i) { // alike but for the second, and they move differently
+        Mesh mesh = sponge();
+        if (i == 1) mesh.positions[0].x += 1e-3;
+        kept.push_back(mesh);
+        opened.push_back(mesh);
+    }
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        CrumpleSettings s = by(0.04);
+        s.to_world.m[0][3] = 3 * static_cast<double>(i);
+        AvoidResult r;
+        alone.push_back(apart(kept[i], s, &r));
+        found += r.found;
+        of_kept.push_back({&kept[i], crumple_moves(kept[i], s)});
+        of_opened.push_back({&opened[i], crumple_moves(opened[i], s)});
+    }
+    const AvoidResult of_all = avoid_intersections(of_kept);
+    const AvoidResult again = avoid_intersections(of_opened, false, std::size_t{8} << 20, 0);
+    CHECK(of_all.found == found);
+    CHECK(again.found == found);
+    CHECK(again.rounds == of_all.rounds);
+    CHECK(again.box_pairs == of_all.box_pairs);
+    CHECK(again.shares == of_all.shares);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        CHECK(kept[i].positions == alone[i].positions);
+        CHECK(opened[i].positions == alone[i].positions);
+    }
+    CHECK(alone[0].positions != alone[2].positions);
+}
+
 TEST_CASE("only looking lowers nothing and says how many pairs there are", "[geometry]") {
     AvoidResult r;
     apart(sponge(), by(0.04), &r, true);
