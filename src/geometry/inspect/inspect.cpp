@@ -7,10 +7,12 @@
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/equal_meshes.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <type_traits>
 
@@ -98,36 +100,23 @@ FaceSums far_face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, con
     return sums;
 }
 
-/// positions: the mesh's, or where a transform puts them; one that mirrors turns the faces round, as glTF has
-/// it.
-Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, bool mirrored,
-                          const InspectSettings& settings) {
-    Properties p;
-    p.vertices = static_cast<std::int64_t>(mesh.vertex_count());
-    p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
-    p.faces = static_cast<std::int64_t>(mesh.face_count());
-    p.bounds = box_of(positions);
-    ShareOfSteps steps({1, 4, 1, settings.self_intersections ? 12.0 : 0.0});
-    const FaceSums sums = far_face_sums(mesh, positions, p.bounds);
-    steps.next();
+/// What does not depend on where the mesh stands. repeating: triangles that have a vertex twice.
+void inspect_as_it_is(Properties& p, const Mesh& mesh, std::int64_t repeating,
+                      const InspectSettings& settings) {
+    ShareOfSteps steps({4, 1, settings.self_intersections ? 12.0 : 0.0});
     const Connectivity connectivity = connectivity_of(mesh);
     steps.next();
-    p.triangles = sums.triangles;
-    p.degenerate_faces = sums.degenerate;
-    p.area = sums.area;
     set_connectivity(p, connectivity);
     p.boundary_loops = connectivity.boundary_loops;
-    p.lines = static_cast<std::int64_t>(mesh.line_count());
     p.isolated_vertices = mesh.lines.empty() ? connectivity.isolated_vertices
                                              : static_cast<std::int64_t>(vertices_without_lines(mesh).size());
     // Triangles of three different vertices are compared where they meet; all else by the hash of its
     // vertices.
-    p.duplicate_faces = mesh.all_triangles() && sums.repeating == 0
+    p.duplicate_faces = mesh.all_triangles() && repeating == 0
                             ? connectivity.duplicate_triangles
                             : static_cast<std::int64_t>(duplicate_faces(mesh).size());
     p.components = static_cast<std::int64_t>(component_count(mesh));
     p.euler = p.vertices - connectivity.isolated_vertices - p.edges + p.faces;
-    if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
     if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
     steps.next();
     if (settings.self_intersections) {
@@ -135,6 +124,29 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
         p.self_intersections = static_cast<std::int64_t>(found.count);
         p.touching = static_cast<std::int64_t>(found.touching);
     }
+}
+
+/// positions: the mesh's, or where a transform puts them; one that mirrors turns the faces round, as glTF has
+/// it. alike: what was found of an equal mesh, wherever it stands, or none.
+Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, bool mirrored,
+                          const InspectSettings& settings, const Properties* alike) {
+    Properties p;
+    if (alike) p = *alike;
+    p.volume.reset();
+    p.requested.clear();
+    p.vertices = static_cast<std::int64_t>(mesh.vertex_count());
+    p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
+    p.faces = static_cast<std::int64_t>(mesh.face_count());
+    p.bounds = box_of(positions);
+    ShareOfSteps steps({1, settings.self_intersections ? 17.0 : 5.0});
+    const FaceSums sums = far_face_sums(mesh, positions, p.bounds);
+    steps.next();
+    p.triangles = sums.triangles;
+    p.degenerate_faces = sums.degenerate;
+    p.area = sums.area;
+    p.lines = static_cast<std::int64_t>(mesh.line_count());
+    if (!alike) inspect_as_it_is(p, mesh, sums.repeating, settings);
+    if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
     return p;
 }
 
@@ -244,27 +256,39 @@ void set_connectivity(Properties& p, const Connectivity& c) {
     p.oriented = c.disagreeing_edges == 0;
 }
 
-Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
+namespace {
+
+Properties inspect_alike(const Mesh& mesh, const InspectSettings& settings, const Properties* alike) {
     ShareOfSteps steps(lengths_of(settings));
-    Properties p = inspect_placed(mesh, mesh.positions, false, settings);
+    Properties p = inspect_placed(mesh, mesh.positions, false, settings, alike);
     steps.next();
     measure_requested(p, mesh, mesh, settings);
     return p;
 }
 
-Properties inspect(const Part& part, const InspectSettings& settings) {
-    if (part.transform.identity()) return inspect(part.mesh, settings);
+Properties inspect_alike(const Part& part, const InspectSettings& settings, const Properties* alike) {
+    if (part.transform.identity()) return inspect_alike(part.mesh, settings, alike);
     std::vector<Vec3> world(part.mesh.vertex_count());
     parallel_for(world.size(),
                  [&](std::size_t v) { world[v] = part.transform.point(part.mesh.positions[v]); });
     ShareOfSteps steps(lengths_of(settings));
-    Properties p = inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings);
+    Properties p = inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings, alike);
     steps.next();
     if (settings.requested.empty()) return p;
     Mesh placed = part.mesh;
     placed.positions = std::move(world);
     measure_requested(p, placed, part.mesh, settings);
     return p;
+}
+
+} // namespace
+
+Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
+    return inspect_alike(mesh, settings, nullptr);
+}
+
+Properties inspect(const Part& part, const InspectSettings& settings) {
+    return inspect_alike(part, settings, nullptr);
 }
 
 Properties inspect(const Scene& scene, const InspectSettings& settings) {
@@ -280,8 +304,15 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     lengths.reserve(scene.parts.size());
     for (const Part& part : scene.parts) lengths.push_back(1 + static_cast<double>(part.mesh.face_count()));
     ShareOfSteps steps(std::move(lengths));
-    for (const Part& part : scene.parts) {
-        const Properties own = inspect(part, settings);
+    const std::vector<std::size_t> first = first_with_equal_mesh(scene);
+    std::vector<std::uint8_t> is_again(first.size());
+    for (std::size_t i = 0; i < first.size(); ++i) is_again[first[i]] |= first[i] != i;
+    std::map<std::size_t, Properties> known; // of meshes that come again
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const auto alike = known.find(first[i]);
+        const Properties own =
+            inspect_alike(scene.parts[i], settings, alike == known.end() ? nullptr : &alike->second);
+        if (is_again[i]) known.emplace(i, own);
         for (const Property& property : property_table()) Joiner(sum, own).add(property);
         steps.next();
     }

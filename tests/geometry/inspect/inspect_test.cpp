@@ -131,3 +131,34 @@ TEST_CASE("a scene is the sum of its parts in the world", "[geometry]") {
     CHECK(p.volume.value() == Approx(9));
     CHECK(p.area == Approx(30));
 }
+
+TEST_CASE("of parts with equal meshes each has what it would have alone", "[geometry]") {
+    Mesh crossing = shapes::cube(), other = shapes::cube();
+    for (Vec3& p : other.positions) p += Vec3{0.5, 0.25, 0.125};
+    append(crossing, other);
+    Scene scene;
+    for (int i = 0; i < 4; ++i) scene.parts.emplace_back().mesh = crossing;
+    scene.parts[0].transform.m[0][0] = 2;
+    scene.parts[1].transform.m[1][1] = -3; // mirrored
+    const InspectSettings settings{.self_intersections = true};
+    double volume = 0, area = 0;
+    std::int64_t crossings = 0;
+    for (const Part& part : scene.parts) {
+        const Properties own = inspect(part, settings);
+        crossings += own.self_intersections.value();
+        volume += own.volume.value();
+        area += own.area;
+    }
+    Properties all = inspect(scene, settings);
+    CHECK(crossings > 0);
+    CHECK(all.self_intersections == crossings);
+    CHECK(all.volume == volume);
+    CHECK(all.area == area);
+    CHECK(all.components == 8);
+    CHECK(all.genus == 0);
+    scene.parts[2].mesh.corners.resize(scene.parts[2].mesh.corners.size() - 3);
+    all = inspect(scene, settings);
+    CHECK(all.boundary_edges == 3);
+    CHECK(!all.closed);
+    CHECK(!all.volume);
+}
