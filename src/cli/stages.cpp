@@ -3,6 +3,7 @@
 #include "docs/stages.hpp"
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
+#include "stage/other_names.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ int list_stages(const StagesOptions& options, const CommandLine& line) {
         const auto* stage = stage_named(options.name);
         if (!stage)
             throw Error(ErrorKind::usage, "E-STAGE", fmt::format("there is no stage '{}'", options.name),
-                        suggestion(options.name, stage_names()), line.find(options.name));
+                        hint_for_stage(options.name, stage_names()), line.find(options.name));
         print(docs::stage_page(*stage));
     } else if (options.json)
         print(docs::stages_json().dump(2) + "\n");

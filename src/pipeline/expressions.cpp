@@ -11,6 +11,17 @@ namespace facetmill::pipeline {
 
 namespace {
 
+std::string hint_of_expression(std::string_view inside) {
+    const std::size_t first = inside.find_first_not_of(' ');
+    const std::string_view bare =
+        first == std::string_view::npos ? "" : inside.substr(first, inside.find_last_not_of(' ') - first + 1);
+    if (bare != inside && is_variable_name(bare.substr(0, bare.find('.'))))
+        return fmt::format("write ${{{}}}, without blanks", bare);
+    if (inside.find_first_of("+-*/()") != std::string_view::npos)
+        return "an expression names a value and does not calculate: give the value by a param of its own";
+    return "for a literal ${ write $${";
+}
+
 bool is_name_character(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
@@ -120,7 +131,7 @@ class Resolver {
         if (!is_variable_name(name)) {
             fail(v, inside, "E-EXPRESSION",
                  fmt::format("expected ${{name}} or ${{name.property}}, found ${{{}}}", inside),
-                 "for a literal ${ write $${");
+                 hint_of_expression(inside));
             return {};
         }
         if (!variable) {

@@ -1,6 +1,7 @@
 #include "base/spelling.hpp"
 #include "pipeline/planner.hpp"
 #include "stage/common_keys.hpp"
+#include "stage/other_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -33,11 +34,24 @@ std::vector<std::string> all_stage_names() {
     return names;
 }
 
+std::string hint_of_no_stage(const std::string& name) {
+    const std::size_t word_end = std::min(name.size(), name.find_first_of(" :\t\"'!"));
+    const std::string word = name.substr(0, word_end);
+    if (word_end < name.size() &&
+        (is_stage(word) || !stage_called(word).empty())) { // "write a.glb", "simplify:10%"
+        if (name.find_first_of("!+|") != std::string::npos)
+            return "its words are arguments of their own: leave out the quotes around all of them";
+        std::size_t value = name.find_first_not_of(" :\t", word_end);
+        value = std::min(value, name.size());
+        return fmt::format("a colon and a blank follow the name: {}: {}", word, name.substr(value));
+    }
+    if (name.find_first_of("./") != std::string::npos)
+        return fmt::format("a file is read by the stage load: load {}", name);
+    return hint_for_stage(name, all_stage_names());
+}
+
 void no_such_stage(const std::string& name, const Mark& where, Problems& problems) {
-    const bool is_file = name.find_first_of("./") != std::string::npos;
-    problems.add(where, "E-STAGE", fmt::format("there is no stage '{}'", name),
-                 is_file ? fmt::format("a file is read by the stage load: load {}", name)
-                         : did_you_mean(name, all_stage_names(), "facetmill stages lists them all"));
+    problems.add(where, "E-STAGE", fmt::format("there is no stage '{}'", name), hint_of_no_stage(name));
 }
 
 /// A common key that is a stage of its own when it is alone.
@@ -75,6 +89,8 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
         if (is_option)
             hint = fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more", stage->key,
                                stage->key, entry.key);
+        else if (entry.key == "if" || entry.key == "unless" || entry.key == "condition")
+            hint = "a condition is written when: ...";
         else if (is_common_key(entry.key))
             hint = fmt::format("it stands beside one stage: give it to those of {}", stage->key);
         problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is not a key of an item", entry.key), hint);

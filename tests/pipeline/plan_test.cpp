@@ -72,6 +72,33 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
                                       "    - test-cot: 3\n"
                                       "      ^~~~~~~~\n"
                                       "  hint: did you mean 'test-cut'?"},
+        {stages("  - write a.glb\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'write a.glb'\n"
+                                      "    - write a.glb\n"
+                                      "      ^~~~~~~~~~~\n"
+                                      "  hint: a colon and a blank follow the name: write: a.glb"},
+        {stages("  - test-cut:10%\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'test-cut:10%'\n"
+                                       "    - test-cut:10%\n"
+                                       "      ^~~~~~~~~~~~\n"
+                                       "  hint: a colon and a blank follow the name: test-cut: 10%"},
+        {stages("  - decimate: 3\n"),
+         "p.yaml:4:5: error[E-STAGE]: there is no stage 'decimate'\n"
+         "    - decimate: 3\n"
+         "      ^~~~~~~~\n"
+         "  hint: 'decimate' is done by simplify here: facetmill stages simplify"},
+        {stages("  - orient:\n    if: true\n"), "p.yaml:5:5: error[E-KEY]: 'if' is not a key of an item\n"
+                                                "      if: true\n"
+                                                "      ^~\n"
+                                                "  hint: a condition is written when: ..."},
+        {stages("  - write: \"${ out }.ply\"\n"),
+         "p.yaml:4:13: error[E-EXPRESSION]: expected ${name} or ${name.property}, found ${ out }\n"
+         "    - write: \"${ out }.ply\"\n"
+         "              ^~~~~~~~\n"
+         "  hint: write ${out}, without blanks"},
+        {stages("  - write: \"${a + 1}.ply\"\n"),
+         "p.yaml:4:13: error[E-EXPRESSION]: expected ${name} or ${name.property}, found ${a + 1}\n"
+         "    - write: \"${a + 1}.ply\"\n"
+         "              ^~~~~~~~\n"
+         "  hint: an expression names a value and does not calculate: give the value by a param of its own"},
         {stages("  - a.ply: 3\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'a.ply'\n"
                                    "    - a.ply: 3\n"
                                    "      ^~~~~\n"

@@ -1,0 +1,60 @@
+#include "stage/other_names.hpp"
+
+#include "base/spelling.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct OtherNames {
+    std::string_view stage;
+    std::vector<std::string_view> words;
+};
+
+const std::vector<OtherNames> other_names{
+    {"clean", {"repair", "fix", "heal", "weld", "fill_holes", "close_holes", "fill"}},
+    {"clip", {"cut", "trim", "slice_plane"}},
+    {"combine", {"boolean", "bool", "csg", "union", "difference", "subtract", "intersection", "intersect"}},
+    {"crumple", {"noise", "jitter", "displace"}},
+    {"generate", {"create", "primitive", "sphere", "cube"}},
+    {"load", {"read", "open", "import", "input"}},
+    {"measure", {"volume", "area", "mass"}},
+    {"merge", {"join", "concatenate", "append"}},
+    {"optimize", {"dedup", "prune", "instance", "palette", "reorder"}},
+    {"orient", {"flip", "invert", "fix_normals", "reorient"}},
+    {"relax", {"smooth", "laplacian", "taubin", "fair"}},
+    {"render", {"screenshot", "snapshot", "thumbnail"}},
+    {"section", {"slice", "contours", "cross_section"}},
+    {"separate", {"explode", "components"}},
+    {"simplify", {"decimate", "decimation", "reduce", "quadric", "qem"}},
+    {"split", {"subdivide", "refine", "subdivision", "remesh"}},
+    {"textures", {"resize", "ktx", "toktx", "webp"}},
+    {"thicken", {"shell", "hollow", "offset", "solidify", "extrude", "wireframe"}},
+    {"tile", {"chunk", "tiler"}},
+    {"transform", {"translate", "rotate", "scale", "move", "center", "centre", "mirror", "convert_units"}},
+    {"triangulate", {"tessellate", "tessellation"}},
+    {"two-sided", {"double_sided", "doublesided", "doubleside"}},
+    {"validate", {"check", "inspect", "info"}},
+    {"write", {"save", "export", "output", "convert"}},
+};
+
+} // namespace
+
+std::string_view stage_called(std::string_view other_name) {
+    const std::string word = lower_case(std::string(other_name));
+    for (const auto& [stage, words] : other_names)
+        if (std::find(words.begin(), words.end(), word) != words.end()) return stage;
+    return {};
+}
+
+std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names) {
+    const std::string_view stage = stage_called(word);
+    if (!stage.empty())
+        return fmt::format("'{}' is done by {} here: facetmill stages {}", word, stage, stage);
+    return did_you_mean(word, names, "facetmill stages lists them all");
+}
+
+} // namespace facetmill

@@ -1,0 +1,16 @@
+#pragma once
+// What other programs call the stages: decimate, weld, boolean. For hints only; a stage has one name.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facetmill {
+
+/// The name of the stage that other programs call so; empty when there is none.
+std::string_view stage_called(std::string_view other_name);
+
+/// What to say about a word that names no stage: what it is called here, or the nearest of the names.
+std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names);
+
+} // namespace facetmill

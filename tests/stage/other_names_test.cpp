@@ -1,0 +1,18 @@
+#include "support/catch.hpp"
+
+#include "stage/other_names.hpp"
+#include "stage/stage.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("stages are found by what other programs call them", "[stage]") {
+    CHECK(hint_for_stage("Decimate", stage_names()) ==
+          "'Decimate' is done by simplify here: facetmill stages simplify");
+    CHECK(hint_for_stage("simplfy", stage_names()) == "did you mean 'simplify'?");
+    CHECK(hint_for_stage("qqqqq", stage_names()) == "facetmill stages lists them all");
+    for (const char* word : {"weld", "smooth", "boolean", "subdivide", "hollow", "decimate"}) {
+        INFO(word);
+        CHECK(stage_named(stage_called(word)) != nullptr);
+        CHECK(stage_named(word) == nullptr);
+    }
+}
