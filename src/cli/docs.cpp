@@ -4,9 +4,11 @@
 #include "base/words.hpp"
 #include "cli/command.hpp"
 #include "cli/topics.hpp"
+#include "docs/man_markdown.hpp"
 #include "docs/manual.hpp"
 #include "docs/messages.hpp"
 #include "docs/stages.hpp"
+#include "stage/other_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -80,7 +82,8 @@ int print_docs(const std::string& name, const CommandLine& line, Console& consol
         const MessageId* message = message_id(docs::id_of(name));
         if (!message)
             throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no topic '{}'", name),
-                        names_near(name), line.find(name));
+                        !stage_called(name).empty() ? hint_for_stage(name, {}) : names_near(name),
+                        line.find(name));
         print(docs::message_page(*message));
         return 0;
     }
@@ -96,6 +99,9 @@ std::vector<Topic> topics() {
     std::vector<Topic> all;
     add_pages(Topic::Kind::guide, docs::guides(), all);
     add_pages(Topic::Kind::page, docs::manual_pages(), all);
+    static const std::string of_files = docs::markdown_of_man(docs::pipeline_man_page().text);
+    all.push_back({Topic::Kind::page, std::string(docs::pipeline_man_page().name),
+                   "Pipeline files: keys, steps, expressions", of_files});
     for (const auto& command : commands()) all.push_back({Topic::Kind::command, command.name, command.about});
     for (const auto& stage : stages()) all.push_back({Topic::Kind::stage, stage.name, stage.about});
     return all;

@@ -16,6 +16,8 @@ struct ManualPage {
 const std::vector<ManualPage>& guides();
 /// The other pages; sorted by name.
 const std::vector<ManualPage>& manual_pages();
+/// The manual page of pipeline files, in roff; its name is that of the page.
+const ManualPage& pipeline_man_page();
 /// The first line, without its mark.
 std::string title_of(const ManualPage& page);
 
