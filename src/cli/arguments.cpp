@@ -164,4 +164,8 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     return {false, {}, app.remaining()};
 }
 
+void add_threads_option(Arguments& arguments, int& threads, const char* help) {
+    arguments.add("-j,--threads", &threads, help).between(1, 4096);
+}
+
 } // namespace facetmill::cli

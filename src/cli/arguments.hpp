@@ -102,4 +102,7 @@ class Arguments {
     std::vector<Argument> all_;
 };
 
+/// -j,--threads, from 1 to 4096. help: for the one of this command.
+void add_threads_option(Arguments& arguments, int& threads, const char* help);
+
 } // namespace facetmill::cli

@@ -11,6 +11,9 @@
 
 namespace facetmill::cli {
 
+/// The name of the text that a CommandLine is.
+inline constexpr const char* command_line_name = "command line";
+
 /// The arguments as a text that messages can point into: "facetmill run a.yaml --ouput-dir out".
 class CommandLine {
   public:

@@ -30,7 +30,7 @@ int characters(const std::string& text) {
 } // namespace
 
 CommandLine::CommandLine(std::vector<std::string> arguments) : arguments_(std::move(arguments)) {
-    auto source = std::make_shared<SourceText>(SourceText{"command line", "facetmill"});
+    auto source = std::make_shared<SourceText>(SourceText{command_line_name, "facetmill"});
     int column = 10;
     for (const auto& argument : arguments_) {
         const std::string text = typed(argument);

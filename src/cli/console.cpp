@@ -2,6 +2,8 @@
 
 #include "base/readable_numbers.hpp"
 #include "base/stopwatch.hpp"
+#include "cli/command.hpp"
+#include "cli/pipe_hints.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -170,6 +172,11 @@ bool Console::colour() const {
 
 void Console::diagnostic(const Diagnostic& d) const {
     if (quiet && d.severity == Severity::note) return;
+    if (d.where.known() && d.where.source->name == command_line_name && !d.hint.empty()) {
+        Diagnostic as_typed = d;
+        as_typed.hint = in_pipe_syntax(d.hint);
+        if (as_typed.hint != d.hint) return diagnostic(as_typed);
+    }
     if (!json) {
         // A progress bar may stand on the line.
         tell("{}{}\n", terminal() ? "\r\033[K" : "", render(d, colour()));

@@ -190,8 +190,7 @@ Command diff_command() {
                 arguments.add("--report", &options->reports, "The same for either: F.html or F.md.");
                 arguments.add("--all", &options->all, "Also shows what is equal.");
                 arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
-                arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
-                    .between(1, 4096);
+                add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");
                 add_asset_root_option(arguments, options->asset_roots);
                 add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);

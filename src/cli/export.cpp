@@ -203,10 +203,8 @@ Command export_command() {
                     .add("--shard", &options->shard,
                          "Assets per job, which share the overhead of a job. Default: 1.")
                     .between(1, 100000);
-                arguments
-                    .add("-j,--threads", &options->common.threads,
-                         "The number of threads of each job. Default: 1.")
-                    .between(1, 4096);
+                add_threads_option(arguments, options->common.threads,
+                                   "The number of threads of each job. Default: 1.");
                 add_memory_option(arguments, *options, "jobs");
                 arguments.add(
                     "--keep-cells", &options->common.kept_cells,

@@ -254,8 +254,7 @@ Command info_command() {
                     .add("--format", &options->format,
                          "Reads the files as this format, whatever their content.")
                     .one_of(io::names_of_readers());
-                arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
-                    .between(1, 4096);
+                add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");
                 add_asset_root_option(arguments, options->asset_roots);
                 add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);

@@ -8,6 +8,7 @@
 #include "stage/stage.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -233,12 +234,30 @@ class Parser {
         const bool is_long = word.starts_with("--");
         const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
         const Argument* argument = own_->find(name);
+        if (!argument && !is_long) return skip_short_option(*stage);
         if (!argument || (is_long && takes(*stage, name.substr(2)))) return false;
         wrong(fmt::format("'{}' is an option of pipe itself, found behind the stage '{}'", name, stage->name),
               fmt::format("it comes before the first stage: facetmill pipe {} ... load ...", name));
         const bool attached = is_long ? word.find('=') != word.npos : word.size() > 2;
         ++at_;
         if (!argument->is_flag() && !attached && !at_end_of_step()) ++at_;
+        return true;
+    }
+
+    /// "-u mm" as other programs have it: options of stages have long names only.
+    bool skip_short_option(const StageInfo& stage) {
+        const std::string& word = all_[at_];
+        if (word.size() != 2 || !std::isalpha(static_cast<unsigned char>(word[1]))) return false;
+        std::string hint = fmt::format("facetmill stages {} lists its options", stage.name);
+        for (const Option& o : stage.options->options)
+            if (o.name[0] == word[1]) {
+                hint = fmt::format("did you mean '--{}'?", o.name);
+                break;
+            }
+        wrong(fmt::format("'{}' has no option '{}': options of stages have long names", stage.name, word),
+              hint);
+        ++at_;
+        if (!at_end_of_step() && !all_[at_].starts_with("-")) ++at_;
         return true;
     }
 

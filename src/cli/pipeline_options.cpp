@@ -165,10 +165,8 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
 }
 
 void add_run_options(Arguments& arguments, PipelineOptions& options) {
-    arguments
-        .add("-j,--threads", &options.threads,
-             "The number of threads, which does not change the result. Default: all cores.")
-        .between(1, 4096);
+    add_threads_option(arguments, options.threads,
+                       "The number of threads, which does not change the result. Default: all cores.");
     arguments.add("-o,--output-dir", &options.output_dir,
                   "The folder that the paths of outputs are relative to. Default: the working directory.");
     arguments.add("--report", &options.reports,

@@ -109,9 +109,8 @@ Command render_command() {
                 auto options = std::make_shared<RenderCommandOptions>();
                 arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.")
                     .followed_by("FILE.png");
-                arguments
-                    .add("-j,--threads", &options->run.threads, "The number of threads. Default: all cores.")
-                    .between(1, 4096);
+                add_threads_option(arguments, options->run.threads,
+                                   "The number of threads. Default: all cores.");
                 add_asset_root_option(arguments, options->run.asset_roots);
                 add_sandbox_option(arguments, options->run.sandbox);
                 add_message_options(arguments, console);

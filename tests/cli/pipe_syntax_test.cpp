@@ -193,6 +193,13 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
           "  facetmill pipe load a ! write b.glb --report r.json\n"
           "                                      ^~~~~~~~\n"
           "  hint: it comes before the first stage: facetmill pipe --report ... load ...\n");
+    CHECK(problems("load a -u mm ! relax 1") ==
+          "- load: a\n- relax: 1\n"
+          "command line:1:23: error[E-PIPE]: 'load' has no option '-u': options of stages have long names\n"
+          "  facetmill pipe load a -u mm ! relax 1\n"
+          "                        ^~\n"
+          "  hint: did you mean '--unit'?\n");
+    CHECK(problems("transform --translate -1,2,3") == "- transform: {translate: [-1, 2, 3]}\n");
     CHECK(problems("load a -q ! relax")
               .find("command line:1:23: error[E-PIPE]: '-q' is an option of pipe itself") !=
           std::string::npos);

@@ -1,0 +1,34 @@
+#include "support/catch.hpp"
+
+#include "cli/pipe_hints.hpp"
+
+using facetmill::cli::in_pipe_syntax;
+
+TEST_CASE("hints name stages and options as pipe takes them", "[cli]") {
+    struct Case {
+        const char *yaml, *pipe;
+    };
+    const Case cases[] = {
+        {"give both when it is loaded: load: {path: ..., unit: mm, up: z}",
+         "give both when it is loaded: load ... --unit mm --up z"},
+        {"write 10%, or name the option that counts (faces: 10)",
+         "write 10%, or name the option that counts (--faces 10)"},
+        {"the common key when: {faces: {min: 1}} skips a write",
+         "the common key --when.faces.min 1 skips a write"},
+        {"clean: {self_intersections: all} unites or replaces",
+         "clean --self_intersections all unites or replaces"},
+        {"clean: {holes: {method: smooth, max_edges: 5}}, then orient",
+         "clean --holes.method smooth --holes.max_edges 5, then orient"},
+        {"transform: {bake: true} makes it flat", "transform --bake makes it flat"},
+        {"transform: {translate: [0, 0, 1], scale: ...} first",
+         "transform --translate '[0, 0, 1]' --scale ... first"},
+        {"begin with load: FILE", "begin with load FILE"},
+        {"give the unit: load: {path: ..., unit: mm}", "give the unit: load ... --unit mm"},
+        {"expected one of: path, format", "expected one of: path, format"},
+        {"units: um, mm, or %", "units: um, mm, or %"},
+        {"it was {a: b", "it was {a: b"},
+        {"load: {path", "load: {path"},
+        {"", ""},
+    };
+    for (const Case& c : cases) CHECK(in_pipe_syntax(c.yaml) == c.pipe);
+}
