@@ -668,6 +668,17 @@ std::span<const MessageId> message_ids() {
          "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more "
          "than place it.",
          "Nothing; or drop skins and animations first."},
+        {"W-OVERRIDDEN",
+         {},
+         "load was given another unit or up axis than the format or the file states, and took what was "
+         "given.",
+         "Leave the option out; to convert, use transform: {unit: ...} or write: {unit: ...}."},
+        {"W-PALETTE",
+         {},
+         "optimize made no palette of more than 512 different looks, which the bits of a texture coordinate "
+         "would not "
+         "tell apart.",
+         "Optimize some of the parts at a time, with `only`."},
         {"W-PROBE-OPEN",
          {},
          "The surface is open, so no point is inside or outside.",

@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
 #include "io/packing.hpp"
@@ -202,6 +203,29 @@ FileHeader file_header(const Input& file, const ReadSettings& settings, const Co
     return header;
 }
 
+namespace {
+
+/// What the file states, where load was given something else.
+void warn_of_override(const Input& input, const Codec& codec, const ReadSettings& settings, ReadLog& log) {
+    if (!settings.unit && !settings.up) return;
+    FileHeader header{codec.name, codec.unit, codec.up};
+    if (codec.unit != Unit::unknown && settings.unit && codec.peek) codec.peek(input, header);
+    const auto warn = [&](const char* what, std::string_view stated, std::string_view given) {
+        log.warnings.push_back({Severity::warning, "W-OVERRIDDEN",
+                                fmt::format("'{}' states {} {}, and is taken as {}: nothing is converted",
+                                            input.name(), what, stated, given),
+                                file_mark(input.name()),
+                                fmt::format("leave it out; transform: {{{}: {}}} converts", what, given),
+                                false});
+    };
+    if (settings.unit && header.unit != Unit::unknown && *settings.unit != header.unit)
+        warn("unit", to_string(header.unit), to_string(*settings.unit));
+    if (settings.up && codec.up != UpAxis::unknown && *settings.up != codec.up)
+        warn("up", to_string(codec.up), to_string(*settings.up));
+}
+
+} // namespace
+
 Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
     const Input input = readable(file).with_asset_roots(settings.asset_roots);
     const Codec& codec = reader_for(input, log, forced);
@@ -211,6 +235,7 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     ShareOfSteps steps({8, 1});
     Scene scene = codec.read(input, settings, log);
     steps.next();
+    warn_of_override(input, codec, settings, log);
     if (settings.unit) scene.unit = *settings.unit;
     if (settings.up) scene.up = *settings.up;
     bool any = false;

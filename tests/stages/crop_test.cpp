@@ -100,9 +100,21 @@ TEST_CASE("crop says when nothing or all is kept", "[stages]") {
         REQUIRE(run.record.warnings.size() == 1);
         return run.record.warnings[0].id + " " + run.record.warnings[0].message;
     };
-    CHECK(warned("[[10, 10], [11, 10], [11, 11]]") == "W-CROP-NOTHING crop: nothing of part 'part' was kept");
+    CHECK(warned("[[10, 10], [11, 10], [11, 11]]") == "W-CROP-NOTHING crop: nothing of part 'part' was kept: "
+                                                      "the footprint reaches from (10, 10) to (11, 11), "
+                                                      "the part from (0, 0) to (4, 3)");
     CHECK(warned("[[-9, -9], [99, -9], [99, 99], [-9, 99]]") ==
           "W-CROP-ALL crop: the outline does not cut part 'part'; all of it was kept");
+}
+
+TEST_CASE("crop knows a footprint in degrees beside a mesh in metres", "[stages]") {
+    Scene scene = scene_of(shapes::grid(4, 3));
+    const auto hint = [&] {
+        return run_stage("crop", "[[8.5, 47.3], [8.6, 47.3], [8.6, 47.4]]", scene).record.warnings.at(0).hint;
+    };
+    CHECK(hint().find("degrees") == std::string::npos); // both may be metres
+    for (Vec3& p : scene.parts[0].mesh.positions) p += Vec3{500000, 4649000, 0};
+    CHECK(hint().starts_with("is the footprint in degrees?"));
 }
 
 TEST_CASE("crop refuses footprints before it runs", "[stages]") {

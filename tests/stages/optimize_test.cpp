@@ -215,15 +215,18 @@ TEST_CASE("optimize takes scenes of any origin, also empty ones", "[stages]") {
 namespace {
 
 /// Six triangles, each of a material of its own, in a row.
-Scene six_colours() {
+/// A triangle of each of so many colours.
+Scene coloured(int count, double least) {
     std::string nodes, meshes, materials;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < count; ++i) {
         nodes += fmt::format(R"({}{{"mesh":{},"translation":[{},0,0]}})", i ? "," : "", i, 2 * i);
         meshes += (i ? "," : "") + mesh(i);
-        materials += (i ? "," : "") + colour(fmt::format("m{}", i), i / 10.0);
+        materials += (i ? "," : "") + colour(fmt::format("m{}", i), i * least);
     }
     return document(nodes, meshes, R"("materials":[)" + materials + "]");
 }
+
+Scene six_colours() { return coloured(6, 0.1); }
 
 bool has_attribute(const Scene& scene, std::string_view name) {
     for (const Part& part : scene.parts)
@@ -342,6 +345,17 @@ TEST_CASE("plain materials become pixels of one, and their parts one draw call",
     }
     CHECK(run_stage("optimize", "{palette: true, drop_attributes: true, palette_min: 7}", scene)
               .record.result["palettes"] == 0);
+}
+
+TEST_CASE("that a palette would have too many looks is told", "[stages]") {
+    const auto run = run_stage("optimize", "{palette: true, drop_attributes: true}", coloured(513, 0.001));
+    CHECK(run.record.result["palettes"] == 0);
+    REQUIRE(run.record.warnings.size() == 1);
+    CHECK(run.record.warnings[0].id == "W-PALETTE");
+    CHECK(run.record.warnings[0].message ==
+          "optimize: no palette was made of 513 different looks: it has at most 512");
+    CHECK(run_stage("optimize", "{palette: true, drop_attributes: true}", coloured(512, 0.001))
+              .record.warnings.empty());
 }
 
 TEST_CASE("a vertex between two plain materials has a texture coordinate for each", "[stages]") {

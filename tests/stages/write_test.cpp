@@ -246,6 +246,9 @@ TEST_CASE("write refuses what it cannot mean", "[stages]") {
     CHECK(failure([&] {
               b.run("write", Value::scalar("c.xyz"));
           }).starts_with("usage [E-FORMAT] the suffix of 'c.xyz' names no format | give 'format', one of: "));
+    CHECK(failure([&] { b.run("write", Value::scalar("c.DXF")); }) ==
+          "usage [E-FORMAT] the suffix of 'c.DXF' names no format | "
+          "section: {path: c.DXF} draws what a plane cuts");
     CHECK(failure([&] {
               b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
           }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when it "

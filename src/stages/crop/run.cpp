@@ -8,6 +8,8 @@
 #include "stages/crop/footprint.hpp"
 #include "stages/crop/help.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::crop_stage {
@@ -145,6 +147,44 @@ class CropRun {
         part.mesh = std::move(sides[0].mesh);
     }
 
+    struct Bounds {
+        double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+        void add(double u, double v) {
+            low[0] = std::min(low[0], u);
+            low[1] = std::min(low[1], v);
+            high[0] = std::max(high[0], u);
+            high[1] = std::max(high[1], v);
+        }
+        std::string text() const {
+            return fmt::format("({:.10g}, {:.10g}) to ({:.10g}, {:.10g})", low[0], low[1], high[0], high[1]);
+        }
+        /// As longitude and latitude.
+        bool is_in_degrees() const {
+            return low[0] >= -180 && high[0] <= 180 && low[1] >= -90 && high[1] <= 90;
+        }
+    };
+    Bounds bounds_of_footprint() const {
+        Bounds b;
+        for (const auto& ring : footprint_.rings())
+            for (const auto& p : ring) b.add(p.x, p.y);
+        return b;
+    }
+    Bounds bounds_of(const Part& part) const {
+        Bounds b;
+        for (const Vec3& local : part.mesh.positions) {
+            const Vec3 p = part.transform.point(local);
+            b.add(p[settings_.axis == 0 ? 1 : 0], p[settings_.axis == 2 ? 1 : 2]);
+        }
+        return b;
+    }
+    std::string where_they_are(const Part& part) const {
+        return fmt::format("the footprint reaches from {}, the part from {}", bounds_of_footprint().text(),
+                           bounds_of(part).text());
+    }
+    bool is_in_degrees(const Part& part) const {
+        return bounds_of_footprint().is_in_degrees() && !bounds_of(part).is_in_degrees();
+    }
+
     void warn(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
         constexpr const char* hint =
             "check the position of the footprint and the axis; info prints the bounds";
@@ -156,8 +196,13 @@ class CropRun {
             changed |= r.mesh.face_count() > 0 && r.changed;
         }
         if (faces > 0 && left == 0)
-            context_.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name),
-                          hint);
+            context_.warn(
+                "W-CROP-NOTHING",
+                fmt::format("crop: nothing of part '{}' was kept: {}", part.name, where_they_are(part)),
+                is_in_degrees(part)
+                    ? "is the footprint in degrees? It is to have the coordinates of the mesh: "
+                      "ogr2ogr -t_srs converts it"
+                    : hint);
         else if (faces > 0 && !changed)
             context_.warn(
                 "W-CROP-ALL",

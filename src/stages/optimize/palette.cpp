@@ -88,7 +88,6 @@ std::map<Index, io::PlainLook> plain_looks(const Scene& scene,
 
 PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentTidy>& documents,
                             const std::vector<std::size_t>& parts, std::size_t least) {
-    constexpr std::size_t most = 512; // so that 12 bits of a texture coordinate tell them apart
     const std::map<Index, io::PlainLook> looks = plain_looks(scene, documents);
     std::map<Key, Palette> palettes;
     for (const std::size_t i : parts) {
@@ -102,7 +101,10 @@ PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentTidy>& documen
     }
     PaletteCounts counts;
     for (auto& [key, palette] : palettes) {
-        if (palette.looks.size() < std::max<std::size_t>(least, 2) || palette.looks.size() > most) continue;
+        if (palette.looks.size() > most_looks)
+            counts.too_many_looks = std::max(counts.too_many_looks, palette.looks.size());
+        if (palette.looks.size() < std::max<std::size_t>(least, 2) || palette.looks.size() > most_looks)
+            continue;
         Material material{.name = "palette", .document = palette.document};
         material.double_sided = scene.materials[palette.of_material.begin()->first].double_sided;
         const int material_index = material.index = static_cast<int>(

@@ -224,6 +224,12 @@ class Optimizing {
             make_palettes(scene_, tidies_, selected(), static_cast<std::size_t>(o_.palette_min));
         report_.palettes = made.palettes;
         report_.palette_materials = made.materials;
+        if (made.too_many_looks > 0)
+            context_.warn(
+                "W-PALETTE",
+                fmt::format("optimize: no palette was made of {} different looks: it has at most {}",
+                            made.too_many_looks, most_looks),
+                "optimize by parts: only: [...] beside it names some of them");
     }
 
     void flatten() {

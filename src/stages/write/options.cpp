@@ -6,6 +6,7 @@
 #include "stage/options/convention.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace facetmill::write_stage {
@@ -278,6 +279,19 @@ void declare_write(Declare<WriteOptions>& d) {
              "than nodes beside it.");
 }
 
+namespace {
+
+/// What writes such a file, or the formats that there are.
+std::string hint_of_suffix(const std::string& path, const std::vector<std::string>& names) {
+    const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
+    if (suffix == ".svg" || suffix == ".dxf")
+        return fmt::format("section: {{path: {}}} draws what a plane cuts", path);
+    if (suffix == ".png") return fmt::format("render: {{path: {}}} makes a picture", path);
+    return fmt::format("give 'format', one of: {}", fmt::join(names, ", "));
+}
+
+} // namespace
+
 void verify_write(const WriteOptions& o, const Value& given, Problems& problems) {
     const Value* path = given.is_map() ? given.find("path") : &given;
     const Value* format = given.is_map() ? given.find("format") : nullptr;
@@ -290,7 +304,7 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
                      suggestion(o.format, names));
     else if (!codec)
         problems.add(mark, "E-FORMAT", fmt::format("the suffix of '{}' names no format", o.path.text),
-                     fmt::format("give 'format', one of: {}", fmt::join(names, ", ")));
+                     hint_of_suffix(o.path.text, names));
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
                      suggestion("", names));
