@@ -622,7 +622,7 @@ std::span<const MessageId> message_ids() {
         {"W-MTL",
          {},
          "A material library of an OBJ file is missing, in another directory, or contains statements that "
-         "glTF cannot represent.",
+         "glTF cannot represent; or materials of glTF have properties that MTL cannot represent.",
          "Put the library beside the OBJ file, or name a folder that holds both: `--asset-root DIR`; the "
          "message "
          "names the statements that are not kept."},
@@ -780,9 +780,9 @@ std::span<const MessageId> message_ids() {
          "elsewhere."},
         {"W-TEXTURES",
          {},
-         "Textures are not written, because the format cannot hold them or facetmill does not write them in "
-         "it.",
-         "Write glTF to keep them."},
+         "Textures are not written, or not as they are, because the format cannot hold them or facetmill does "
+         "not write them in it; for OBJ the message names each and why.",
+         "Write glTF to keep them. `textures: {format: png}` makes PNG of WebP, which OBJ does not name."},
         {"W-THICKEN",
          {},
          "The walls of a thickened part intersect, are inverted where there is not enough room, or lie "

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
-#include <set>
 
 namespace facetmill::io {
 
@@ -43,7 +42,8 @@ WorldMesh::WorldMesh(const Scene& scene) {
     for (const auto& part : scene.parts) facetmill::append(own_, *WorldMesh(part));
 }
 
-void leave_documents(Written& written, const Scene& scene, const char* format) {
+void leave_documents(Written& written, const Scene& scene, const char* format,
+                     const std::set<std::string>& kept) {
     std::size_t animations = 0, skins = 0;
     for (const auto& document : scene.documents) {
         const Json json = parse_json(document->json, Broken::discarded);
@@ -57,12 +57,13 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
             return at != json.end() && at->is_array() ? at->size() : 0;
         };
         for (const char* what : {"textures", "skins", "animations", "cameras"})
-            if (count(what) > 0) leave(fmt::format("{} ({})", what, count(what)));
+            if (count(what) > 0 && !kept.contains(what)) leave(fmt::format("{} ({})", what, count(what)));
         animations += count("animations");
         skins += count("skins");
         if (const auto at = json.find("extensionsUsed"); at != json.end() && at->is_array())
             for (const auto& name : *at)
-                if (name.is_string()) leave(name.get<std::string>());
+                if (name.is_string() && !kept.contains(name.get<std::string>()))
+                    leave(name.get<std::string>());
     }
     std::vector<std::string> left_out;
     if (animations > 0) left_out.push_back(counted(animations, "animation"));

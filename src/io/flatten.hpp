@@ -5,6 +5,8 @@
 #include "io/codec.hpp"
 #include "mesh/placement.hpp"
 
+#include <set>
+
 namespace facetmill::io {
 
 /// The part's mesh in world space; a copy only when the part stands somewhere else (or elsewhere turned).
@@ -29,8 +31,10 @@ void require_floats(const Mesh& mesh, const std::string& what);
 void dropped(Written& written, const Attribute& attribute, std::string why);
 
 /// ... and what of glTF documents it leaves behind: textures and other properties of materials, skins,
-/// animations (W-ANIMATION for these two), cameras, extensions. `format` is spelled as in "STL".
-void leave_documents(Written& written, const Scene& scene, const char* format);
+/// animations (W-ANIMATION for these two), cameras, extensions. `format` is spelled as in "STL"; kept: what
+/// it holds of these.
+void leave_documents(Written& written, const Scene& scene, const char* format,
+                     const std::set<std::string>& kept = {});
 
 /// Warns (W-TEXTURES) of textured materials that the scene's faces have, by a format that could hold
 /// textures.

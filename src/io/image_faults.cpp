@@ -4,6 +4,7 @@
 #include "io/pixels.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill::io {
 
@@ -83,6 +84,14 @@ std::string image_fault(Span bytes) {
                       : type == "image/webp" ? webp_ends(bytes)
                                              : bytes.size() >= dds_header;
     return ends ? std::string() : "its data end early";
+}
+
+Diagnostic warning_of_fault(const std::string& image, const std::string& fault) {
+    return {Severity::warning,
+            "W-IMAGE",
+            fmt::format("the image \"{}\" is written as it is, but viewers cannot show it: {}", image, fault),
+            {},
+            "export the image again"};
 }
 
 } // namespace facetmill::io

@@ -1,6 +1,7 @@
 #pragma once
 // Images that no viewer will show, told by their header and their extent alone.
 
+#include "base/error.hpp"
 #include "io/bytes.hpp"
 
 #include <string>
@@ -11,5 +12,8 @@ namespace facetmill::io {
 /// data end early", "it is of no known kind"; empty where nothing is. PNG, JPEG, WebP, KTX2 and DDS. What
 /// lies between the header and the end is not looked at.
 std::string image_fault(Span bytes);
+
+/// What is said (W-IMAGE) where such an image is written as it is.
+Diagnostic warning_of_fault(const std::string& image, const std::string& fault);
 
 } // namespace facetmill::io

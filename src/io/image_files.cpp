@@ -166,16 +166,59 @@ std::string uri_of(const fs::path& relative) {
     return out;
 }
 
-ImageNames::ImageNames(std::string stem, const std::vector<std::string>& taken) : stem_(std::move(stem)) {
-    for (const auto& name : taken) taken_.insert(lower_case(name));
+bool has_bytes(const fs::path& path, Span bytes) {
+    std::error_code failed;
+    if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) != bytes.size()) return false;
+    const Input file = Input::open(path);
+    return std::equal(bytes.begin(), bytes.end(), file.stored().begin(), file.stored().end());
+}
+
+fs::path file_name_of_image(const std::string& name, std::size_t index, Span bytes) {
+    constexpr std::size_t most = 100;
+    const std::string type = media_type(bytes);
+    const std::string suffix = type == "image/jpeg"   ? ".jpg"
+                               : type == "image/webp" ? ".webp"
+                               : type == "image/ktx2" ? ".ktx2"
+                                                      : ".png";
+    std::string stem = name.empty() ? fmt::format("image{}", index) : name;
+    const std::string last = lower_case(fs::path(stem).extension().string());
+    if (last == suffix || last == ".jpeg") stem.resize(stem.size() - last.size());
+    for (char& c : stem)
+        if (c == '/' || c == '\0') c = '_';
+    std::size_t end = std::min(stem.size(), most); // not within a character
+    while (end < stem.size() && end > 0 && (static_cast<unsigned char>(stem[end]) & 0xc0) == 0x80) --end;
+    return stem.substr(0, end) + suffix;
+}
+
+namespace {
+
+/// One step of a path, for lines whose words are parted by blanks, and for all file systems.
+std::string plain_step(std::string step) {
+    for (char& c : step)
+        if (static_cast<unsigned char>(c) <= ' ' ||
+            std::string_view("\x7f#\"'\\:*?<>|").find(c) != std::string_view::npos)
+            c = '_';
+    if (step.starts_with('-')) step.front() = '_'; // it would begin an option
+    return step;
+}
+
+} // namespace
+
+ImageNames::ImageNames(const std::string& stem, Spelling spelling)
+    : spelling_(spelling), stem_(spelling == Spelling::plain ? plain_step(stem) : stem) {
+    for (const char* suffix : {".gltf", ".glb", ".bin", ".obj", ".mtl"})
+        taken_.insert(lower_case(stem_ + suffix));
 }
 
 fs::path ImageNames::add(const fs::path& relative) {
-    const std::string file = relative.filename().string();
+    const auto spelled = [&](const fs::path& step) {
+        return spelling_ == Spelling::plain ? plain_step(step.string()) : step.string();
+    };
+    const std::string file = spelled(relative.filename());
     const std::string name = file.starts_with(stem_ + ".") ? file : stem_ + "." + file;
     fs::path folder;
     for (const fs::path& step : relative.parent_path())
-        if (step != "..") folder /= step;
+        if (step != "..") folder /= spelled(step);
     fs::path path = folder / name;
     const fs::path plain = fs::path(name).stem(), extension = fs::path(name).extension();
     for (int n = 2; !taken_.insert(lower_case(path.generic_string())).second; ++n)

@@ -37,6 +37,13 @@ struct ImageColours {
 /// None when the bytes are neither PNG nor JPEG, or end before they say it.
 std::optional<ImageColours> image_colours(Span bytes);
 
+/// A name for the file of an image that has none, of a document: its own name or else its place there, and
+/// the suffix of its kind; no path, and at most about 100 bytes long.
+std::filesystem::path file_name_of_image(const std::string& name, std::size_t index, Span bytes);
+
+/// Whether the file is there and has these bytes.
+bool has_bytes(const std::filesystem::path& path, Span bytes);
+
 /// A relative path as a URI: bytes that a URI gives a meaning are written %XX.
 std::string uri_of(const std::filesystem::path& relative);
 
@@ -45,12 +52,17 @@ std::string uri_of(const std::filesystem::path& relative);
 /// "../textures/wood.png": nothing is written out of the output's folder.
 class ImageNames {
   public:
-    /// taken: the names of the output's other files.
-    ImageNames(std::string stem, const std::vector<std::string>& taken);
+    enum class Spelling {
+        kept, ///< as the input has them
+        plain ///< for a line of text that names the file among other words: without blanks, quotes ...
+    };
+    /// The names of the output's other files are the stem and a suffix of a mesh's files.
+    explicit ImageNames(const std::string& stem, Spelling spelling = Spelling::kept);
     /// A name for the image that was called so. Names that differ only in case count as the same.
     std::filesystem::path add(const std::filesystem::path& relative);
 
   private:
+    Spelling spelling_;
     std::string stem_;
     std::set<std::string> taken_; ///< in lower case
 };

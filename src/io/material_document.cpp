@@ -1,11 +1,11 @@
 #include "io/material_document.hpp"
 
 #include "base/hash.hpp"
+#include "base/once_each.hpp"
 #include "io/image_files.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace facetmill::io {
 
@@ -77,14 +77,18 @@ void add_textures(const Json& json, std::vector<std::size_t>& textures) {
 
 } // namespace
 
-std::vector<NamedImage> MaterialDocument::images() const {
+std::vector<std::size_t> images_of_materials(const Json& document) {
     std::vector<std::size_t> textures;
-    for (const auto& material : json_["materials"]) add_textures(material, textures);
+    for (const auto& material : document.at("materials")) add_textures(material, textures);
+    OnceEach<std::size_t> images;
+    for (const std::size_t texture : textures)
+        images.add(document.at("textures").at(texture).at("source").get<std::size_t>());
+    return images.all();
+}
+
+std::vector<NamedImage> MaterialDocument::images() const {
     std::vector<NamedImage> all;
-    std::set<std::size_t> seen;
-    for (const std::size_t texture : textures) {
-        const auto i = json_["textures"][texture]["source"].get<std::size_t>();
-        if (!seen.insert(i).second) continue;
+    for (const std::size_t i : images_of_materials(json_)) {
         all.push_back(images_[i]);
         all.back().digest = sha256(document_.files.at(json_["images"][i]["uri"].get<std::string>()));
     }

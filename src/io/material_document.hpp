@@ -37,4 +37,8 @@ class MaterialDocument {
     std::vector<NamedImage> images_; ///< without digests
 };
 
+/// The images of a document that its materials name, each once, in the order in which a written document
+/// takes them over.
+std::vector<std::size_t> images_of_materials(const Json& document);
+
 } // namespace facetmill::io

@@ -1,4 +1,6 @@
+#include "io/gltf/textures.hpp"
 #include "io/image_files.hpp"
+#include "io/packing.hpp"
 #include "pipeline/plan.hpp"
 #include "stage/options/plane.hpp"
 
@@ -122,6 +124,12 @@ class Walk {
     }
 
   private:
+    using Images = std::vector<io::NamedImage>;
+    struct Loaded {
+        io::FileHeader header;
+        std::function<Images()> embedded_images;
+    };
+
     void load(const Step& step, std::optional<Unit>& unit) {
         bool first = !any_loaded_;
         any_loaded_ = true;
@@ -137,7 +145,9 @@ class Walk {
                 if (known_.insert(file.path.native()).second) headers.inputs.push_back({file.path, header});
                 headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
                                            header.files.end());
-                loaded_.push_back(header);
+                loaded_.push_back({header, [path = file.path, roots = asset_roots_of({step}, places_)] {
+                                       return io::embedded_images(path, roots);
+                                   }});
             } catch (Error& error) {
                 refused.add(error.at(file.where), file.path);
                 first = false;
@@ -151,25 +161,36 @@ class Walk {
     void add_written(const Step& step) {
         if (!step.stage->files) return;
         const StageFiles files = step.stage->files(step.options.get());
-        const auto has_materials = [](const io::FileHeader& h) {
-            return h.has_materials && h.has_materials();
+        const auto has_materials = [](const Loaded& file) {
+            return file.header.has_materials && file.header.has_materials();
         };
         if (files.materials && std::any_of(loaded_.begin(), loaded_.end(), has_materials))
             headers.more_outputs.push_back(places_.output(files.materials->text));
         if (!files.images) return;
         const fs::path path = files.images->text;
-        const std::string stem = path.stem().string();
-        io::ImageNames names(stem, {stem + ".gltf", stem + ".glb", stem + ".bin"});
+        // What names its images in a library has all of them as files.
+        const bool all = files.materials.has_value();
+        io::ImageNames names(io::without_packing(path).stem().string(),
+                             all ? io::ImageNames::Spelling::plain : io::ImageNames::Spelling::kept);
         std::set<std::string> copied;
-        for (auto& header : loaded_) {
-            if (!header.images) continue;
-            // Asked once, however many outputs there are.
-            header.images = [images = header.images()] { return images; };
-            for (const auto& image : header.images())
-                if ((!files.copies || files.copies(image)) && copied.insert(image.digest).second)
-                    headers.more_outputs.push_back(
-                        places_.output((path.parent_path() / names.add(image.relative)).string()));
+        const auto copy = [&](const io::NamedImage& image) {
+            if ((!files.copies || files.copies(image)) && copied.insert(image.digest).second)
+                headers.more_outputs.push_back(
+                    places_.output((path.parent_path() / names.add(image.relative)).string()));
+        };
+        for (auto& file : loaded_) {
+            for (const auto& image : known(file.header.images)) copy(image);
+            if (all)
+                for (const auto& image : known(file.embedded_images)) copy(image);
         }
+    }
+
+    /// Asked once, however many outputs there are.
+    static Images known(std::function<Images()>& images) {
+        if (!images) return {};
+        const Images all = images();
+        images = [all] { return all; };
+        return all;
     }
 
     void resolve_lengths(const Step& step, Unit unit) {
@@ -221,7 +242,7 @@ class Walk {
     }
 
     const Places& places_;
-    std::vector<io::FileHeader> loaded_;
+    std::vector<Loaded> loaded_;
     std::set<std::string> known_; ///< paths of headers.inputs
     bool any_loaded_ = false;
 };

@@ -648,7 +648,7 @@ class Process(Case):
                 self.assertEqual(sorted(planned), written, f"{name}{how}")
                 counts[name, how] = len(written)
                 shutil.rmtree(self.dir / "out")
-        self.assertEqual(counts["m.obj", ", textures: copy"], 4 + 5)  # two plain ones, three made of others
+        self.assertEqual(counts["m.obj", ", textures: copy"], 4 + 2 * 5)  # two plain ones, three made of others, beside each
         self.assertEqual(counts["p.ply", ""], counts["two.ply", ""])
         self.assertGreater(counts["late.obj", ""], counts["late.obj", ", textures: embed"])
 

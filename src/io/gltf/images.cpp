@@ -42,10 +42,8 @@ Json& image_json(Patch& patch, const FileImage& image) { return patch.builder.js
 
 void warn_of_fault(Patch& patch, std::size_t index, const std::string& fault) {
     if (fault.empty()) return;
-    patch.warn("W-IMAGE",
-               fmt::format("the image \"{}\" is written as it is, but viewers cannot show it: {}",
-                           name_of_image(patch.builder.json()["images"][index], index), fault),
-               "export the image again");
+    const Diagnostic d = warning_of_fault(name_of_image(patch.builder.json()["images"][index], index), fault);
+    patch.warn("W-IMAGE", d.message, d.hint);
 }
 
 /// What is wrong with an image that stands in a buffer or in the document itself.
@@ -71,8 +69,7 @@ void keep_name(Json& json, const std::string& uri) {
 /// Where images go that are embedded or copied; the same bytes go there once.
 class Placer {
   public:
-    Placer(Patch& patch, const std::string& stem)
-        : patch_(patch), names_(stem, {stem + ".gltf", stem + ".glb", stem + ".bin"}) {}
+    Placer(Patch& patch, const std::string& stem) : patch_(patch), names_(stem) {}
 
     void embed(const FileImage& image) {
         const std::string type = media_type(*image.bytes);
@@ -106,27 +103,13 @@ class Placer {
     std::vector<OutputFile> files_;
 };
 
-/// Whether the file has these bytes.
-bool has_bytes(const fs::path& path, const Bytes& bytes) {
-    std::error_code failed;
-    if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) != bytes.size()) return false;
-    const Input file = Input::open(path);
-    return std::equal(bytes.begin(), bytes.end(), file.stored().begin(), file.stored().end());
-}
-
 /// Names the image by the way from the output's directory to where it lies.
 void refer(Patch& patch, Placer& placer, const FileImage& image) {
-    const auto path = decoded_path(image.uri);
-    if (!path) return; // remote or absolute: stays as spelled
-    std::error_code failed;
-    const fs::path from = fs::absolute(fs::path(image.document->name).parent_path() / *path, failed);
-    const fs::path to =
-        fs::absolute(patch.settings.directory.empty() ? "." : patch.settings.directory, failed);
-    if (failed) return;
+    const auto place = place_of_file(*image.document, image.uri, patch.settings.directory);
+    if (!place) return; // remote or absolute: stays as spelled
     // Made while it was read, or by a stage.
-    if (image.bytes && !has_bytes(from, *image.bytes)) return placer.copy(image);
-    image_json(patch, image)["uri"] =
-        uri_of(from.lexically_normal().lexically_relative(to.lexically_normal()));
+    if (image.bytes && !has_bytes(place->file, *image.bytes)) return placer.copy(image);
+    image_json(patch, image)["uri"] = uri_of(place->way);
 }
 
 } // namespace

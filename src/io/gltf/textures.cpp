@@ -1,5 +1,7 @@
 #include "io/gltf/textures.hpp"
 
+#include "base/hash.hpp"
+#include "base/words.hpp"
 #include "io/gltf/builder.hpp"
 #include "io/gltf/container.hpp"
 #include "io/image_files.hpp"
@@ -355,6 +357,60 @@ std::vector<Bytes> image_bytes(const Document& document, const Json& json) {
         }
     }
     return all;
+}
+
+std::vector<ImageFile> image_files(const Document& document, const Json& json) {
+    std::vector<Bytes> bytes = image_bytes(document, json);
+    std::vector<ImageFile> files, embedded;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        if (bytes[i].empty()) continue;
+        const Json& image = json["images"][i];
+        std::string uri = image.contains("uri") ? image["uri"].get<std::string>() : "";
+        if (!uri.empty() && !is_data_uri(uri)) {
+            auto path = decoded_path(uri).value_or("image");
+            files.push_back({i, std::move(path), std::move(uri), std::move(bytes[i])});
+            continue;
+        }
+        const bool named = image.contains("name") && image["name"].is_string();
+        auto name = file_name_of_image(named ? image["name"].get<std::string>() : "", i, bytes[i]);
+        embedded.push_back({i, std::move(name), {}, std::move(bytes[i])});
+    }
+    std::move(embedded.begin(), embedded.end(), std::back_inserter(files));
+    return files;
+}
+
+std::vector<NamedImage> embedded_images(const std::filesystem::path& file,
+                                        const std::vector<std::filesystem::path>& asset_roots) {
+    std::vector<NamedImage> all;
+    try {
+        const Input input = Input::open(file).with_asset_roots(asset_roots);
+        const Codec* codec = sure_codec(input);
+        if (!codec || !codec->can.quantize) return {};
+        const bool binary = is_glb(input.bytes());
+        const Chunks chunks =
+            binary ? split_glb(input.bytes()) : Chunks{without_byte_order_mark(as_text(input.bytes())), {}};
+        const Json json = parse_document(chunks.json);
+        ReadLog ignored; // reading the file will tell
+        Document document;
+        document.buffers = load_buffers(json, chunks.binary, input, ignored);
+        for (const ImageFile& image : image_files(document, json))
+            if (image.uri.empty() && image_colours(image.bytes))
+                all.push_back({image.relative, sha256(image.bytes), false});
+    } catch (const Error&) { // nor will it be written
+    }
+    return all;
+}
+
+std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
+                                         const std::filesystem::path& directory) {
+    namespace fs = std::filesystem;
+    const auto path = decoded_path(uri);
+    if (!path) return {};
+    std::error_code failed;
+    const fs::path from = fs::absolute(fs::path(document.name).parent_path() / *path, failed);
+    const fs::path to = fs::absolute(directory.empty() ? "." : directory, failed);
+    if (failed) return {};
+    return PlaceOfFile{from, from.lexically_normal().lexically_relative(to.lexically_normal())};
 }
 
 std::shared_ptr<const Document> with_images(const Document& document,

@@ -3,10 +3,12 @@
 // their place.
 
 #include "base/json.hpp"
-#include "io/bytes.hpp"
+#include "io/codec.hpp"
 #include "mesh/scene.hpp"
 
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace facetmill::io {
@@ -44,6 +46,30 @@ std::string name_of_image(const Json& image, std::size_t index);
 /// The bytes of the images of the document, whose JSON is given parsed; none for those that were not read or
 /// are not there.
 std::vector<Bytes> image_bytes(const Document& document, const Json& json);
+
+/// An image of a document as a file: where the document names it, or, when it is in the document itself,
+/// under a name made for it.
+struct ImageFile {
+    std::size_t index = 0; ///< in the document
+    std::filesystem::path relative;
+    std::string uri; ///< of one that is a file; else empty
+    Bytes bytes;
+};
+/// Those whose bytes are there: first the files, then what is in the document itself, each by index.
+std::vector<ImageFile> image_files(const Document& document, const Json& json);
+
+/// What is in a glTF file itself, of the kinds that other formats name, under the names that image_files
+/// gives; none of a file of another format, or that cannot be read.
+std::vector<NamedImage> embedded_images(const std::filesystem::path& file,
+                                        const std::vector<std::filesystem::path>& asset_roots);
+
+/// Where the file is that a relative URI of a document names.
+struct PlaceOfFile {
+    std::filesystem::path file, way; ///< from the directory
+};
+/// None when the URI is remote or absolute. directory: empty is the working one.
+std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
+                                         const std::filesystem::path& directory);
 
 /// The document with other bytes (PNG, JPEG, WebP or KTX2) for some of its images, by index. Where an image's
 /// kind changes, its name, its media type and the textures do as well: WebP becomes the source of

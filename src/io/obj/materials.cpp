@@ -4,7 +4,6 @@
 
 #include "base/hash.hpp"
 #include "base/sorted_once.hpp"
-#include "io/flatten.hpp"
 #include "io/image_files.hpp"
 
 #include <algorithm>
@@ -24,12 +23,6 @@ bool is_physical(const Description& d) {
     return d.roughness || d.metalness || has_map(d, "pr") || has_map(d, "pm") || has_map(d, "rma") ||
            has_map(d, "orm");
 }
-
-/// The roughness of a highlight with Phong's exponent Ns: the microfacet distributions of equal width have
-/// alpha^2 = 2 / (Ns + 2), and glTF's alpha is the square of the roughness. B. Walter, S. R. Marschner, H. Li
-/// and K. E. Torrance, "Microfacet models for refraction through rough surfaces" (2007), section 5.2; the
-/// exponent is that of B. T. Phong, "Illumination for computer generated pictures" (1975).
-double roughness_of(double exponent) { return std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))); }
 
 /// Whether there are highlights: illumination models 0 and 1 have none, nor has a black Ks.
 bool is_glossy(const Description& d) {
@@ -63,6 +56,12 @@ std::filesystem::path derived_name(const Map* first, const Map& second) {
 }
 
 } // namespace
+
+/// The roughness of a highlight with Phong's exponent Ns: the microfacet distributions of equal width have
+/// alpha^2 = 2 / (Ns + 2), and glTF's alpha is the square of the roughness. B. Walter, S. R. Marschner, H. Li
+/// and K. E. Torrance, "Microfacet models for refraction through rough surfaces" (2007), section 5.2; the
+/// exponent is that of B. T. Phong, "Illumination for computer generated pictures" (1975).
+double roughness_of(double exponent) { return std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))); }
 
 MaterialMaker::MaterialMaker(const Input& input, std::map<std::string, Description> descriptions,
                              ReadLog& log, bool names_only)
@@ -309,21 +308,6 @@ Index MaterialMaker::index_of(const std::string& name, bool textured, std::vecto
 
 void MaterialMaker::finish(Scene& scene) {
     if (!document_.empty()) scene.documents.push_back(document_.finish());
-}
-
-std::string material_library(const std::vector<Material>& materials) {
-    std::string text = "# written by facetmill\n";
-    for (const auto& m : materials) {
-        text += fmt::format("newmtl {}\nKd", m.name);
-        for (int c = 0; c < 3; ++c) {
-            text += ' ';
-            put_number(text, static_cast<float>(m.base_colour[c]));
-        }
-        text += "\nd ";
-        put_number(text, static_cast<float>(m.base_colour[3]));
-        text += '\n';
-    }
-    return text;
 }
 
 } // namespace facetmill::io::obj

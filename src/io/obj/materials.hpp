@@ -18,7 +18,7 @@ struct Map {
     bool clamp = false;
     double strength = 1; ///< -bm
 
-    bool operator==(const Map&) const = default;
+    bool operator==(const Map&) const = default; ///< also the same strength
     /// Whether the image of another statement lies where this one's does.
     bool lies_as(const Map& other) const {
         return scale == other.scale && offset == other.offset && clamp == other.clamp;
@@ -86,7 +86,10 @@ class MaterialMaker {
     std::map<std::pair<std::string, bool>, Index> known_;
 };
 
-/// The .mtl file of the materials.
-std::string material_library(const std::vector<Material>& materials);
+/// The roughness of a highlight with Phong's exponent (Ns).
+double roughness_of(double exponent);
+
+/// The .mtl file of materials: their names, which are those of an OBJ, and what they are.
+std::string material_library(const std::vector<std::pair<std::string, Description>>& materials);
 
 } // namespace facetmill::io::obj

@@ -583,8 +583,11 @@ const RegisterCodec codec({
             .points = true,
             .lines = true,
             .full_precision = true,
-            .attributes = "texture points and normals by corner, colours of vertices, materials",
-            .library = ".mtl"},
+            .textures = true,
+            .attributes =
+                "texture points and normals by corner, colours of vertices, materials with textures",
+            .library = ".mtl",
+            .copies_images = true},
     .sniff = sniff,
     .read = read,
     .write = write,

@@ -1,7 +1,7 @@
 #include "base/progress.hpp"
 #include "base/unique_names.hpp"
 #include "io/flatten.hpp"
-#include "io/obj/materials.hpp"
+#include "io/obj/describe.hpp"
 #include "mesh/primitives_in_use.hpp"
 
 #include <bit>
@@ -268,6 +268,22 @@ std::string one_line(std::string name) {
     return name;
 }
 
+std::string library_name(const WriteSettings& settings) { return settings.title + ".mtl"; }
+
+/// The .mtl file and the images that it names.
+void add_library(Written& written, const Scene& scene, const std::vector<Material>& materials,
+                 const WriteSettings& settings) {
+    LibraryImages images(scene, settings);
+    LibraryLosses losses;
+    std::vector<std::pair<std::string, Description>> described;
+    described.reserve(materials.size());
+    for (const Material& m : materials) described.emplace_back(m.name, describe(m, images, losses));
+    written.files.push_back({library_name(settings), bytes_of_text(material_library(described))});
+    for (const auto& warnings : {losses.warnings(), images.warnings()})
+        written.warnings.insert(written.warnings.end(), warnings.begin(), warnings.end());
+    for (OutputFile& file : images.take_files()) written.files.push_back(std::move(file));
+}
+
 } // namespace
 
 Written write(const Scene& scene, const WriteSettings& settings) {
@@ -276,8 +292,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     append(bytes, "# written by facetmill\n");
     const std::vector<std::string> materials = material_names(scene.materials);
     const std::vector<Material> named = named_materials(scene, materials);
-    const std::string library = settings.title + ".mtl";
-    if (!named.empty()) append(bytes, fmt::format("mtllib {}\n", library));
+    if (!named.empty()) append(bytes, fmt::format("mtllib {}\n", library_name(settings)));
     Offsets offsets;
     Index material = none;
     ShareOfSteps parts(std::vector<double>(scene.parts.size(), 1));
@@ -308,15 +323,12 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         tell_what_is_lost(part.mesh, written);
         parts.next();
     }
-    leave_documents(written, scene, "OBJ");
-    warn_of_textures(written, scene, "OBJ");
+    leave_documents(
+        written, scene, "OBJ",
+        {"textures", "KHR_texture_transform", "KHR_materials_specular", "KHR_materials_emissive_strength"});
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
-    if (!named.empty()) {
-        Bytes mtl;
-        append(mtl, material_library(named));
-        written.files.push_back({library, std::move(mtl)});
-    }
+    if (!named.empty()) add_library(written, scene, named, settings);
     return written;
 }
 

@@ -142,7 +142,7 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
             {"normals", o.normals != NormalKind::keep, &Can::normals},
             {"origin", o.origin.kind == OriginOption::Kind::point, &Can::transforms},
-            {"tangents", o.tangents != Tangents::keep, &Can::textures}};
+            {"tangents", o.tangents != Tangents::keep, &Can::quantize}};
 }
 
 /// Options that say something another format knows.
@@ -176,6 +176,12 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
                                         draco ? "draco" : "meshopt"),
                             "leave one of them out"},
                     "write", given, problems);
+    if (o.textures == io::Textures::embed && codec.can.textures && !codec.can.library.empty())
+        add_refusal(
+            Refusal{"textures",
+                    fmt::format("{} cannot hold images: its textures are files beside it", codec.name),
+                    "textures: copy, or a .glb"},
+            "write", given, problems);
     if (o.feature_angle && o.normals != NormalKind::smooth)
         add_refusal(
             Refusal{"feature_angle", "'feature_angle' goes with normals: smooth only", "add normals: smooth"},
@@ -265,11 +271,13 @@ void declare_write(Declare<WriteOptions>& d) {
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
     d.choice<io::Textures>(
         "textures", &WriteOptions::textures,
-        {{"auto", io::Textures::automatic, "embed for .glb, copy for .gltf"},
-         {"embed", io::Textures::embed, "in the .glb or the .bin"},
+        {{"auto", io::Textures::automatic, "embed for .glb, copy for .gltf and .obj"},
+         {"embed", io::Textures::embed, "in the .glb or the .bin; an .obj cannot hold them"},
          {"copy", io::Textures::copy, "beside the file, under names that begin with its stem"},
          {"reference", io::Textures::reference, "not at all: the file refers to the images of the input"}},
-        "Where the images of glTF are stored that the input has as separate files.");
+        "Where the images of textures are stored. Those that a glTF input holds itself stay in a .glb or "
+        ".bin, and "
+        "become files beside an .obj.");
     d.option(
         "drop_names", &WriteOptions::drop_names,
         "Leaves out of glTF the names of nodes, meshes, images, skins and accessors, and that of the program "

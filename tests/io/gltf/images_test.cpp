@@ -188,7 +188,7 @@ TEST_CASE("a broken image is told where it is written, once", "[io]") {
 }
 
 TEST_CASE("names of images beside an output begin with its stem, once each", "[io]") {
-    io::ImageNames names("lamp", {"lamp.bin"});
+    io::ImageNames names("lamp");
     CHECK(names.add("wood.png") == "lamp.wood.png");
     CHECK(names.add("WOOD.png") == "lamp.WOOD.2.png");
     CHECK(names.add("lamp.wood.png") == "lamp.wood.3.png");

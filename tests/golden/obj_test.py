@@ -1,0 +1,59 @@
+"""OBJ with its materials and the images of their textures: as outputs of a run among others."""
+
+import json
+
+from support import Case, main, png
+
+OBJ = "mtllib t.mtl\no t\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
+
+
+class Obj(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("in/t.obj", OBJ)
+        self.write("in/t.mtl", "newmtl m\nmap_Kd maps/tex.png\n")
+        (self.dir / "in/maps").mkdir()
+        (self.dir / "in/maps/tex.png").write_bytes(png(255, 0, 0))
+
+    def both(self, *arguments):
+        """What a plan says that it writes, and what it writes."""
+        self.write("p.yaml", "facetmill: 1\nstages:\n  - load: in/t.obj\n  - write: t.obj\n")
+        planned = self.mill("plan", "p.yaml", *arguments, "-o", "out", "--outputs").stdout.split()
+        self.mill("run", "p.yaml", *arguments, "-o", "out", "--strict", "--allow", "W-UNITS")
+        return planned, [f"out/{name}" for name in self.files(self.dir / "out")]
+
+    def test_the_plan_names_the_images(self):
+        self.mill("pipe", "load", "in/t.obj", "!", "write", "t.glb")
+        self.mill("pipe", "load", "in/t.obj", "!", "write", "g/t.gltf")
+        expected = {"in/t.obj": "maps/t.tex.png", "t.glb": "t.tex.png", "g/t.gltf": "maps/t.tex.png"}
+        for source, image in expected.items():
+            with self.subTest(source=source):
+                planned, written = self.both("--set", f"load.path={source}")
+                self.assertEqual(written, sorted(["out/t.obj", "out/t.mtl", f"out/{image}"]))
+                self.assertEqual(sorted(planned), written)
+                self.assertEqual((self.dir / "out" / image).read_bytes(), png(255, 0, 0))
+                for path in written:
+                    (self.dir / path).unlink()
+
+    def test_images_are_outputs_like_others(self):
+        self.mill("pipe", "-o", "out", "--depfile", "t.d", "--report", "t.json", "load", "in/t.obj", "!", "write", "t.obj")
+        names = {"out/t.obj", "out/t.mtl", "out/maps/t.tex.png"}
+        targets, inputs = (self.dir / "t.d").read_text().replace("\\\n", " ").split("\n")[0].split(":", 1)
+        self.assertIn("in/maps/tex.png", inputs)
+        record = json.loads((self.dir / "out/t.json").read_text())
+        self.assertEqual({f"out/{output['path']}" for output in record["outputs"]}, names)
+        self.assertGreater(record["outputs"][-1]["contents"]["textures"], 0)
+
+    def test_what_an_obj_cannot_hold_is_an_error(self):
+        said = self.mill("pipe", "load", "in/t.obj", "!", "write", "t.obj", "--textures", "embed", expect=2).stderr
+        self.assertIn("obj cannot hold images", said)
+        self.assertIn("textures: copy", said)
+        self.mill("pipe", "load", "in/t.obj", "!", "write", "o/t.obj", "--textures", "reference")
+        self.assertIn("map_Kd ../in/maps/tex.png\n", (self.dir / "o/t.mtl").read_text())
+        self.assertEqual(sorted(self.files(self.dir / "o")), ["t.mtl", "t.obj"])
+        said = self.mill("pipe", "load", "in/t.obj", "!", "write", "t.obj", "--tangents", "new", expect=2).stderr
+        self.assertIn("'tangents' goes with", said)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,282 @@
+// Materials of glTF as an MTL library with images beside it: what is read from one is written so that it is
+// read the same again, and what it cannot say is said.
+#include "base/hash.hpp"
+#include "io/gltf/textures.hpp"
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+#include "support/images.hpp"
+#include "support/temporary.hpp"
+
+#include <fmt/format.h>
+
+using namespace facetmill;
+using namespace facetmill::test;
+namespace fs = std::filesystem;
+
+namespace describe_test {
+
+namespace {
+
+const char* const quad =
+    "mtllib a.mtl\no quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "usemtl m\nf 1/1 2/2 3/3 4/4\n";
+
+Scene load(const fs::path& path) {
+    io::ReadLog log;
+    Scene scene = io::read_scene(io::Input::open(path), {}, log);
+    INFO(path.string());
+    CHECK(log.warnings.empty());
+    return scene;
+}
+
+void put_images(const fs::path& folder) {
+    fs::create_directories(folder);
+    put(folder / "red.png", red_png());
+    put(folder / "blue.png", blue_png());
+    put(folder / "grey.png", png_of(0, "\x40"));
+    put(folder / "white.png", png_of(0, "\xff"));
+    put(folder / "alpha.png", png_of(6, "\x10\x20\x30\x40"));
+}
+
+/// What is written, in a folder.
+void put_files(const io::Written& written, const fs::path& folder) {
+    for (const auto& file : written.files) {
+        fs::create_directories((folder / file.name).parent_path());
+        put(folder / file.name, std::string(io::as_text(file.bytes)));
+    }
+}
+
+std::string text_of(const io::Written& written, const std::string& name) {
+    for (const auto& file : written.files)
+        if (file.name == name) return std::string(io::as_text(file.bytes));
+    return "there is no " + name;
+}
+
+std::vector<std::string> names_of(const io::Written& written) {
+    std::vector<std::string> names;
+    for (const auto& file : written.files) names.push_back(file.name.string());
+    return names;
+}
+
+std::string warnings_of(const io::Written& written) {
+    std::string all;
+    for (const auto& w : written.warnings) all += w.id + " " + w.message + "\n";
+    return all;
+}
+
+/// Puts the sampler and the digest of its image in the place of each texture's index.
+void resolve(Json& json, const Json& document, const std::vector<io::Bytes>& images) {
+    if (!json.is_object()) return;
+    for (auto& [key, value] : json.items()) {
+        if (key.ends_with("Texture")) {
+            const Json texture = document["textures"][value["index"].get<std::size_t>()];
+            value["index"] = {document["samplers"][texture["sampler"].get<std::size_t>()],
+                              sha256(images[texture["source"].get<std::size_t>()])};
+        }
+        resolve(value, document, images);
+    }
+}
+
+/// The materials of a GLB that is written of the scene, with their images.
+Json materials_of(const Scene& scene) {
+    const Scene read = test::again(scene);
+    Json json = Json::parse(read.documents.at(0)->json);
+    const auto images = io::image_bytes(*read.documents[0], json);
+    Json materials = json["materials"];
+    for (Json& material : materials) resolve(material, json, images);
+    return materials;
+}
+
+/// A textured triangle of that material; image 0 is the file `uri`, image 1 is in the document.
+std::string triangle(const std::string& material, const std::string& uri = "red.png",
+                     const std::string& sampler = "{}") {
+    return fmt::format(
+        R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"name":"t"}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"material":0}}]}}],
+"materials":[{{"name":"m",{}}}],"samplers":[{}],
+"textures":[{{"source":0,"sampler":0}},{{"source":1}}],
+"images":[{{"uri":"{}"}},{{"name":"../in it","mimeType":"image/png","uri":"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGMQaPgPAAIzAZDtHsO2AAAAAElFTkSuQmCC"}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+{{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}}],
+"bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":24}}],
+"buffers":[{{"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"}}]}})",
+        material, sampler, uri);
+}
+
+/// What an OBJ of the triangle is.
+io::Written obj_of(const TemporaryDirectory& dir, const std::string& material,
+                   const std::string& uri = "red.png", const std::string& sampler = "{}") {
+    put_images(dir.path());
+    put(dir / "t.gltf", triangle(material, uri, sampler));
+    return written(load(dir / "t.gltf"), "obj", {.title = "lamp"});
+}
+
+const char* const textured = R"("pbrMetallicRoughness":{"metallicFactor":0,"baseColorTexture":{"index":0}})";
+
+} // namespace
+
+TEST_CASE("a material of MTL is written so that it is read the same again", "[io]") {
+    for (const char* words :
+         {"Kd 0.5 0.25 1\nd 0.3\n", "Kd 0.8 0.8 0.8\nKs 0.5 0.25 0.5\nNs 96.078431\nKe 0.5 0 0\nillum 2\n",
+          "Kd 1 1 1\nKs 1 1 1\nNs 7.3\nillum 2\n", "Kd 1 1 1\nPr 0.25\nPm 0.75\nKe 2 1 0\n",
+          "map_Kd red.png\nmap_Ke blue.png\nnorm -bm 0.5 red.png\n",
+          "map_Kd -s 2 4 1 -o 0.25 0.5 -clamp on red.png\nmap_Ke -o 0.5 0 red.png\n",
+          "map_Kd alpha.png\nmap_d alpha.png\nd 0.5\n", "map_Kd red.png\nmap_d grey.png\n",
+          "map_Ks red.png\n", "Ks 0.5 1 0.5\nNs 30\nmap_Ks red.png\n", "map_Pr grey.png\n",
+          "map_Pr grey.png\nmap_Pm white.png\n", "Pr 0.5\nmap_Pr red.png\nmap_Pm red.png\n",
+          "map_ORM red.png\n", "map_RMA -clamp on red.png\nPm 0.5\n", "map_Bump grey.png\n"}) {
+        INFO(words);
+        const TemporaryDirectory dir;
+        put_images(dir / "in");
+        put(dir / "in/a.obj", quad);
+        put(dir / "in/a.mtl", std::string("newmtl m\n") + words);
+        const Scene scene = load(dir / "in/a.obj");
+        const io::Written obj = written(scene, "obj", {.title = "lamp"});
+        CHECK(warnings_of(obj) == "");
+        put_files(obj, dir / "out");
+        fs::rename(dir / "in", dir / "gone");
+        CHECK(materials_of(load(dir / "out/lamp.obj")) == materials_of(scene));
+    }
+}
+
+TEST_CASE("a GLB keeps its materials and images through an OBJ", "[io]") {
+    const TemporaryDirectory dir;
+    const io::Written obj = obj_of(
+        dir,
+        R"("alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,0.5],"baseColorTexture":
+{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,0.5],"offset":[0.25,0.125]}}},"metallicFactor":0.5,
+"metallicRoughnessTexture":{"index":1},"roughnessFactor":0.75},"occlusionTexture":{"index":1},"normalTexture":
+{"index":1,"scale":0.5},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0})",
+        "alpha.png", R"({"wrapS":33071,"wrapT":33071})");
+    CHECK(warnings_of(obj) == "");
+    CHECK(names_of(obj) ==
+          std::vector<std::string>{"lamp.obj", "lamp.mtl", "lamp.alpha.png", "lamp..._in_it.png"});
+    CHECK(text_of(obj, "lamp.mtl") == R"(# written by facetmill
+newmtl m
+Kd 0.5 0.25 1
+d 0.5
+Ke 1 1 1
+Pr 0.75
+Pm 0.5
+map_Kd -s 2 0.5 1 -o 0.25 0.375 0 -clamp on lamp.alpha.png
+map_d -s 2 0.5 1 -o 0.25 0.375 0 -clamp on lamp.alpha.png
+map_Ke -clamp on lamp.alpha.png
+map_Pr lamp..._in_it.png
+map_Pm lamp..._in_it.png
+map_ORM lamp..._in_it.png
+norm -bm 0.5 lamp..._in_it.png
+)");
+    put_files(obj, dir / "out");
+    Json before = Json::parse(load(dir / "t.gltf").documents.at(0)->json)["materials"][0];
+    const Json after = materials_of(load(dir / "out/lamp.obj"))[0];
+    for (const char* key : {"alphaMode", "emissiveFactor"}) CHECK(after[key] == before[key]);
+    CHECK(after["normalTexture"]["scale"] == 0.5);
+    const Json pbr = after["pbrMetallicRoughness"], &old = before["pbrMetallicRoughness"];
+    for (const char* key : {"baseColorFactor", "metallicFactor", "roughnessFactor"})
+        CHECK(pbr[key] == old[key]);
+    const Json moved = pbr["baseColorTexture"]["extensions"]["KHR_texture_transform"];
+    CHECK(moved["scale"] == Json({2, 0.5}));
+    CHECK(moved["offset"] == Json({0.25, 0.125}));
+    CHECK(after["occlusionTexture"]["index"] == pbr["metallicRoughnessTexture"]["index"]);
+}
+
+TEST_CASE("what MTL cannot say of a material is said", "[io]") {
+    const TemporaryDirectory dir;
+    const auto told = [&](const std::string& material, const std::string& sampler = "{}") {
+        return warnings_of(obj_of(dir, material, "red.png", sampler));
+    };
+    const std::string start = "W-TEXTURES textures are not written to OBJ: of m: ";
+    CHECK(told(textured) == "");
+    CHECK(told(R"("occlusionTexture":{"index":0})") == start + "occlusionTexture (MTL has no map of it)\n");
+    CHECK(
+        told(R"("normalTexture":{"index":0,"texCoord":1})").find(start + "normalTexture (it is laid on by") ==
+        0);
+    CHECK(told(R"("normalTexture":{"index":0,"extensions":{"KHR_texture_transform":{"rotation":1}}})")
+              .find(start + "normalTexture (it is rotated") == 0);
+    CHECK(told(R"("emissiveTexture":{"index":0})") == start + "emissiveTexture (its factor is black)\n");
+    CHECK(told(R"("pbrMetallicRoughness":{"roughnessFactor":0,"metallicRoughnessTexture":{"index":0}})")
+              .find(start + "metallicRoughnessTexture (roughnessFactor is 0") == 0);
+    CHECK(told(textured, R"({"wrapS":33648})").find(start + "the wrapping of baseColorTexture") == 0);
+    CHECK(told(textured, R"({"magFilter":9728})").find(start + "the filter of baseColorTexture") == 0);
+    CHECK(told(std::string(R"("alphaMode":"MASK","alphaCutoff":0.75,)") + textured) == "");
+    CHECK(told(R"("alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]})") ==
+          "W-MTL MTL cannot represent all of materials: of m: alphaMode MASK (it is blended)\n");
+    CHECK(told(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}}})") ==
+          start +
+              "clearcoatTexture (MTL has no map of it)\nW-MTL MTL cannot represent all of materials: of m: "
+              "KHR_materials_clearcoat (MTL has no such word)\n");
+    CHECK(told(R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[0.5,1,1]}})")
+              .find("of m: specularColorFactor (it goes with neither Pr nor Pm)") != std::string::npos);
+    // What is seen in spite of that is written.
+    const io::Written masked = obj_of(dir, std::string(R"("alphaMode":"MASK",)") + textured, "alpha.png");
+    CHECK(warnings_of(masked).find("W-MTL") == 0);
+    CHECK(text_of(masked, "lamp.mtl").find("map_d lamp.alpha.png") != std::string::npos);
+}
+
+TEST_CASE("alpha that glTF does not look at makes no OBJ transparent", "[io]") {
+    const TemporaryDirectory dir;
+    const std::string mtl = text_of(
+        obj_of(dir,
+               R"("pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25],"baseColorTexture":{"index":0}})",
+               "alpha.png"),
+        "lamp.mtl");
+    CHECK(mtl.find("\nd 1\n") != std::string::npos);
+    CHECK(mtl.find("map_d") == std::string::npos);
+}
+
+TEST_CASE("images beside an OBJ have names that stand in a line, below its folder", "[io]") {
+    const TemporaryDirectory dir;
+    fs::create_directories(dir / "in/sub folder");
+    put(dir / "up.png", blue_png());
+    put(dir / "in/sub folder/-b #1 \xc3\xa4.png", red_png());
+    put(dir / "in/t.gltf", triangle(textured, "sub%20folder/-b%20%231%20%C3%A4.png"));
+    const io::Written obj = written(load(dir / "in/t.gltf"), "obj", {.title = "my lamp"});
+    CHECK(names_of(obj) ==
+          std::vector<std::string>{"my lamp.obj", "my lamp.mtl", "sub_folder/my_lamp._b__1_\xc3\xa4.png"});
+    put_files(obj, dir / "out");
+    CHECK(load(dir / "out/my lamp.obj").documents.at(0)->files.size() == 1);
+
+    put(dir / "in/t.gltf", triangle(textured, "../up.png"));
+    io::ReadLog log;
+    io::ReadSettings allowed;
+    allowed.asset_roots = {dir.path()};
+    const Scene scene = io::read_scene(io::Input::open(dir / "in/t.gltf"), allowed, log);
+    CHECK(names_of(written(scene, "obj", {.title = "lamp"})).back() == "lamp.up.png");
+    CHECK(text_of(
+              written(scene, "obj",
+                      {.title = "lamp", .textures = io::Textures::reference, .directory = dir / "out/deep"}),
+              "lamp.mtl")
+              .find("map_Kd ../../up.png\n") != std::string::npos);
+    // What is in the document lies nowhere else.
+    put(dir / "in/t.gltf", triangle(R"("normalTexture":{"index":1})", "../up.png"));
+    const Scene inside = io::read_scene(io::Input::open(dir / "in/t.gltf"), allowed, log);
+    CHECK(names_of(written(inside, "obj", {.title = "lamp", .textures = io::Textures::reference})).back() ==
+          "lamp..._in_it.png");
+}
+
+TEST_CASE("materials of one name and an image that is not there", "[io]") {
+    const TemporaryDirectory dir;
+    put_images(dir.path());
+    Json json = Json::parse(triangle(textured));
+    json["materials"].push_back(json["materials"][0]);
+    json["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1;
+    json["meshes"][0]["primitives"].push_back(json["meshes"][0]["primitives"][0]);
+    json["meshes"][0]["primitives"][1]["material"] = 1;
+    put(dir / "t.gltf", json.dump());
+    const std::string mtl = text_of(written(load(dir / "t.gltf"), "obj", {.title = "lamp"}), "lamp.mtl");
+    CHECK(mtl.find("newmtl m\n") != std::string::npos);
+    CHECK(mtl.find("newmtl m_2\n") != std::string::npos);
+    CHECK(mtl.find("map_Kd lamp.red.png\n") < mtl.find("map_Kd lamp..._in_it.png\n"));
+
+    put(dir / "t.gltf", triangle(textured, "gone.png"));
+    io::ReadLog log;
+    const io::Written gone = written(io::read_scene(io::Input::open(dir / "t.gltf"), {}, log), "obj");
+    CHECK(warnings_of(gone) ==
+          "W-TEXTURES textures are not written to OBJ: of m: baseColorTexture (its image is not there)\n");
+    put(dir / "t.gltf", triangle(textured, "b.png"));
+    put(dir / "b.png", red_png().substr(0, 40));
+    CHECK(warnings_of(written(load(dir / "t.gltf"), "obj"))
+              .find("W-IMAGE the image \"out.b.png\" is written as it is") == 0);
+}
+
+} // namespace describe_test
