@@ -552,7 +552,8 @@ std::span<const MessageId> message_ids() {
         {"W-FORMAT", {}, "The content of a file does not match its suffix.", "Rename it."},
         {"W-GROUPS",
          {},
-         "The names of the groups in an OBJ file are not kept.",
+         "The names of the groups in an OBJ file are not kept: they share vertices, or are within objects. "
+         "Groups of a file without objects that share no vertex are parts, with their names.",
          "Use materials or objects if they are needed."},
         {"W-IMAGE",
          {},

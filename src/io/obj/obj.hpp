@@ -39,8 +39,9 @@ struct Statements {
 Statements parse(const Input& input, const ReadSettings& settings);
 
 /// `o` makes parts, unless objects share vertices: then they stay one part, so that the surface stays whole,
-/// with the face attribute "object". Face attributes "group" and "smoothing_group" number the groups where
-/// there are several. `usemtl` makes materials and primitives. Texture points and normals make wedges. Lines
+/// with the face attribute "object". So does `g` in a file without `o`. Other groups lose their names
+/// (W-GROUPS, a note): face attributes "group" and "smoothing_group" number them where there are several.
+/// `usemtl` makes materials and primitives. Texture points and normals make wedges. Lines
 /// (`l`) make parts of their own, one for each object, with the colours of their vertices.
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 Written write(const Scene& scene, const WriteSettings& settings);

@@ -166,9 +166,10 @@ void add_materials(Scene& scene, Mesh& mesh, const Statements& s, MaterialMaker&
         mesh.attributes.push_back(numbers(std::string(primitive_attribute).c_str(), std::move(of_face)));
 }
 
-void add_groups(Mesh& mesh, const Statements& s, const std::string& file, ReadLog& log) {
+/// numbered: the groups are no parts.
+void add_groups(Mesh& mesh, const Statements& s, bool numbered, const std::string& file, ReadLog& log) {
     Naming groups = naming(s, Event::Kind::group, "");
-    if (groups.names.size() > 1) {
+    if (numbered && groups.names.size() > 1) {
         log.warnings.push_back(
             {Severity::note, "W-GROUPS",
              fmt::format("the names of {} groups are not kept; face attribute 'group' numbers them",
@@ -189,9 +190,10 @@ void add_groups(Mesh& mesh, const Statements& s, const std::string& file, ReadLo
     mesh.attributes.push_back(numbers("smoothing_group", std::move(of_face)));
 }
 
-/// The object of each vertex: that of its faces, or where it was declared when it has none. Empty when a
-/// vertex belongs to two.
-std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, const Statements& s) {
+/// The object (or group) of each vertex: that of its faces, or where it was declared when it has none. Empty
+/// when a vertex belongs to two.
+std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, Event::Kind kind,
+                                      const Statements& s) {
     std::vector<Index> object(mesh.vertex_count(), none);
     for (Index f = 0; f < mesh.face_count(); ++f)
         for (const Index w : mesh.face_wedges(f)) {
@@ -203,7 +205,7 @@ std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, c
     auto next = s.events.begin();
     for (std::size_t v = 0; v < object.size(); ++v) {
         for (; next != s.events.end() && next->vertex <= v; ++next) {
-            if (next->kind != Event::Kind::object) continue;
+            if (next->kind != kind) continue;
             if (const auto at = objects.known.find(next->text); at != objects.known.end())
                 current = at->second;
         }
@@ -282,26 +284,42 @@ void compact_primitives(Mesh& mesh) {
     if (mesh.primitives.size() < 2) mesh.drop(primitive_attribute, Domain::face);
 }
 
-void add_parts(Scene& scene, Mesh mesh, const Statements& s) {
-    const Naming objects = naming(s, Event::Kind::object, "");
-    if (objects.names.size() > 1) {
-        const std::vector<Index> vertex_object = object_of_vertices(mesh, objects, s);
-        if (!vertex_object.empty()) {
-            std::vector<Index> wedge_object(mesh.wedge_count());
-            for (Index w = 0; w < mesh.wedge_count(); ++w)
-                wedge_object[w] = vertex_object[mesh.vertex_of_wedge(w)];
-            const Shares vertices(vertex_object, objects.names.size()),
-                wedges(wedge_object, objects.names.size()), faces(objects.of_face, objects.names.size());
-            for (Index n = 0; n < objects.names.size(); ++n) {
-                Part& part = scene.parts.emplace_back();
-                part.name = objects.names[n];
-                part.mesh = extract(mesh, vertices, wedges, faces, n);
-                compact_primitives(part.mesh);
-            }
-            return;
-        }
-        mesh.attributes.push_back(numbers("object", objects.of_face));
+/// What the parts are, where there are several: objects, or the groups of a file without objects.
+struct Division {
+    Naming names;
+    std::vector<Index> of_vertex; ///< empty: they share vertices, so that the surface stays one part
+    Event::Kind kind = Event::Kind::object;
+    bool divides() const { return !of_vertex.empty(); }
+};
+
+Division division_of(const Mesh& mesh, const Statements& s) {
+    Division d;
+    d.names = naming(s, d.kind, "");
+    if (d.names.names == std::vector<std::string>{""}) {
+        d.kind = Event::Kind::group;
+        d.names = naming(s, d.kind, "");
     }
+    if (d.names.names.size() > 1) d.of_vertex = object_of_vertices(mesh, d.names, d.kind, s);
+    return d;
+}
+
+void add_each(Scene& scene, const Mesh& mesh, const Division& d) {
+    std::vector<Index> of_wedge(mesh.wedge_count());
+    for (Index w = 0; w < mesh.wedge_count(); ++w) of_wedge[w] = d.of_vertex[mesh.vertex_of_wedge(w)];
+    const std::size_t count = d.names.names.size();
+    const Shares vertices(d.of_vertex, count), wedges(of_wedge, count), faces(d.names.of_face, count);
+    for (Index n = 0; n < count; ++n) {
+        Part& part = scene.parts.emplace_back();
+        part.name = d.names.names[n];
+        part.mesh = extract(mesh, vertices, wedges, faces, n);
+        compact_primitives(part.mesh);
+    }
+}
+
+void add_parts(Scene& scene, Mesh mesh, const Statements& s, const Division& division) {
+    if (division.divides()) return add_each(scene, mesh, division);
+    const Naming objects = naming(s, Event::Kind::object, "");
+    if (objects.names.size() > 1) mesh.attributes.push_back(numbers("object", objects.of_face));
     Part& part = scene.parts.emplace_back();
     const Naming groups = naming(s, Event::Kind::group, "");
     if (objects.names.size() == 1) part.name = objects.names[0];
@@ -459,8 +477,9 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     std::vector<Part> lines;
     if (any_lines) lines = parts_of_lines(scene, s, mesh, maker);
     maker.finish(scene);
-    add_groups(mesh, s, input.name(), log);
-    add_parts(scene, std::move(mesh), s);
+    const Division division = division_of(mesh, s);
+    add_groups(mesh, s, !(division.divides() && division.kind == Event::Kind::group), input.name(), log);
+    add_parts(scene, std::move(mesh), s, division);
     if (any_lines) drop_ends(scene);
     for (Part& part : lines) scene.parts.push_back(std::move(part));
     return scene;

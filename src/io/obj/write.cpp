@@ -305,7 +305,10 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             return a && a->components == components ? pool_of(*a, components == 2) : Pool{};
         };
         const Pool uv = pool("TEXCOORD_0", 2), normal = pool("NORMAL", 3);
-        if (!part.name.empty()) append(bytes, fmt::format("o {}\n", one_line(part.name)));
+        // Without an object, groups would be parts.
+        const bool grouped = world->find("group", Domain::face) != nullptr;
+        if (!part.name.empty() || grouped)
+            append(bytes, fmt::format("o {}\n", one_line(part.name.empty() ? settings.title : part.name)));
         put_vertices(bytes, *world, settings.double_positions);
         steps.next();
         put_values(bytes, "vt", uv);

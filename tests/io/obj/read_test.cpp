@@ -1,0 +1,81 @@
+// The parts of an OBJ, and their names.
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+
+#include <fmt/format.h>
+
+using namespace facetmill;
+using namespace facetmill::test;
+
+namespace read_obj_test {
+
+namespace {
+
+const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\n";
+
+std::vector<std::string> names_of(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Part& part : scene.parts) names.push_back(part.name);
+    return names;
+}
+
+struct Loaded {
+    io::ReadLog log;
+    Scene scene;
+    explicit Loaded(const std::string& text) : scene(read_bytes(to_bytes(text), "obj", &log)) {
+        CHECK(broken_invariants(scene).empty());
+    }
+};
+
+using Names = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("groups of an OBJ without objects are parts, as objects are", "[io][obj]") {
+    for (const std::string word : {"o", "g"}) {
+        INFO(word);
+        const Loaded two(
+            fmt::format("{0}{1} left hand\nf 1 2 3\n{1} right\nf 4 5 6\nf 6 5 4\n", points, word));
+        REQUIRE(names_of(two.scene) == Names{"left hand", "right"});
+        CHECK(two.scene.parts[0].mesh.face_count() == 1);
+        CHECK(two.scene.parts[1].mesh.face_count() == 2);
+        CHECK(two.scene.parts[1].mesh.vertex_count() == 3);
+        CHECK_FALSE(two.scene.parts[1].mesh.find("group", Domain::face));
+        CHECK(two.log.warnings.empty());
+        // And again, whatever they were.
+        const Scene again = read_bytes(written(two.scene, "obj").files.at(0).bytes, "obj");
+        CHECK(names_of(again) == Names{"left hand", "right"});
+    }
+}
+
+TEST_CASE("groups that share vertices, and those within an object, are numbers of faces", "[io][obj]") {
+    for (const std::string& text :
+         {points + "g a\nf 1 2 3\ng b\nf 3 2 4\n", points + "o one\ng a\nf 1 2 3\ng b\nf 4 5 6\n"}) {
+        INFO(text);
+        const Loaded one(text);
+        REQUIRE(one.scene.parts.size() == 1);
+        const Attribute* group = one.scene.parts[0].mesh.find("group", Domain::face);
+        REQUIRE(group);
+        CHECK(group->value(0, 0) == 0);
+        CHECK(group->value(1, 0) == 1);
+        REQUIRE(one.log.warnings.size() == 1);
+        CHECK(one.log.warnings[0].id == "W-GROUPS");
+        // A part stays one part, named or not, though its groups would be parts without an object.
+        const Scene again = read_bytes(written(one.scene, "obj").files.at(0).bytes, "obj");
+        REQUIRE(again.parts.size() == 1);
+        CHECK(again.parts[0].mesh.find("group", Domain::face)->value(1, 0) == 1);
+    }
+    Scene unnamed = read_bytes(to_bytes(points + "o one\ng a\nf 1 2 3\ng b\nf 4 5 6\n"), "obj");
+    unnamed.parts[0].name.clear();
+    CHECK(read_bytes(written(unnamed, "obj").files.at(0).bytes, "obj").parts.size() == 1);
+}
+
+TEST_CASE("a vertex without faces is of the group that it stands in", "[io][obj]") {
+    const Loaded two(
+        "g a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\ng b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 5 6 7\n");
+    REQUIRE(two.scene.parts.size() == 2);
+    CHECK(two.scene.parts[0].mesh.vertex_count() == 4);
+    CHECK(two.scene.parts[1].mesh.vertex_count() == 3);
+}
+
+} // namespace read_obj_test
