@@ -271,7 +271,9 @@ std::span<const MessageId> message_ids() {
         {"E-NAN",
          {Kind::malformed},
          "A coordinate in a file is not a finite number.",
-         "Correct the vertex given in the message, or export the file again."},
+         "`load: {not_finite: drop}` leaves out such vertices with their faces, and `clean: {holes: "
+         "minimal}` "
+         "closes what that opens; or export the file again."},
         {"E-NODES", {Kind::malformed}, "A glTF node is its own ancestor.", "Export the file again."},
         {"E-OBJ",
          {Kind::malformed},
@@ -639,6 +641,12 @@ std::span<const MessageId> message_ids() {
          {},
          "A glTF node has two parents and is placed under the first.",
          "Export the file again."},
+        {"W-NOT-FINITE",
+         {},
+         "Vertices whose coordinates are not finite numbers were left out, with the faces and lines at them, "
+         "as "
+         "load: {not_finite: drop} asks for.",
+         "`clean: {holes: minimal}` closes the holes that this leaves."},
         {"W-NOTHING",
          {},
          "A pipeline writes no file, checks nothing and has no report, so running it has no effect.",

@@ -7,7 +7,9 @@
 #include "base/words.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
+#include "io/not_finite.hpp"
 #include "io/packing.hpp"
+#include "io/text.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 
@@ -79,7 +81,22 @@ void check_finite(const Part& part, const std::string& name) {
     throw Error(ErrorKind::malformed, "E-NAN",
                 fmt::format("vertex {} of part '{}' in '{}' is ({}, {}, {}), expected finite numbers", first,
                             part.name, name, p.x, p.y, p.z),
-                "correct that vertex, or export the file again");
+                drop_not_finite_hint);
+}
+
+void leave_out_not_finite(Part& part, const std::string& name, ReadLog& log) {
+    const NotFinite out = drop_not_finite(part);
+    if (out.vertices == 0) return;
+    std::string with;
+    if (out.faces > 0) with += fmt::format(", with {}", counted(out.faces, "face"));
+    if (out.lines > 0) with += fmt::format(", with {}", counted(out.lines, "line"));
+    log.warnings.push_back(
+        {Severity::warning, "W-NOT-FINITE",
+         fmt::format("{} of part '{}' whose coordinates are not finite numbers {} left out{}; the "
+                     "first is vertex {}",
+                     counted(out.vertices, "vertex", "vertices"), part.name, out.vertices == 1 ? "is" : "are",
+                     with, out.first),
+         file_mark(name), "clean: {holes: minimal} closes the holes that this leaves"});
 }
 
 /// Beyond this size, or below one over it, what stages compute from products of coordinates may overflow or
@@ -241,6 +258,7 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     bool any = false;
     for (auto& part : scene.parts) {
         if (part.name.empty()) part.name = stem_of(input);
+        if (settings.drop_not_finite) leave_out_not_finite(part, input.name(), log);
         check_finite(part, input.name());
         warn_of_size(part, log);
         if (settings.weld == Weld::exact) weld_exact(part.mesh);

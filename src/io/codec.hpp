@@ -45,6 +45,9 @@ struct ReadSettings {
     std::size_t max_vertices = std::size_t{1} << 31;
     bool lines = false;            ///< lines go to the log instead of being parts
     bool expand_instances = false; ///< glTF: each instance of EXT_mesh_gpu_instancing is a part
+    /// Vertices whose coordinates are not finite are left out, with their faces and lines (W-NOT-FINITE), and
+    /// not refused (E-NAN).
+    bool drop_not_finite = false;
     /// Folders below which the neighbours of a file may lie, besides its own.
     std::vector<std::filesystem::path> asset_roots{};
 };
@@ -265,7 +268,7 @@ std::vector<std::string> names_of_writers();
 
 /// Reads a mesh file: by content where it is sure, else by extension. Text may be UTF-8 or UTF-16. Throws as
 /// Codec::read, usage (E-FORMAT) when no codec takes it. Positions that are not finite are malformed (E-NAN)
-/// with the vertex and file.
+/// with the vertex and file, unless ReadSettings::drop_not_finite.
 Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log,
                  const Codec* forced = nullptr);
 

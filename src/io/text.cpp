@@ -1,5 +1,7 @@
 #include "io/text.hpp"
 
+#include "io/not_finite.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -173,7 +175,7 @@ double Text::coordinate(const char* what) {
     const double value = real(what);
     if (!std::isfinite(value))
         malformed(*name_, line_, "E-NAN",
-                  fmt::format("expected {} as a finite number, found {}", what, value));
+                  fmt::format("expected {} as a finite number, found {}", what, value), drop_not_finite_hint);
     return value;
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("a broken PLY is refused with its place", "[io]") {
          "malformed [E-PLY] a.ply:13: a list of 300 values, which the rest of the file cannot hold"},
         {ply_head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
          "malformed [E-NAN] vertex 1 of part 'a' in 'a.ply' is (1, nan, 0), expected finite numbers | "
-         "correct that vertex, or export the file again"},
+         "load: {not_finite: drop} leaves out such vertices and the faces at them"},
     };
     for (const auto& [text, message] : cases) CHECK(reading("a.ply", text) == message);
     std::string binary =
@@ -79,7 +79,8 @@ TEST_CASE("a broken STL is refused with its place", "[io]") {
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n",
          "malformed [E-STL] a.stl:4: expected z, found 'x'"},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n",
-         "malformed [E-NAN] a.stl:4: expected z as a finite number, found inf"},
+         "malformed [E-NAN] a.stl:4: expected z as a finite number, found inf | load: {not_finite: drop} "
+         "leaves out such vertices and the faces at them"},
         {"solid a\n" + facet + "endsolid\nsolod b\n",
          "malformed [E-STL] a.stl:10: expected 'solid', found 'solod'"},
         {"solid a\nendsolid a\n", "malformed [E-EMPTY] 'a.stl' has no mesh: not one vertex"},
@@ -97,7 +98,8 @@ TEST_CASE("a broken OBJ is refused with its place", "[io]") {
         {"v 0 0\n", "malformed [E-OBJ] a.obj:1: expected three coordinates, found 2"},
         {"v 0 0 up\n", "malformed [E-OBJ] a.obj:1: expected a coordinate, found 'up'"},
         {"\n\nv 0 1e999 0\n",
-         "malformed [E-NAN] a.obj:3: expected a coordinate as a finite number, found inf"},
+         "malformed [E-NAN] a.obj:3: expected a coordinate as a finite number, found inf | load: "
+         "{not_finite: drop} leaves out such vertices and the faces at them"},
         {triangle + "f 0 1 2\n", "malformed [E-OBJ] a.obj:4: indices count from 1, found 0"},
         {triangle + "f 1 2 x\n",
          "malformed [E-OBJ] a.obj:4: expected a corner (v, v/vt, v//vn or v/vt/vn), found 'x'"},

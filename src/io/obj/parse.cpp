@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "io/not_finite.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -67,8 +68,8 @@ struct Chunk {
 
 class ChunkParser {
   public:
-    ChunkParser(std::string_view text, const std::string& name, Chunk& chunk)
-        : text_(text, name, "E-OBJ", '#'), chunk_(chunk), out_(chunk.own) {}
+    ChunkParser(std::string_view text, const std::string& name, bool any, Chunk& chunk)
+        : text_(text, name, "E-OBJ", '#'), chunk_(chunk), out_(chunk.own), any_(any) {}
 
     void parse() {
         out_.face_offsets.assign(1, 0);
@@ -102,7 +103,7 @@ class ChunkParser {
         double n[8];
         int count = 0;
         for (; count < 8 && !text_.at_line_end(); ++count)
-            n[count] = count < 3 ? text_.coordinate("a coordinate") : text_.real("a number");
+            n[count] = count < 3 ? coordinate(text_, "a coordinate", any_) : text_.real("a number");
         if (count < 3) text_.fail(fmt::format("expected three coordinates, found {}", count));
         out_.positions.push_back({n[0], n[1], n[2]});
         if (count == 4 && n[3] != 1) ++out_.skipped["w of v"];
@@ -192,6 +193,7 @@ class ChunkParser {
     Text text_;
     Chunk& chunk_;
     Statements& out_;
+    bool any_; ///< coordinates that are not finite are left out later
 };
 
 /// Pieces of about chunk_bytes that end where a line does (and does not go on).
@@ -410,7 +412,7 @@ Statements parse(const Input& input, const ReadSettings& settings) {
         texts.size(),
         [&](std::size_t c) {
             try {
-                ChunkParser(texts[c], input.name(), chunks[c]).parse();
+                ChunkParser(texts[c], input.name(), settings.drop_not_finite, chunks[c]).parse();
                 input.release(std::as_bytes(std::span(texts[c])));
             } catch (const Error& error) {
                 chunks[c].error = error;

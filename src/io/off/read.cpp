@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "io/attributes.hpp"
+#include "io/not_finite.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -134,7 +135,9 @@ class TextReader {
     }
 
     void vertex() {
-        const double x = text_.coordinate("x"), y = text_.coordinate("y"), z = text_.coordinate("z");
+        const bool any = out_.settings.drop_not_finite; // those that are not finite are left out later
+        const double x = coordinate(text_, "x", any), y = coordinate(text_, "y", any),
+                     z = coordinate(text_, "z", any);
         out_.mesh.positions.push_back({x, y, z});
         if (kind_.normals)
             for (int c = 0; c < 3; ++c) out_.normals.push_back(static_cast<float>(text_.real("a normal")));
@@ -230,10 +233,11 @@ class BinaryReader {
     void vertex() {
         const float x = real(), y = real(), z = real();
         out_.mesh.positions.push_back({x, y, z});
-        if (!is_finite(out_.mesh.positions.back()))
+        if (!out_.settings.drop_not_finite && !is_finite(out_.mesh.positions.back()))
             malformed(out_.input.name(), 0, "E-NAN",
                       fmt::format("vertex {} at byte {} is ({}, {}, {}), expected finite numbers",
-                                  out_.mesh.positions.size() - 1, at_ - 12, x, y, z));
+                                  out_.mesh.positions.size() - 1, at_ - 12, x, y, z),
+                      drop_not_finite_hint);
         for (int c = 0; kind_.normals && c < 3; ++c) out_.normals.push_back(real());
         if (kind_.colours) {
             const std::array<double, 4> rgba{real(), real(), real(), real()};

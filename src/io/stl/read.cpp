@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "base/spelling.hpp"
+#include "io/not_finite.hpp"
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/places.hpp"
@@ -122,7 +123,8 @@ void refuse_not_finite(const Mesh& mesh, const std::string& name) {
     const Vec3& p = mesh.positions[bad];
     malformed(name, 0, "E-NAN",
               fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected finite numbers",
-                          c / 3, head + c / 3 * record, p.x, p.y, p.z));
+                          c / 3, head + c / 3 * record, p.x, p.y, p.z),
+              drop_not_finite_hint);
 }
 
 /// What files with colours have behind their triangles; most have zeros.
@@ -146,7 +148,7 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
     const Records records(input, bytes.subspan(head, n * record));
     add_triangles(part.mesh, records, settings);
     add_attribute_bytes(part.mesh, records);
-    refuse_not_finite(part.mesh, input.name());
+    if (!settings.drop_not_finite) refuse_not_finite(part.mesh, input.name());
     return part;
 }
 
@@ -156,6 +158,7 @@ class TextReader {
         : all_(input.bytes().size()), text_(as_text(input.bytes()), input.name(), "E-STL") {}
 
     Scene read(const Input& input, const ReadSettings& settings) {
+        any_ = settings.drop_not_finite;
         Scene scene;
         while (!text_.at_end()) {
             expect("solid");
@@ -200,7 +203,8 @@ class TextReader {
         expect("loop");
         for (int k = 0; k < 3; ++k) {
             expect("vertex");
-            const double x = text_.coordinate("x"), y = text_.coordinate("y"), z = text_.coordinate("z");
+            const double x = coordinate(text_, "x", any_), y = coordinate(text_, "y", any_),
+                         z = coordinate(text_, "z", any_);
             mesh.positions.push_back({x, y, z});
         }
         expect("endloop");
@@ -210,6 +214,7 @@ class TextReader {
     }
 
     std::size_t all_;
+    bool any_ = false; ///< coordinates that are not finite are left out later
     Text text_;
 };
 

@@ -14,6 +14,8 @@ glTF) are parts of their own, which stages that work on faces leave as they are;
 in one glTF mesh get a mesh and a node of their own. The option `lines` gives lines a thickness instead: consecutive
 lines become one closed tube with mitred corners, which ends where a line ends or where more than two
 lines meet. Broken meshes
-are loaded as they are; a malformed file is refused, and the error names the line or byte at fault.)";
+are loaded as they are; a malformed file is refused, and the error names the line or byte at fault.
+Coordinates that are no finite numbers refuse a file, too, unless not_finite: drop leaves out their
+vertices.)";
 
 } // namespace facetmill::help::load

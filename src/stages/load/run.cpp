@@ -26,7 +26,7 @@ struct LoadOptions {
     io::Weld weld = io::Weld::automatic;
     std::optional<Length> lines;
     std::int64_t line_sides = 8;
-    bool expand_instances = false;
+    bool expand_instances = false, drop_not_finite = false;
     std::vector<PathText> asset_root;
 };
 
@@ -52,6 +52,10 @@ void declare(Declare<LoadOptions>& d) {
                    {{"keep", false, "one part, which stages see once (W-INSTANCING); glTF keeps them all"},
                     {"expand", true, "each is a part"}},
                    "What becomes of the instances of a glTF node (EXT_mesh_gpu_instancing).");
+    d.choice<bool>("not_finite", &LoadOptions::drop_not_finite,
+                   {{"refuse", false, "the file is refused (E-NAN)"},
+                    {"drop", true, "they are left out, with the faces and lines at them (W-NOT-FINITE)"}},
+                   "What becomes of vertices whose coordinates are not finite numbers (nan, inf).");
     d.option(
         "asset_root", &LoadOptions::asset_root,
         "A folder, or a list of these: the file may name images, buffers and materials anywhere below it "
@@ -81,6 +85,7 @@ io::ReadSettings read_settings(const LoadOptions& o, const Places& places) {
     if (o.up != UpAxis::unknown) settings.up = o.up;
     settings.lines = o.lines.has_value();
     settings.expand_instances = o.expand_instances;
+    settings.drop_not_finite = o.drop_not_finite;
     settings.asset_roots = places.asset_roots;
     for (const PathText& folder : o.asset_root) settings.asset_roots.push_back(places.input(folder.text));
     return settings;
@@ -123,6 +128,7 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
     if (o.lines) return "lines need the whole file";
     if (!o.format.empty()) return "a file in cells is recognised by its contents";
     if (o.expand_instances) return "instances need the whole file";
+    if (o.drop_not_finite) return "what is not finite is left out of a whole file";
     return {};
 }
 
@@ -184,7 +190,8 @@ const RegisterStage registered{make_stage<LoadOptions>(
      .details = help::load::details,
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
                   "load: [body.obj, \"wheel_*.obj\"]", "load: {path: wires.obj, lines: 1%}",
-                  "load: {path: models/lamp.gltf, asset_root: .}"},
+                  "load: {path: models/lamp.gltf, asset_root: .}",
+                  "load: {path: depth.ply, not_finite: drop}"},
      .loads = true},
     declare, run,
     StageHooks<LoadOptions>{.files = files,
