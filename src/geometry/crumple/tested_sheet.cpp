@@ -12,6 +12,11 @@ namespace facetmill {
 TestSheet::TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places, std::size_t max_pairs,
                      bool stays_open, const TestSheet* alike)
     : sheet_(sheet), places_(places), max_pairs_(max_pairs), stays_open_(stays_open) {
+    before_.resize(from().vertex_count());
+    parallel_for(before_.size(), [&](std::size_t v) {
+        const Vec3 p = as_float32(from().positions[v]);
+        before_[v] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    });
     weld();
     if (alike && is_same_before(*alike)) {
         exempt_ = alike->exempt_;

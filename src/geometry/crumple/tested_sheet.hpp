@@ -8,6 +8,7 @@
 #include "geometry/intersect/self_intersections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -87,7 +88,10 @@ class TestSheet {
     const Mesh& from() const { return *sheet_.mesh; }
     /// The first of equal vertices at a corner.
     Index corner(Index c) const { return first_[from().vertex(c)]; }
-    Vec3 before(Index vertex) const { return as_float32(from().positions[vertex]); }
+    Vec3 before(Index vertex) const {
+        const auto& [x, y, z] = before_[vertex];
+        return {x, y, z};
+    }
     /// Where a vertex that is the first of equal ones is at the levels; empty: before it moves.
     Vec3 at(Index vertex, const std::vector<std::uint8_t>& levels) const;
     Mesh mesh_at(const std::vector<std::uint8_t>& levels) const;
@@ -103,7 +107,8 @@ class TestSheet {
     const std::vector<Index>& places_;
     std::size_t max_pairs_;
     bool stays_open_;
-    std::vector<Index> first_; ///< [vertices]
+    std::vector<std::array<float, 3>> before_; ///< [vertices] where they start
+    std::vector<Index> first_;                 ///< [vertices]
     std::optional<Open> open_;
     Box frame_;                                   ///< of all triangles that were searched
     std::vector<std::pair<Index, Index>> exempt_; ///< ascending
