@@ -132,11 +132,13 @@ class Separation {
             const Share silent(nullptr); // the search takes the time
             result_.box_pairs += box_pairs;
             const Lowering how = patience_.next(box_pairs);
+            FacesOfSheets again(tests_.size());
             const std::vector<std::uint8_t> changed =
-                too_many ? calm_down(trouble, how)
+                too_many ? calm_down(trouble, how, again)
                          : lower_meeting(trouble, how, std::exchange(is_first, false));
             if (changed.empty()) break;
-            for (TestSheet& test : tests_) test.place(levels_, changed);
+            for (std::size_t s = 0; s < tests_.size(); ++s)
+                tests_[s].place(levels_, changed, std::move(again[s]));
         }
         result_.coarse = static_cast<std::size_t>(std::count(coarse_.begin(), coarse_.end(), 1));
     }
@@ -160,8 +162,11 @@ class Separation {
 
     /// Where there is too much to look at: half as much stretch, or half of that, until some places are
     /// lowered. Without patience left, or where all faces keep their shape, nothing moves of what was to be
-    /// looked at. [places] as above.
-    std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how) {
+    /// looked at. [places] as above. again: set to the faces that may meet still, lowered or not.
+    std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how,
+                                        FacesOfSheets& again) {
+        for (std::size_t s = 0; s < tests_.size(); ++s)
+            again[s] = trouble[s].too_many ? tests_[s].touched() : trouble[s].faces;
         const std::vector<std::uint8_t> before = levels_;
         while (how.step == 1 && stretch_ > least_stretch) {
             stretch_ /= 2;

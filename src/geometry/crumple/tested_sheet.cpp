@@ -28,8 +28,11 @@ TestSheet::TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places
     }
 }
 
-void TestSheet::place(const std::vector<std::uint8_t>& levels, const std::vector<std::uint8_t>& changed) {
-    touched_.assign(face_count(), changed.empty());
+void TestSheet::place(const std::vector<std::uint8_t>& levels, const std::vector<std::uint8_t>& changed,
+                      std::vector<std::uint8_t> again) {
+    touched_ = std::move(again);
+    touched_.resize(face_count());
+    if (changed.empty()) std::fill(touched_.begin(), touched_.end(), 1);
     parallel_for(changed.empty() ? 0 : touched_.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
         for (Index c = from().face_begin(f); c < from().face_end(f); ++c)

@@ -52,8 +52,10 @@ class TestSheet {
     /// As it is before it moves, by the places.
     Mesh mesh_before() const { return mesh_at({}); }
 
-    /// The vertices whose level has changed, or all of them, belong elsewhere now: remembers their faces.
-    void place(const std::vector<std::uint8_t>& levels, const std::vector<std::uint8_t>& changed);
+    /// The vertices whose level has changed, or all of them, belong elsewhere now: remembers their faces, and
+    /// those that are to be looked at again, as touched. again: [faces], or none.
+    void place(const std::vector<std::uint8_t>& levels, const std::vector<std::uint8_t>& changed,
+               std::vector<std::uint8_t> again = {});
 
     /// The new pairs among faces that were touched, as many as are listed; a face that lost its area is a
     /// pair with itself. levels: those at which the sheet was placed; so below.

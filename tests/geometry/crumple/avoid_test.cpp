@@ -201,6 +201,25 @@ TEST_CASE("sheets that are opened again for each round come out the same, whatev
     CHECK(alone[0].positions != alone[2].positions);
 }
 
+TEST_CASE("sheets beside one with too many pairs to look at are kept apart too", "[geometry]") {
+    for (const std::size_t tangled : {0U, 1U}) {
+        std::vector<Mesh> meshes{sponge(), sponge()};
+        const std::vector<Mesh> before = meshes;
+        std::vector<CrumpleSheet> sheets;
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            CrumpleSettings s = by(i == tangled ? 0.4 : 0.02);
+            s.to_world.m[0][3] = 3 * static_cast<double>(i);
+            sheets.push_back({&meshes[i], crumple_moves(meshes[i], s)});
+        }
+        const AvoidResult r = avoid_intersections(sheets);
+        CHECK(r.coarse > 0);
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            CHECK(meshes[i].positions != before[i].positions);
+            CHECK(find_self_intersections(meshes[i]).count == 0);
+        }
+    }
+}
+
 TEST_CASE("only looking lowers nothing and says how many pairs there are", "[geometry]") {
     AvoidResult r;
     apart(sponge(), by(0.04), &r, true);
