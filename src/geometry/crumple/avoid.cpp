@@ -234,8 +234,8 @@ void hold_joint_vertices(std::span<CrumpleSheet> sheets) {
 
 double avoid_intersections_memory(double triangles, double largest) {
     constexpr double kept = 100, searched = 200;
-    return kept * triangles +
-           searched * std::min(triangles, largest + static_cast<double>(max_open_triangles));
+    const double stay = std::max(largest, static_cast<double>(max_open_triangles)); // the first in any case
+    return kept * triangles + searched * std::min(triangles, stay + largest);
 }
 
 AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs,

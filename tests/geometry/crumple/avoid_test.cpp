@@ -220,6 +220,12 @@ TEST_CASE("sheets beside one with too many pairs to look at are kept apart too",
     }
 }
 
+TEST_CASE("two large sheets are searched at the same time: the first stays open", "[geometry]") {
+    constexpr double large = 2.5 * static_cast<double>(max_open_triangles), all = 2 * large;
+    CHECK(avoid_intersections_memory(all, large) == avoid_intersections_memory(all, all));
+    CHECK(avoid_intersections_memory(all, large / 100) < avoid_intersections_memory(all, all));
+}
+
 TEST_CASE("only looking lowers nothing and says how many pairs there are", "[geometry]") {
     AvoidResult r;
     apart(sponge(), by(0.04), &r, true);
