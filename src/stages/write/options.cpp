@@ -180,7 +180,7 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
         add_refusal(
             Refusal{"textures",
                     fmt::format("{} cannot hold images: its textures are files beside it", codec.name),
-                    "textures: copy, or a .glb"},
+                    "write: {textures: copy}, or a .glb"},
             "write", given, problems);
     if (o.feature_angle && o.normals != NormalKind::smooth)
         add_refusal(
