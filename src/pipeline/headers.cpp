@@ -164,12 +164,12 @@ class Walk {
         const auto has_materials = [](const Loaded& file) {
             return file.header.has_materials && file.header.has_materials();
         };
-        if (files.materials && std::any_of(loaded_.begin(), loaded_.end(), has_materials))
-            headers.more_outputs.push_back(places_.output(files.materials->text));
-        if (!files.images) return;
+        const bool all = files.materials.has_value();
+        const bool library = all && std::any_of(loaded_.begin(), loaded_.end(), has_materials);
+        if (library) headers.more_outputs.push_back(places_.output(files.materials->text));
+        if (!files.images || (all && !library)) return;
         const fs::path path = files.images->text;
         // What names its images in a library has all of them as files.
-        const bool all = files.materials.has_value();
         io::ImageNames names(io::without_packing(path).stem().string(),
                              all ? io::ImageNames::Spelling::plain : io::ImageNames::Spelling::kept);
         std::set<std::string> copied;

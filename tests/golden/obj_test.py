@@ -15,11 +15,12 @@ class Obj(Case):
         (self.dir / "in/maps").mkdir()
         (self.dir / "in/maps/tex.png").write_bytes(png(255, 0, 0))
 
-    def both(self, *arguments):
+    def both(self, *arguments, allow=("W-UNITS",)):
         """What a plan says that it writes, and what it writes."""
         self.write("p.yaml", "facetmill: 1\nstages:\n  - load: in/t.obj\n  - write: t.obj\n")
         planned = self.mill("plan", "p.yaml", *arguments, "-o", "out", "--outputs").stdout.split()
-        self.mill("run", "p.yaml", *arguments, "-o", "out", "--strict", "--allow", "W-UNITS")
+        allowed = [f"--allow={message}" for message in allow]
+        self.mill("run", "p.yaml", *arguments, "-o", "out", "--strict", *allowed)
         return planned, [f"out/{name}" for name in self.files(self.dir / "out")]
 
     def test_the_plan_names_the_images(self):
@@ -35,6 +36,25 @@ class Obj(Case):
                 for path in written:
                     (self.dir / path).unlink()
 
+    def test_the_plan_names_images_that_the_library_does_not(self):
+        self.mill("pipe", "load", "in/t.obj", "!", "write", "t.gltf")
+        document = json.loads((self.dir / "t.gltf").read_text())
+        document["images"].append({"uri": "in/maps/tex-2.png"})
+        document["textures"].append({"source": len(document["images"]) - 1})
+        document["materials"][0]["occlusionTexture"] = {"index": len(document["textures"]) - 1}
+        self.write("u.gltf", json.dumps(document))
+        (self.dir / "in/maps/tex-2.png").write_bytes(png(0, 0, 255))
+        planned, written = self.both("--set", "load.path=u.gltf", allow=("W-UNITS", "W-TEXTURES"))
+        self.assertEqual(sorted(planned), written)
+        self.assertIn("out/in/maps/t.tex-2.png", written)
+        # Without a material there is no library, and so there are no images.
+        del document["meshes"][0]["primitives"][0]["material"], document["materials"]
+        self.write("u.gltf", json.dumps(document))
+        for path in written:
+            (self.dir / path).unlink()
+        planned, written = self.both("--set", "load.path=u.gltf")
+        self.assertEqual((sorted(planned), written), (["out/t.obj"], ["out/t.obj"]))
+
     def test_images_are_outputs_like_others(self):
         self.mill("pipe", "-o", "out", "--depfile", "t.d", "--report", "t.json", "load", "in/t.obj", "!", "write", "t.obj")
         names = {"out/t.obj", "out/t.mtl", "out/maps/t.tex.png"}
@@ -47,7 +67,7 @@ class Obj(Case):
     def test_what_an_obj_cannot_hold_is_an_error(self):
         said = self.mill("pipe", "load", "in/t.obj", "!", "write", "t.obj", "--textures", "embed", expect=2).stderr
         self.assertIn("obj cannot hold images", said)
-        self.assertIn("textures: copy", said)
+        self.assertIn("write --textures copy, or a .glb", said)
         self.mill("pipe", "load", "in/t.obj", "!", "write", "o/t.obj", "--textures", "reference")
         self.assertIn("map_Kd ../in/maps/tex.png\n", (self.dir / "o/t.mtl").read_text())
         self.assertEqual(sorted(self.files(self.dir / "o")), ["t.mtl", "t.obj"])

@@ -64,6 +64,7 @@ class Describer {
         add_surface(place, pbr);
         add_highlights(place, pbr);
         note_extensions(place);
+        keep_images(place.json());
         return std::move(out_);
     }
 
@@ -84,8 +85,11 @@ class Describer {
         for (const Place& source : sources) {
             const auto* image =
                 images_.find(material_.document, source.index(gltf::count_of(json_, "images"), "image"));
-            if (image && (image->type == "image/png" || image->type == "image/jpeg")) return image;
-            if (image) why = "its image is neither PNG nor JPEG";
+            const bool is_read = image && (image->type == "image/png" || image->type == "image/jpeg");
+            if (is_read && image->spelled) return image;
+            if (image)
+                why = is_read ? "a line of MTL cannot name its file, but a copy of it"
+                              : "its image is neither PNG nor JPEG";
         }
         lose_texture(key, why);
         return nullptr;
@@ -285,6 +289,38 @@ class Describer {
             if (key.ends_with("Texture") && key != "diffuseTexture") lose_texture(key, no_map);
             note_textures(value);
         }
+    }
+
+    /// Images are files beside the library whether it has words for their textures or not, since a plan does
+    /// not tell them apart.
+    void keep_images(const Json& json) {
+        if (!json.is_object()) return;
+        for (const auto& [key, value] : json.items()) {
+            if (key.ends_with("Texture") && value.is_object()) keep_images_of(texture_of(value));
+            keep_images(value);
+        }
+    }
+
+    void keep_images_of(const Json& texture) {
+        keep_image(texture);
+        if (const auto all = texture.find("extensions"); all != texture.end() && all->is_object())
+            for (const auto& extension : *all) keep_image(extension);
+    }
+
+    void keep_image(const Json& owner) {
+        const auto source = owner.find("source");
+        if (source == owner.end() || !source->is_number_unsigned()) return;
+        const auto* image = images_.find(material_.document, source->get<std::size_t>());
+        if (image && image->planned) images_.use(*image);
+    }
+
+    /// An empty object where there is none.
+    const Json& texture_of(const Json& reference) const {
+        static const Json nothing = Json::object();
+        const auto all = json_.find("textures"), index = reference.find("index");
+        if (all == json_.end() || index == reference.end() || !index->is_number_unsigned()) return nothing;
+        const auto i = index->get<std::size_t>();
+        return all->is_array() && i < all->size() && (*all)[i].is_object() ? (*all)[i] : nothing;
     }
 
     const Material& material_;

@@ -29,6 +29,14 @@ std::vector<ImageFile> in_order(std::vector<ImageFile> files, const Json& docume
     return all;
 }
 
+/// Whether a reader takes the end of a line for the path: it begins no option, and no blank or quote is lost.
+bool can_end_a_line(const std::string& path) {
+    const auto is_control = [](unsigned char c) { return c < ' '; };
+    return !path.empty() && !path.starts_with('-') && !path.starts_with('"') && !path.starts_with(' ') &&
+           !path.ends_with(' ') && !path.ends_with('\\') &&
+           std::none_of(path.begin(), path.end(), is_control);
+}
+
 } // namespace
 
 LibraryImages::LibraryImages(const Scene& scene, const WriteSettings& settings)
@@ -57,6 +65,8 @@ void LibraryImages::add(std::size_t document, ImageNames& names,
                               : std::nullopt;
         image.copied = !lies || !has_bytes(lies->file, file.bytes);
         image.name = (image.copied ? names.add(file.relative) : lies->way).generic_string();
+        image.planned = !file.uri.empty() || colours;
+        image.spelled = can_end_a_line(image.name);
         image.bytes = std::move(file.bytes);
     }
 }

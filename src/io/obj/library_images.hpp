@@ -19,7 +19,9 @@ class LibraryImages {
         Bytes bytes;
         std::string type; ///< image/png ...
         bool alpha = false;
-        bool copied = false; ///< to that name, else it lies there
+        bool copied = false;  ///< to that name, else it lies there
+        bool planned = false; ///< a plan tells of it: a file, or of a kind that a library names
+        bool spelled = true;  ///< a line of a library can name it
         bool used = false;
     };
     /// The document's JSON, parsed. document: an index into the scene's.

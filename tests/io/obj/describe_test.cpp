@@ -254,6 +254,43 @@ TEST_CASE("images beside an OBJ have names that stand in a line, below its folde
           "lamp..._in_it.png");
 }
 
+TEST_CASE("images of textures that MTL has no words for are files beside an OBJ like the others", "[io]") {
+    const TemporaryDirectory dir;
+    const std::vector<std::string> with_image{"lamp.obj", "lamp.mtl", "lamp.red.png"};
+    CHECK(names_of(obj_of(dir, R"("occlusionTexture":{"index":0})")) == with_image);
+    CHECK(names_of(obj_of(dir, R"("emissiveTexture":{"index":0})")) == with_image);
+    CHECK(names_of(
+              obj_of(dir, R"("extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}}})")) ==
+          with_image);
+    // What nothing names, or nothing is there, is none.
+    CHECK(
+        names_of(obj_of(
+            dir, R"("extensions":{"A_B":{"aTexture":{"index":9},"bTexture":{"index":-1},"cTexture":3}})")) ==
+        std::vector<std::string>{"lamp.obj", "lamp.mtl"});
+}
+
+TEST_CASE("a file that a line of MTL cannot name is not referred to", "[io]") {
+    const TemporaryDirectory dir;
+    const auto referring = [&](const std::string& name, const std::string& uri) {
+        put(dir / name, red_png());
+        put(dir / "t.gltf", triangle(textured, uri));
+        return written(load(dir / "t.gltf"), "obj",
+                       {.title = "lamp", .textures = io::Textures::reference, .directory = dir.path()});
+    };
+    for (const auto& [name, uri] : {std::pair("-s 2 red.png", "-s%202%20red.png"),
+                                    {"red.png ", "red.png%20"},
+                                    {"a\nnewmtl b.png", "a%0Anewmtl%20b.png"}}) {
+        INFO(uri);
+        const io::Written obj = referring(name, uri);
+        CHECK(text_of(obj, "lamp.mtl").find("map_Kd") == std::string::npos);
+        CHECK(warnings_of(obj).find(
+                  "W-TEXTURES textures are not written to OBJ: of m: baseColorTexture (a line") == 0);
+    }
+    const io::Written obj = referring("a #1 b.png", "a%20%231%20b.png");
+    CHECK(text_of(obj, "lamp.mtl").find("map_Kd a #1 b.png\n") != std::string::npos);
+    CHECK(warnings_of(obj) == "");
+}
+
 TEST_CASE("materials of one name and an image that is not there", "[io]") {
     const TemporaryDirectory dir;
     put_images(dir.path());
