@@ -1,5 +1,6 @@
 #include "io/obj/describe.hpp"
 
+#include "base/words.hpp"
 #include "io/gltf/container.hpp"
 #include "io/text.hpp"
 
@@ -346,6 +347,18 @@ Description describe(const Material& material, LibraryImages& images, LibraryLos
     return colour;
 }
 
+namespace {
+
+/// Some of the names, and how many more there are.
+std::string some_of(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    if (names.size() <= most) return join_texts(names);
+    return fmt::format("{} and {} more", join_texts({names.begin(), names.begin() + most}),
+                       names.size() - most);
+}
+
+} // namespace
+
 void LibraryLosses::note(Losses& losses, const std::string& what, const std::string& why,
                          const std::string& material) {
     const std::string text = fmt::format("{} ({})", what, why);
@@ -360,7 +373,7 @@ std::vector<Diagnostic> LibraryLosses::warnings() const {
         if (losses.empty()) return;
         std::vector<std::string> texts;
         for (const auto& [what, materials] : losses)
-            texts.push_back(fmt::format("of {}: {}", fmt::join(materials, ", "), what));
+            texts.push_back(fmt::format("of {}: {}", some_of(materials), what));
         all.push_back({Severity::warning,
                        id,
                        fmt::format("{}: {}", about, fmt::join(texts, "; ")),

@@ -305,8 +305,20 @@ TEST_CASE("materials of one name and an image that is not there", "[io]") {
     CHECK(mtl.find("newmtl m_2\n") != std::string::npos);
     CHECK(mtl.find("map_Kd lamp.red.png\n") < mtl.find("map_Kd lamp..._in_it.png\n"));
 
-    put(dir / "t.gltf", triangle(textured, "gone.png"));
+    // Of many, a warning names some.
+    json["images"][0]["uri"] = "gone.png";
+    for (int i = 1; i < 20; ++i) {
+        json["materials"][i] = json["materials"][0];
+        json["materials"][i]["name"] = fmt::format("m{}", i);
+        json["meshes"][0]["primitives"][i] = json["meshes"][0]["primitives"][0];
+        json["meshes"][0]["primitives"][i]["material"] = i;
+    }
+    put(dir / "t.gltf", json.dump());
     io::ReadLog log;
+    CHECK(warnings_of(written(io::read_scene(io::Input::open(dir / "t.gltf"), {}, log), "obj"))
+              .find("of m, m1, m2, m3, m4, m5, m6, m7 and 12 more: baseColorTexture") != std::string::npos);
+
+    put(dir / "t.gltf", triangle(textured, "gone.png"));
     const io::Written gone = written(io::read_scene(io::Input::open(dir / "t.gltf"), {}, log), "obj");
     CHECK(warnings_of(gone) ==
           "W-TEXTURES textures are not written to OBJ: of m: baseColorTexture (its image is not there)\n");
