@@ -789,8 +789,8 @@ std::span<const MessageId> message_ids() {
          "elsewhere."},
         {"W-TEXTURES",
          {},
-         "Textures are not written, or not as they are, because the format cannot hold them or facetmill does "
-         "not write them in it; for OBJ the message names each and why.",
+         "Textures are not written, or not as they are, because the format cannot hold them or facetmill "
+         "does not write them in it; for OBJ the message names each and why.",
          "Write glTF to keep them. `textures: {format: png}` makes PNG of WebP, which OBJ does not name."},
         {"W-THICKEN",
          {},

@@ -128,7 +128,7 @@ struct WriteSettings {
     bool mesh_manifold = false;                     ///< glTF: EXT_mesh_manifold
     bool lods = false;   ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
     std::string title{}; ///< the output's stem, for names inside the file
-    Textures textures = Textures::automatic; ///< glTF
+    Textures textures = Textures::automatic; ///< glTF, OBJ
     std::filesystem::path directory{};       ///< the output's, for Textures::reference
 
     std::vector<int> part_bits{}; ///< of each part's positions; empty: as Draco or quantize say
