@@ -188,7 +188,7 @@ class Builder : public YAML::EventHandler {
         const std::string& text = source_.text();
         std::size_t at = offset(mark); // an anchor may stand before it
         while (at < text.size() && text[at] == '&')
-            at = std::min(text.find_first_not_of(" ", text.find(' ', at)), text.size());
+            at = std::min(text.find_first_not_of(' ', text.find(' ', at)), text.size());
         problems_.add(source_.mark(at, source_.characters(at, std::min(at + tag.size(), text.size()))),
                       "E-YAML", fmt::format("the tag {} has no meaning here", tag), tag_hint(tag));
     }
