@@ -271,9 +271,8 @@ std::span<const MessageId> message_ids() {
         {"E-NAN",
          {Kind::malformed},
          "A coordinate in a file is not a finite number.",
-         "`load: {not_finite: drop}` leaves out such vertices with their faces, and `clean: {holes: "
-         "minimal}` "
-         "closes what that opens; or export the file again."},
+         "`load: {not_finite: drop}` leaves out such vertices with their faces, and "
+         "`clean: {holes: minimal}` closes what that opens; or export the file again."},
         {"E-NODES", {Kind::malformed}, "A glTF node is its own ancestor.", "Export the file again."},
         {"E-OBJ",
          {Kind::malformed},
@@ -644,8 +643,7 @@ std::span<const MessageId> message_ids() {
         {"W-NOT-FINITE",
          {},
          "Vertices whose coordinates are not finite numbers were left out, with the faces and lines at them, "
-         "as "
-         "load: {not_finite: drop} asks for.",
+         "as load: {not_finite: drop} asks for.",
          "`clean: {holes: minimal}` closes the holes that this leaves."},
         {"W-NOTHING",
          {},
@@ -685,8 +683,7 @@ std::span<const MessageId> message_ids() {
         {"W-PALETTE",
          {},
          "optimize made no palette of more than 512 different looks, which the bits of a texture coordinate "
-         "would not "
-         "tell apart.",
+         "would not tell apart.",
          "Optimize some of the parts at a time, with `only`."},
         {"W-PROBE-OPEN",
          {},

@@ -173,13 +173,16 @@ bool has_bytes(const fs::path& path, Span bytes) {
     return std::equal(bytes.begin(), bytes.end(), file.stored().begin(), file.stored().end());
 }
 
+std::string suffix_of_image(const std::string& type) {
+    return type == "image/webp"   ? ".webp"
+           : type == "image/ktx2" ? ".ktx2"
+           : type == "image/jpeg" ? ".jpg"
+                                  : ".png";
+}
+
 fs::path file_name_of_image(const std::string& name, std::size_t index, Span bytes) {
     constexpr std::size_t most = 100;
-    const std::string type = media_type(bytes);
-    const std::string suffix = type == "image/jpeg"   ? ".jpg"
-                               : type == "image/webp" ? ".webp"
-                               : type == "image/ktx2" ? ".ktx2"
-                                                      : ".png";
+    const std::string suffix = suffix_of_image(media_type(bytes));
     std::string stem = name.empty() ? fmt::format("image{}", index) : name;
     const std::string last = lower_case(fs::path(stem).extension().string());
     if (last == suffix || last == ".jpeg") stem.resize(stem.size() - last.size());

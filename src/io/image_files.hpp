@@ -37,6 +37,9 @@ struct ImageColours {
 /// None when the bytes are neither PNG nor JPEG, or end before they say it.
 std::optional<ImageColours> image_colours(Span bytes);
 
+/// The suffix of files of a media type ("image/png"): that of PNG where it is none of JPEG, WebP and KTX2.
+std::string suffix_of_image(const std::string& type);
+
 /// A name for the file of an image that has none, of a document: its own name or else its place there, and
 /// the suffix of its kind; no path, and at most about 100 bytes long.
 std::filesystem::path file_name_of_image(const std::string& name, std::size_t index, Span bytes);

@@ -14,38 +14,44 @@ struct OtherNames {
     std::vector<std::string_view> words;
 };
 
-const std::vector<OtherNames> other_names{
-    {"clean", {"repair", "fix", "heal", "weld", "fill_holes", "close_holes", "fill"}},
-    {"clip", {"cut", "trim", "slice_plane"}},
-    {"combine", {"boolean", "bool", "csg", "union", "difference", "subtract", "intersection", "intersect"}},
-    {"crumple", {"noise", "jitter", "displace"}},
-    {"generate", {"create", "primitive", "sphere", "cube"}},
-    {"load", {"read", "open", "import", "input"}},
-    {"measure", {"volume", "area", "mass"}},
-    {"merge", {"join", "concatenate", "append"}},
-    {"optimize", {"dedup", "prune", "instance", "palette", "reorder"}},
-    {"orient", {"flip", "invert", "fix_normals", "reorient"}},
-    {"relax", {"smooth", "laplacian", "taubin", "fair"}},
-    {"render", {"screenshot", "snapshot", "thumbnail"}},
-    {"section", {"slice", "contours", "cross_section"}},
-    {"separate", {"explode", "components"}},
-    {"simplify", {"decimate", "decimation", "reduce", "quadric", "qem"}},
-    {"split", {"subdivide", "refine", "subdivision", "remesh"}},
-    {"textures", {"resize", "ktx", "toktx", "webp"}},
-    {"thicken", {"shell", "hollow", "offset", "solidify", "extrude", "wireframe"}},
-    {"tile", {"chunk", "tiler"}},
-    {"transform", {"translate", "rotate", "scale", "move", "center", "centre", "mirror", "convert_units"}},
-    {"triangulate", {"tessellate", "tessellation"}},
-    {"two-sided", {"double_sided", "doublesided", "doubleside"}},
-    {"validate", {"check", "inspect", "info"}},
-    {"write", {"save", "export", "output", "convert"}},
-};
+/// Made when somebody asks, not at each start.
+const std::vector<OtherNames>& other_names() {
+    static const std::vector<OtherNames> all{
+        {"clean", {"repair", "fix", "heal", "weld", "fill_holes", "close_holes", "fill"}},
+        {"clip", {"cut", "trim", "slice_plane"}},
+        {"combine",
+         {"boolean", "bool", "csg", "union", "difference", "subtract", "intersection", "intersect"}},
+        {"crumple", {"noise", "jitter", "displace"}},
+        {"generate", {"create", "primitive", "sphere", "cube"}},
+        {"load", {"read", "open", "import", "input"}},
+        {"measure", {"volume", "area", "mass"}},
+        {"merge", {"join", "concatenate", "append"}},
+        {"optimize", {"dedup", "prune", "instance", "palette", "reorder"}},
+        {"orient", {"flip", "invert", "fix_normals", "reorient"}},
+        {"relax", {"smooth", "laplacian", "taubin", "fair"}},
+        {"render", {"screenshot", "snapshot", "thumbnail"}},
+        {"section", {"slice", "contours", "cross_section"}},
+        {"separate", {"explode", "components"}},
+        {"simplify", {"decimate", "decimation", "reduce", "quadric", "qem"}},
+        {"split", {"subdivide", "refine", "subdivision", "remesh"}},
+        {"textures", {"resize", "ktx", "toktx", "webp"}},
+        {"thicken", {"shell", "hollow", "offset", "solidify", "extrude", "wireframe"}},
+        {"tile", {"chunk", "tiler"}},
+        {"transform",
+         {"translate", "rotate", "scale", "move", "center", "centre", "mirror", "convert_units"}},
+        {"triangulate", {"tessellate", "tessellation"}},
+        {"two-sided", {"double_sided", "doublesided", "doubleside"}},
+        {"validate", {"check", "inspect", "info"}},
+        {"write", {"save", "export", "output", "convert"}},
+    };
+    return all;
+}
 
 } // namespace
 
 std::string_view stage_called(std::string_view other_name) {
     const std::string word = lower_case(std::string(other_name));
-    for (const auto& [stage, words] : other_names)
+    for (const auto& [stage, words] : other_names())
         if (std::find(words.begin(), words.end(), word) != words.end()) return stage;
     return {};
 }

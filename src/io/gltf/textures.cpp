@@ -168,13 +168,6 @@ Bytes bytes_of_image(const Document& document, Source& source, const Json& image
 
 // --- other images
 
-std::string suffix_of(const std::string& type) {
-    return type == "image/webp"   ? ".webp"
-           : type == "image/ktx2" ? ".ktx2"
-           : type == "image/jpeg" ? ".jpg"
-                                  : ".png";
-}
-
 /// Puts images into a copy of a document.
 class Replacing {
   public:
@@ -209,7 +202,7 @@ class Replacing {
         if (fresh && before != type) {
             const std::filesystem::path path = decoded_path(old).value_or("image");
             const auto named = [&](const std::string& more) {
-                return uri_of(path.parent_path() / (path.stem().string() + more + suffix_of(type)));
+                return uri_of(path.parent_path() / (path.stem().string() + more + suffix_of_image(type)));
             };
             place->second = named("");
             for (int n = 2; out_.files.contains(place->second); ++n)

@@ -316,15 +316,13 @@ void add_each(Scene& scene, const Mesh& mesh, const Division& d) {
     }
 }
 
-void add_parts(Scene& scene, Mesh mesh, const Statements& s, const Division& division) {
+void add_parts(Scene& scene, Mesh mesh, const Division& division) {
     if (division.divides()) return add_each(scene, mesh, division);
-    const Naming objects = naming(s, Event::Kind::object, "");
-    if (objects.names.size() > 1) mesh.attributes.push_back(numbers("object", objects.of_face));
+    const auto& names = division.names.names;
+    if (division.kind == Event::Kind::object && names.size() > 1)
+        mesh.attributes.push_back(numbers("object", division.names.of_face));
     Part& part = scene.parts.emplace_back();
-    const Naming groups = naming(s, Event::Kind::group, "");
-    if (objects.names.size() == 1) part.name = objects.names[0];
-    if (part.name.empty() && objects.names.size() < 2 && groups.names.size() == 1)
-        part.name = groups.names[0];
+    if (names.size() == 1) part.name = names[0];
     part.mesh = std::move(mesh);
 }
 
@@ -479,7 +477,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     maker.finish(scene);
     const Division division = division_of(mesh, s);
     add_groups(mesh, s, !(division.divides() && division.kind == Event::Kind::group), input.name(), log);
-    add_parts(scene, std::move(mesh), s, division);
+    add_parts(scene, std::move(mesh), division);
     if (any_lines) drop_ends(scene);
     for (Part& part : lines) scene.parts.push_back(std::move(part));
     return scene;
