@@ -49,6 +49,10 @@ class Page {
     /// Reads textures once for all that is shown.
     io::LookReader& looks() { return looks_; }
 
+    /// Of the latest picture, and of which up axis its scene is; null before the first.
+    const Camera* camera() const { return camera_.seen.empty() ? nullptr : &camera_; }
+    UpAxis camera_up() const { return camera_up_; }
+
     /// Before the stage works on the scene.
     void before(const Step& step, const Scene& scene);
     /// After it: its picture, distances where it measured such, and the results that it wrote, which are the

@@ -35,6 +35,7 @@ void PageView::before(const Step& step, const Scene& scene) {
     if (step.stage->loads || has_before_) return;
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
+    if (page_.camera()) viewed_.stand_as(*page_.camera(), page_.camera_up());
     viewed_.add_before(scene, "as loaded", looks(scene));
 }
 

@@ -64,6 +64,11 @@ Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 ViewedScenes::ViewedScenes(std::size_t expected)
     : faces_(std::min(most_faces, all_faces / std::clamp<std::size_t>(expected, 1, most_scenes))) {}
 
+void ViewedScenes::stand_as(const Camera& camera, UpAxis up) {
+    first_ = camera;
+    first_up_ = up;
+}
+
 void ViewedScenes::add_before(const Scene& scene, const std::string& name,
                               const std::shared_ptr<const MaterialLooks>& looks) {
     auto json = packed(scene, name, looks, nullptr);
@@ -108,13 +113,9 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     const double most = colour_limit(distances, largest, box_of(preview.mesh.positions).diagonal());
     if (!distances.empty()) distances.resize(preview.mesh.vertex_count()); // lines and points have none
     PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
-    PictureSettings as_first; // a scene that does not say what is up keeps that of the first
-    if (first_ && first_up_ == scene.up) as_first.camera = first_;
-    const Camera camera = camera_of(scene, as_first);
-    if (!first_) {
-        first_ = camera;
-        first_up_ = scene.up;
-    }
+    // A scene that does not say what is up keeps that of the first.
+    const Camera camera = first_ && first_up_ == scene.up ? *first_ : camera_of(scene);
+    if (!first_) stand_as(camera, scene.up);
     Json json = {{"name", name},
                  {"faces", preview.faces},
                  {"lines", preview.all_lines},

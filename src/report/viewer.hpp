@@ -19,6 +19,9 @@ class ViewedScenes {
     /// expected: about how many there will be, before which each gets its share of the triangles.
     explicit ViewedScenes(std::size_t expected);
 
+    /// Before all scenes: those whose up axis is that one stand as in a picture by this camera, which are the
+    /// pictures beside the view. Otherwise they stand as the first of them does.
+    void stand_as(const Camera& camera, UpAxis up);
     /// The scene that the others are compared with, first of all.
     void add_before(const Scene& scene, const std::string& name,
                     const std::shared_ptr<const MaterialLooks>& looks);
@@ -39,7 +42,7 @@ class ViewedScenes {
     Json texture(const Texture& texture, bool with_alpha);
 
     std::size_t faces_;           ///< of each scene
-    std::optional<Camera> first_; ///< of the first scene
+    std::optional<Camera> first_; ///< which way the scenes stand
     UpAxis first_up_{};
     std::size_t bytes_ = 0, texture_bytes_ = 0, left_out_ = 0;
     Json scenes_ = Json::array(), textures_ = Json::array();

@@ -73,10 +73,23 @@ constexpr double angle_bin = 2.5; // degrees
 constexpr std::size_t angle_bins = 72, aspect_bins = 24;
 
 struct Shapes {
-    Counted edges{4 * octaves}, angles{angle_bins}, aspects{aspect_bins};
+    /// Those of the first, second and third edges of faces apart: neighbours are alike, so one count would
+    /// wait for itself.
+    std::array<Counted, 3> edges{Counted(4 * octaves), Counted(4 * octaves), Counted(4 * octaves)};
+    Counted angles{angle_bins}, aspects{aspect_bins};
     std::uint64_t flat = 0;
+
+    void add_edge(std::size_t i, double length) {
+        edges[i % 3].add(power_bin(length, lowest_octave), length);
+    }
+    Counted all_edges() const {
+        Counted all = edges[0];
+        all.add(edges[1]);
+        all.add(edges[2]);
+        return all;
+    }
     void add(const Shapes& other) {
-        edges.add(other.edges);
+        for (std::size_t i = 0; i < edges.size(); ++i) edges[i].add(other.edges[i]);
         angles.add(other.angles);
         aspects.add(other.aspects);
         flat += other.flat;
@@ -132,8 +145,8 @@ class TriangleBatch {
     void count(Shapes& out) {
         arc_tangents(std::span(y_).first(count_), std::span(x_).first(count_), std::span(y_).first(count_));
         for (const auto& [i, angle] : odd_) y_[i] = angle;
-        for (std::size_t i = 0; i < 3 * count_; ++i)
-            out.edges.add(power_bin(edges_[i], lowest_octave), edges_[i]);
+        for (std::size_t i = 0; i < 3 * count_; i += 3)
+            for (std::size_t k = 0; k < 3; ++k) out.add_edge(k, edges_[i + k]);
         for (std::size_t i = 0; i < count_; ++i) add_shape(y_[i], aspects_[i], out);
         count_ = 0;
         odd_.clear();
@@ -157,9 +170,13 @@ class ShapesOfFaces {
         Shapes out;
         Outline outline;
         TriangleBatch triangles;
+        const auto corners = static_cast<Index>(mesh_.corner_count());
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
             constexpr Index ahead = 24;
-            if (f + ahead < end) fetch_soon(mesh_.point(mesh_.face_begin(f + ahead)));
+            if (f + ahead < end) { // a large face's first points will do
+                const Index first = mesh_.face_begin(f + ahead);
+                for (Index c = first; c < std::min(first + 3, corners); ++c) fetch_soon(mesh_.point(c));
+            }
             const bool is_triangle = mesh_.face_size(f) == 3;
             if (triangles.is_full() || !is_triangle) triangles.count(out);
             if (is_triangle)
@@ -220,7 +237,7 @@ class ShapesOfFaces {
         const std::size_t n = outline.points.size();
         double sharpest = -1; // cosine
         for (std::size_t i = 0; i < n; ++i) {
-            out.edges.add(power_bin(outline.lengths[i], lowest_octave), outline.lengths[i]);
+            out.add_edge(i, outline.lengths[i]);
             const std::size_t next = i + 1 < n ? i + 1 : 0;
             sharpest = std::max(sharpest, cosine_between(outline.edges[i], outline.lengths[i],
                                                          outline.edges[next], outline.lengths[next]));
@@ -264,8 +281,9 @@ ShapeHistograms shape_histograms(const Scene& scene) {
     }
     std::vector<double> degrees(angle_bins + 1);
     for (std::size_t i = 0; i < degrees.size(); ++i) degrees[i] = angle_bin * static_cast<double>(i);
-    return {all.edges.histogram(powers(lowest_octave, 4 * octaves)), all.angles.histogram(std::move(degrees)),
-            all.aspects.histogram(powers(0, aspect_bins)), all.flat};
+    return {all.all_edges().histogram(powers(lowest_octave, 4 * octaves)),
+            all.angles.histogram(std::move(degrees)), all.aspects.histogram(powers(0, aspect_bins)),
+            all.flat};
 }
 
 void trim(Histogram& a, Histogram& b, std::size_t most) {

@@ -1,11 +1,11 @@
 #include "geometry/preview/grid.hpp"
 
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
 #include "mesh/finite_box.hpp"
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <unordered_set>
 
 namespace facetmill {
@@ -24,6 +24,7 @@ class Numbers {
         }
         return numbers_[at];
     }
+    std::size_t count() const { return count_; }
 
   private:
     static constexpr std::uint64_t free = ~std::uint64_t{0};
@@ -95,44 +96,62 @@ std::array<Index, 3> turned(std::array<Index, 3> t) {
     return t;
 }
 
+/// Where a vertex lies.
+struct InCell {
+    Index cell;       ///< its number; none: the vertex is not finite
+    float off_centre; ///< squared, in cells
+};
+
+/// [vertices] by their places. The keys of a block are found by all threads, and numbered by one.
+template <class Place>
+std::vector<InCell> in_cells(std::size_t vertices, const Place& place, const Cells& cells, Numbers& numbers) {
+    constexpr std::size_t block = std::size_t{1} << 16;
+    std::vector<InCell> out(vertices);
+    std::vector<std::uint64_t> keys(std::min(block, vertices));
+    for (std::size_t first = 0; first < vertices; first += block) {
+        const std::size_t count = std::min(block, vertices - first);
+        parallel_for(count, [&](std::size_t i) {
+            const Vec3 p = place(first + i);
+            const auto [key, off_centre] = is_finite(p) ? cells.place(p) : std::pair{std::uint64_t{0}, 0.0};
+            keys[i] = key;
+            out[first + i] = {is_finite(p) ? 0 : none, static_cast<float>(off_centre)};
+        });
+        for (std::size_t i = 0; i < count; ++i)
+            if (out[first + i].cell != none) out[first + i].cell = numbers.of(keys[i]);
+    }
+    return out;
+}
+
 } // namespace
 
 std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_world, double cell) {
     const auto place = [&](std::size_t v) { return to_world.point(triangles.positions[v]); };
     const Cells cells(box_of_finite(triangles.vertex_count(), place), cell);
-    constexpr std::uint64_t nowhere = ~std::uint64_t{0}; // not finite
-    std::vector<std::uint64_t> keys(triangles.vertex_count());
-    std::vector<double> off_centre(triangles.vertex_count());
-    parallel_for(keys.size(), [&](std::size_t v) {
-        const Vec3 p = place(v);
-        std::tie(keys[v], off_centre[v]) = is_finite(p) ? cells.place(p) : std::pair{nowhere, 0.0};
-    });
     Numbers numbers;
-    std::vector<Index> cell_of(keys.size(), none);
-    std::vector<Index> corner_of; // [cells] of the vertex nearest to the centre
-    std::vector<double> distance;
-    for (Index c = 0; c < triangles.corner_count(); ++c) {
-        const Index v = triangles.vertex(c);
-        if (cell_of[v] != none || keys[v] == nowhere) continue;
-        cell_of[v] = numbers.of(keys[v]);
-        const double d = off_centre[v];
-        if (cell_of[v] == corner_of.size()) {
-            corner_of.push_back(c);
-            distance.push_back(d);
-        } else if (d < distance[cell_of[v]]) {
-            corner_of[cell_of[v]] = c;
-            distance[cell_of[v]] = d;
-        }
-    }
-    std::vector<Index> out;
+    const std::vector<InCell> in_cell = in_cells(triangles.vertex_count(), place, cells, numbers);
+    struct Nearest {
+        Index corner = none;
+        float off_centre = HUGE_VALF;
+    };
+    std::vector<Nearest> nearest(numbers.count());
+    std::vector<Index> out; // cells, then a corner of each
     std::unordered_set<std::array<Index, 3>, HashOfThree> met;
+    constexpr Index ahead = 48; // corners: they are anywhere in a large mesh
     for (Index c = 0; c + 2 < triangles.corner_count(); c += 3) {
-        const std::array<Index, 3> t{cell_of[triangles.vertex(c)], cell_of[triangles.vertex(c + 1)],
-                                     cell_of[triangles.vertex(c + 2)]};
-        if (t[0] == none || t[1] == none || t[2] == none) continue;
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || !met.insert(turned(t)).second) continue;
-        for (const Index of : t) out.push_back(corner_of[of]);
+        std::array<Index, 3> t{};
+        for (Index k = 0; k < 3; ++k) {
+            if (c + ahead + k < triangles.corner_count())
+                fetch_soon(in_cell[triangles.vertex(c + ahead + k)]);
+            const InCell& own = in_cell[triangles.vertex(c + k)];
+            t[k] = own.cell;
+            if (own.cell != none && own.off_centre < nearest[own.cell].off_centre)
+                nearest[own.cell] = {c + k, own.off_centre};
+        }
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+        if (t[0] == none || t[1] == none || t[2] == none || !met.insert(turned(t)).second) continue;
+        out.insert(out.end(), t.begin(), t.end());
     }
+    for (Index& cell : out) cell = nearest[cell].corner;
     return out;
 }
 

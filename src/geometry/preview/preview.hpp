@@ -35,7 +35,7 @@ struct Preview {
 /// twice the triangles asked for, without textures, goes through a grid first, in each cell of which one
 /// vertex stays. What is made of very many small components loses some of them. Points that are not finite,
 /// and their faces, are left out. Colours of faces stay apart. The same for any number of threads. About
-/// O(n); memory: as the mesh of the scene where it is not large, else a few times that of the preview and 4
+/// O(n); memory: as the mesh of the scene where it is not large, else a few times that of the preview and 8
 /// bytes for each vertex of the largest part.
 Preview preview_of(const Scene& scene, const PreviewSettings& settings = {});
 

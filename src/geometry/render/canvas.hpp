@@ -72,26 +72,57 @@ struct SampleBox {
     }
 };
 
+/// The first sample whose middle is not before x, and the last one that is not behind it, among those from
+/// low to high. What is not a number is at low.
+inline double within(double x, int low, int high) { // NaN is outside of no range
+    return x > low ? (x < high ? x : high) : low;
+}
+inline int first_sample(double x, int low, int high) { // rounding by conversion is faster than the library's
+    const double inside = within(x - 0.5, low, high);
+    const int whole = static_cast<int>(inside);
+    return whole < inside ? whole + 1 : whole;
+}
+inline int last_sample(double x, int low, int high) {
+    const double inside = within(x - 0.5, low, high);
+    const int whole = static_cast<int>(inside);
+    return whole > inside ? whole - 1 : whole;
+}
+
 /// Those in the box around a triangle, in the rows [first, last) of a canvas of that width. Corners that are
 /// not finite give any of them, or none.
 inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int first, int last, int width) {
-    // NaN is outside of no range, and rounding by conversion is faster than the library's.
-    const auto within = [](double x, int low, int high) { return x > low ? (x < high ? x : high) : low; };
-    const auto up = [&](double x, int low, int high) {
-        const double inside = within(x - 0.5, low, high);
-        const int whole = static_cast<int>(inside);
-        return whole < inside ? whole + 1 : whole;
-    };
-    const auto down = [&](double x, int low, int high) {
-        const double inside = within(x - 0.5, low, high);
-        const int whole = static_cast<int>(inside);
-        return whole > inside ? whole - 1 : whole;
-    };
     const auto lowest = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
     const auto highest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
-    return {up(lowest(a.x, b.x, c.x), 0, width), down(highest(a.x, b.x, c.x), -1, width - 1),
-            up(lowest(a.y, b.y, c.y), first, last), down(highest(a.y, b.y, c.y), first - 1, last - 1)};
+    return {first_sample(lowest(a.x, b.x, c.x), 0, width), last_sample(highest(a.x, b.x, c.x), -1, width - 1),
+            first_sample(lowest(a.y, b.y, c.y), first, last),
+            last_sample(highest(a.y, b.y, c.y), first - 1, last - 1)};
 }
+
+/// The same of each point by itself, in four small numbers: most triangles of a large mesh have no sample,
+/// which these tell before the points are read. Left, top, and right and bottom with the other sign, so that
+/// of several points together each number is the least.
+class SamplesAt {
+  public:
+    SamplesAt() = default;
+    /// Of a canvas of at most 32,767 samples a side.
+    SamplesAt(const Vec3& p, const Canvas& canvas)
+        : bounds_{short_of(first_sample(p.x, 0, canvas.width)), short_of(first_sample(p.y, 0, canvas.height)),
+                  short_of(-last_sample(p.x, -1, canvas.width - 1)),
+                  short_of(-last_sample(p.y, -1, canvas.height - 1))} {}
+
+    /// samples_around of three points, on all of the canvas.
+    static SampleBox around(const SamplesAt& a, const SamplesAt& b, const SamplesAt& c) {
+        const Bounds least = lesser(lesser(a.bounds_, b.bounds_), c.bounds_);
+        return {least[0], -least[2], least[1], -least[3]};
+    }
+
+  private:
+    using Bounds = std::int16_t __attribute__((vector_size(8)));
+    static std::int16_t short_of(int x) { return static_cast<std::int16_t>(x); }
+    static Bounds lesser(const Bounds& a, const Bounds& b) { return a < b ? a : b; }
+
+    Bounds bounds_{};
+};
 
 /// An edge's line through the canvas; the two triangles at an edge get the same numbers but for their sign,
 /// so that no sample between them is missed.

@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "base/simd.hpp"
 #include "geometry/render/layers.hpp"
 #include "geometry/render/legend.hpp"
 #include "geometry/render/occlusion.hpp"
@@ -10,6 +11,8 @@
 
 #include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace facetmill {
 
@@ -112,24 +115,16 @@ class PictureDrawing {
             if (part.has_faces()) draw_part(part);
     }
 
+    using Faces = std::vector<Index>;
+
     /// The small triangles side by side, then each of the large ones band by band.
     void draw_part(const PartDrawing& part) {
-        using Faces = std::vector<Index>;
+        std::vector<SamplesAt> at(part.mesh().vertex_count());
+        parallel_for(at.size(),
+                     [&](std::size_t v) { at[v] = SamplesAt(part.point(static_cast<Index>(v)), canvas_); });
         const Faces large_ones = parallel_reduce(
             part.count(), Faces{},
-            [&](std::size_t begin, std::size_t end) {
-                Faces found;
-                for (auto f = static_cast<Index>(begin); f < end; ++f) {
-                    const auto corners = part.corners(f);
-                    const SampleBox box = samples_around(corners, 0, canvas_.height, canvas_.width);
-                    if (box.empty()) continue;
-                    if (box.size() > large)
-                        found.push_back(f);
-                    else if (!is_hidden(corners, box))
-                        draw_face(part, f, corners, box);
-                }
-                return found;
-            },
+            [&](std::size_t begin, std::size_t end) { return draw_small(part, at, begin, end); },
             [](Faces a, const Faces& b) {
                 a.insert(a.end(), b.begin(), b.end());
                 return a;
@@ -146,6 +141,39 @@ class PictureDrawing {
                 }
             },
             1);
+    }
+
+    /// Draws the small ones of some triangles and returns the large ones. What is read of a triangle is asked
+    /// for some triangles ahead: it may lie anywhere in memory.
+    Faces draw_small(const PartDrawing& part, const std::vector<SamplesAt>& at, std::size_t begin,
+                     std::size_t end) {
+        struct Asked {
+            Index face;
+            SampleBox box;
+        };
+        constexpr std::size_t ahead = 16;
+        const Mesh& mesh = part.mesh();
+        Faces large_ones;
+        std::array<Asked, 32> asked;
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto f = static_cast<Index>(i);
+            for (Index c = 3 * (f + ahead); i + ahead < end && c < 3 * (f + ahead) + 3; ++c)
+                fetch_soon(at[mesh.vertex(c)]);
+            const SampleBox box = SamplesAt::around(at[mesh.vertex(3 * f)], at[mesh.vertex(3 * f + 1)],
+                                                    at[mesh.vertex(3 * f + 2)]);
+            if (box.size() > large && !box.empty())
+                large_ones.push_back(f);
+            else if (!box.empty()) {
+                for (Index k = 0; k < 3; ++k) fetch_soon(part.corner(f, k));
+                asked[count++] = {f, box};
+            }
+            if (count < asked.size() && i + 1 < end) continue;
+            for (const Asked& one : std::span(asked).first(std::exchange(count, 0)))
+                if (const auto corners = part.corners(one.face); !is_hidden(corners, one.box))
+                    draw_face(part, one.face, corners, one.box);
+        }
+        return large_ones;
     }
 
     /// Whether other triangles already lie before all of a small one: most are found hidden before they cost

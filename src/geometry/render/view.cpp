@@ -6,6 +6,7 @@
 #include "mesh/transform.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 namespace facetmill {
@@ -24,14 +25,28 @@ std::vector<std::uint8_t> drawn_vertices(const Mesh& mesh) {
     return drawn;
 }
 
+/// drawn_vertices of the parts of a scene, each found when it is first asked for.
+class DrawnVertices {
+  public:
+    const std::vector<std::uint8_t>& of(const Part& part) {
+        auto& known = drawn_[&part];
+        if (known.empty()) known = drawn_vertices(part.mesh);
+        return known;
+    }
+
+  private:
+    std::map<const Part*, std::vector<std::uint8_t>> drawn_;
+};
+
 /// The box of what is seen, of points as `seen_at` gives them.
 template <class SeenAt>
-Box seen_box(const Scene& scene, const PictureSettings& settings, SeenAt&& seen_at) {
+Box seen_box(const Scene& scene, const PictureSettings& settings, DrawnVertices& all_drawn,
+             SeenAt&& seen_at) {
     Box seen;
     for (const Part& part : scene.parts) {
         if (!is_shown(part, settings)) continue;
         const Transform to_world = part.transform;
-        const auto drawn = drawn_vertices(part.mesh);
+        const auto& drawn = all_drawn.of(part);
         seen.add(parallel_reduce(
             part.mesh.vertex_count(), Box{},
             [&](std::size_t begin, std::size_t end) {
@@ -121,10 +136,10 @@ struct UpAndFront {
     Vec3 up, front;
 };
 
-UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings) {
+UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings, DrawnVertices& drawn) {
     const UpAndFront y_up{{0, 1, 0}, {0, 0, 1}}, z_up{{0, 0, 1}, {0, -1, 0}};
     if (scene.up != UpAxis::unknown) return scene.up == UpAxis::z ? z_up : y_up;
-    const Box box = seen_box(scene, {}, [](const Vec3& p) { return p; });
+    const Box box = seen_box(scene, {}, drawn, [](const Vec3& p) { return p; });
     const Vec3 extent = box.extent();
     const Stance stance = stance_of(scene, settings, box);
     // A base is one when it is three hundredths of the surface and the other direction has none half as
@@ -174,8 +189,8 @@ View axes_of_view(const UpAndFront& axes, const PictureSettings& settings) {
 }
 
 /// The box of the scene along the axes of the view.
-Box box_along(const View& view, const Scene& scene, const PictureSettings& settings) {
-    return seen_box(scene, settings, [&](const Vec3& p) {
+Box box_along(const View& view, const Scene& scene, const PictureSettings& settings, DrawnVertices& drawn) {
+    return seen_box(scene, settings, drawn, [&](const Vec3& p) {
         return Vec3{dot(p, view.right), dot(p, view.up), dot(p, view.towards)};
     });
 }
@@ -232,9 +247,10 @@ Vec3 View::to_viewer(const Vec3& place) const {
 }
 
 Camera camera_of(const Scene& scene, const PictureSettings& settings) {
+    DrawnVertices drawn;
     const auto [up, front] = settings.camera ? UpAndFront{settings.camera->up, settings.camera->front}
-                                             : up_and_front(scene, settings);
-    return {up, front, box_along(axes_of_view({up, front}, settings), scene, settings)};
+                                             : up_and_front(scene, settings, drawn);
+    return {up, front, box_along(axes_of_view({up, front}, settings), scene, settings, drawn)};
 }
 
 View view_of(const Scene& scene, const PictureSettings& settings, int width, int height) {
@@ -244,8 +260,9 @@ View view_of(const Scene& scene, const PictureSettings& settings, int width, int
     if (box.empty()) return view;
     view.scale = 1;
     if (settings.perspective > 0) stand_back(view, settings.perspective, box);
+    DrawnVertices drawn;
     const Box seen = settings.perspective > 0
-                         ? seen_box(scene, settings, [&](const Vec3& p) { return view.of(p); })
+                         ? seen_box(scene, settings, drawn, [&](const Vec3& p) { return view.of(p); })
                          : as_seen(box);
     const Vec3 size = seen.extent(), middle = seen.centre();
     const double tallest = std::max(size.x / width, size.y / height);
