@@ -171,36 +171,51 @@ double largest(std::size_t count, double tolerance, Distance&& distance) {
         [](double a, double b) { return std::max(a, b); });
 }
 
-/// Points in cells of a grid, in the order of the cells' hashes, with a table of where each share of the
-/// hashes begins: a cell is found at once.
+/// Points in the order of the keys of their cells in a grid, with a table of where each share of the keys
+/// begins: what is in a cell is found at once, maybe with the points of others. Blocks of 8 x 8 x 8 cells
+/// have keys that differ little, so that points which are near each other are mostly side by side in memory.
 class Grid {
   public:
-    Grid(const std::vector<Vec3>& points, double cell) : points_(points), cell_(cell) {
-        entries_.resize(points.size());
-        parallel_for(points.size(), [&](std::size_t i) {
-            entries_[i] = {key(cell_of(points[i])), static_cast<Index>(i)};
-        });
-        radix_sort(entries_, [](const Entry& e) { return e.key; });
+    Grid(const std::vector<Vec3>& points, double cell) : cell_(cell) {
         while (points.size() >> bits_ != 0) ++bits_;
+        std::vector<KeyedPlace> order(points.size());
+        parallel_for(points.size(), [&](std::size_t i) {
+            order[i] = {share(cell_of(points[i])), static_cast<Index>(i)};
+        });
+        radix_sort(
+            order, [](const KeyedPlace& p) { return p.key; }, bits_);
         begins_.assign((std::size_t{1} << bits_) + 1, 0);
-        for (const Entry& e : entries_) ++begins_[share(e.key) + 1];
+        for (const KeyedPlace& p : order) ++begins_[p.key + 1];
         for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+        points_.resize(points.size());
+        parallel_for(points.size(), [&](std::size_t i) { points_[i] = points[order[i].place]; });
     }
+
+    double cell() const { return cell_; }
+    /// In the order of the grid.
+    const std::vector<Vec3>& points() const { return points_; }
 
     /// The distance to the nearest point when it is below half a cell, else infinity or more than that; that
     /// to any point which is no farther than `enough` will do.
     double nearest(const Vec3& p, double enough) const {
         const Cell centre = cell_of(p);
         double best = nearest_in(centre, p, HUGE_VAL, enough);
+        if (best <= enough) return best;
+        std::array<double, 3> side{}; // to the nearer of the cells beside it, squared
+        Cell beside = centre;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double within = p[axis] / cell_ - static_cast<double>(centre[axis]);
+            beside[axis] += within < 0.5 ? -1 : 1;
+            const double to_side = std::min(within, 1 - within) * cell_;
+            side[axis] = to_side * to_side;
+        }
         for (int i = 1; i < 8 && best > enough; ++i) {
             Cell c = centre;
             double gap = 0; // to the cell, squared
             for (std::size_t axis = 0; axis < 3; ++axis)
                 if (i >> axis & 1) {
-                    const double within = p[axis] / cell_ - static_cast<double>(centre[axis]);
-                    c[axis] += within < 0.5 ? -1 : 1;
-                    const double side = std::min(within, 1 - within) * cell_;
-                    gap += side * side;
+                    c[axis] = beside[axis];
+                    gap += side[axis];
                 }
             // The margin: a point beside the border is looked for on both sides, however that was rounded.
             if (gap * (1 - 1e-9) <= best * best) best = nearest_in(c, p, best, enough);
@@ -210,14 +225,10 @@ class Grid {
 
   private:
     using Cell = std::array<std::int64_t, 3>;
-    struct Entry {
-        std::uint64_t key;
-        Index point;
-    };
     double nearest_in(const Cell& cell, const Vec3& p, double best, double enough) const {
-        const std::uint64_t k = key(cell);
-        for (std::size_t i = begins_[share(k)]; i < begins_[share(k) + 1] && best > enough; ++i)
-            if (entries_[i].key == k) best = std::min(best, length(points_[entries_[i].point] - p));
+        const std::size_t k = share(cell);
+        for (std::size_t i = begins_[k]; i < begins_[k + 1] && best > enough; ++i)
+            best = std::min(best, length(points_[i] - p));
         return best;
     }
     Cell cell_of(const Vec3& p) const {
@@ -226,20 +237,21 @@ class Grid {
             c[axis] = static_cast<std::int64_t>(std::floor(p[axis] / cell_));
         return c;
     }
-    static std::uint64_t key(const Cell& c) {
-        std::uint64_t h = 0;
-        for (const std::int64_t x : c) h = hashed(h, static_cast<std::uint64_t>(x));
-        return h;
-    }
-    std::size_t share(std::uint64_t k) const {
-        return bits_ == 0 ? 0 : static_cast<std::size_t>(k >> (64 - bits_));
+    /// Of bits_ bits: the block's hash, then the cell's place in the block.
+    std::size_t share(const Cell& c) const {
+        constexpr int side_bits = 3, place_bits = 3 * side_bits;
+        std::uint64_t hash = 0, place = 0;
+        for (const std::int64_t x : c) {
+            hash = hashed(hash, static_cast<std::uint64_t>(x >> side_bits));
+            place = place << side_bits | (static_cast<std::uint64_t>(x) & ((1u << side_bits) - 1));
+        }
+        return (hash << place_bits ^ place) & ((std::uint64_t{1} << bits_) - 1);
     }
 
-    const std::vector<Vec3>& points_;
     double cell_;
     int bits_ = 0;
-    std::vector<Entry> entries_;
-    std::vector<std::size_t> begins_;
+    std::vector<Index> begins_;
+    std::vector<Vec3> points_;
 };
 
 /// A cell that holds few of the points of a surface, and whose number fits an integer wherever they are.
@@ -250,36 +262,45 @@ double cell_of_few(const std::vector<Vec3>& points) {
     return std::max(share, 1e-15 * std::max(length(box.min), length(box.max)));
 }
 
-/// The largest distance from a point to the nearest of the others; more than tolerance, or infinity, when it
-/// is more. What is not found in small cells is looked for in larger ones: where coordinates are large,
-/// cells of the tolerance might hold all points.
-double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double tolerance) {
+/// Adds to `most` the largest distance from one of the points to the nearest in the grid, as far as it is
+/// found there, and returns the points of which it is not; none where this is the last grid.
+std::vector<Vec3> farther(std::span<const Vec3> points, const Grid& grid, bool is_last, double& most) {
+    std::vector<std::uint8_t> is_open(points.size());
+    most = parallel_reduce(
+        points.size(), most,
+        [&](std::size_t begin, std::size_t end) {
+            double enough = most;
+            for (std::size_t i = begin; i < end; ++i) {
+                const double d = grid.nearest(points[i], enough);
+                is_open[i] = d > enough && d > grid.cell() / 2 && !is_last;
+                if (!is_open[i]) enough = std::max(enough, d);
+            }
+            return enough;
+        },
+        [](double a, double b) { return std::max(a, b); });
+    std::vector<Vec3> open;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (is_open[i]) open.push_back(points[i]);
+    return open;
+}
+
+/// The largest distance from a point of either to the nearest of the other; more than tolerance, or infinity,
+/// when it is more. What is not found in small cells is looked for in larger ones: where coordinates are
+/// large, cells of the tolerance might hold all points.
+double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double tolerance) {
+    if (a.empty() && b.empty()) return 0;
     const double largest_cell = std::max(2.5 * tolerance, 1e-300);
-    double cell = to.empty() ? largest_cell : cell_of_few(to);
+    double cell = a.empty() || b.empty() ? largest_cell : std::max(cell_of_few(a), cell_of_few(b));
     if (!(cell > 0 && cell < largest_cell)) cell = largest_cell; // NaN, too
     double most = 0;
-    std::vector<Vec3> open = from;
-    for (;; cell = std::min(8 * cell, largest_cell)) {
-        const Grid grid(to, cell);
+    std::vector<Vec3> open_a, open_b;
+    for (bool is_first = true;; is_first = false, cell = std::min(8 * cell, largest_cell)) {
+        const Grid grid_a(a, cell), grid_b(b, cell);
         const bool is_last = cell >= largest_cell;
-        std::vector<std::uint8_t> is_open(open.size());
-        most = parallel_reduce(
-            open.size(), most,
-            [&](std::size_t begin, std::size_t end) {
-                double enough = most;
-                for (std::size_t i = begin; i < end; ++i) {
-                    const double d = grid.nearest(open[i], enough);
-                    is_open[i] = d > enough && d > cell / 2 && !is_last;
-                    if (!is_open[i]) enough = std::max(enough, d);
-                }
-                return enough;
-            },
-            [](double a, double b) { return std::max(a, b); });
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < open.size(); ++i)
-            if (is_open[i]) open[left++] = open[i];
-        open.resize(left);
-        if (left == 0) return most;
+        // At first all, in the order of the grid, in which those of the other grid are, too.
+        open_a = farther(is_first ? grid_a.points() : open_a, grid_b, is_last, most);
+        open_b = farther(is_first ? grid_b.points() : open_b, grid_a, is_last, most);
+        if (open_a.empty() && open_b.empty()) return most;
     }
 }
 
@@ -291,8 +312,7 @@ double error_of_lines(const Flat& wanted, const Flat& found, double tolerance) {
         });
         if (in_order <= tolerance) return in_order;
     }
-    return std::max(farthest(wanted.ends, found.ends, tolerance),
-                    farthest(found.ends, wanted.ends, tolerance));
+    return farthest(wanted.ends, found.ends, tolerance);
 }
 
 /// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
@@ -303,8 +323,7 @@ double position_error(const Flat& wanted, const Flat& found, double tolerance) {
         });
         if (in_order <= tolerance) return in_order;
     }
-    const std::vector<Vec3> here = wanted.used(), there = found.used();
-    return std::max(farthest(here, there, tolerance), farthest(there, here, tolerance));
+    return farthest(wanted.used(), found.used(), tolerance);
 }
 
 /// The distance between neighbouring float32 numbers at the largest coordinate of the box.

@@ -6,6 +6,7 @@
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/failure.hpp"
+#include "support/meshes.hpp"
 #include "support/temporary.hpp"
 
 #include <cmath>
@@ -312,4 +313,31 @@ TEST_CASE("a file that does not hold what was written is found out", "[io]") {
         CHECK(back(fewer).starts_with(
             "output [E-READBACK] 'out' does not hold what was written: 11 faces, expected 12"));
     }
+}
+
+TEST_CASE("what a file says to have moved is the distance to the nearest point, either way", "[io]") {
+    // The file's faces come in another order, so its points have no number in common with those written.
+    Scene scene = scene_in_metres(noisy_icosphere(4, 0.02, 3));
+    for (Vec3& p : scene.parts[0].mesh.positions) p += Vec3{100, 0, 0};
+    const io::Codec& codec = *io::codec_named("glb");
+    const auto bytes = codec.write(scene, {.title = "a"}).files[0].bytes;
+    io::ReadLog log;
+    const Scene read = io::read_scene(io::Input::of("out", bytes), {}, log, &codec);
+    const auto& here = scene.parts[0].mesh.positions;
+    const auto& there = read.parts.at(0).mesh.positions;
+    double farthest = 0;
+    for (const auto& [from, to] : {std::pair(&here, &there), std::pair(&there, &here)})
+        for (const Vec3& p : *from) {
+            double nearest = HUGE_VAL;
+            for (const Vec3& q : *to) nearest = std::min(nearest, length(q - p));
+            farthest = std::max(farthest, nearest);
+        }
+    CHECK(farthest > 1e-6);
+    CHECK(io::read_back(io::Input::of("out", bytes), codec, scene, {}).position_error == farthest);
+    // One point of 2,562 that is elsewhere is found, in either.
+    const double far = 1e-3;
+    scene.parts[0].mesh.positions[1234] *= 1 + far;
+    CHECK(failure([&] {
+              io::read_back(io::Input::of("out", bytes), codec, scene, {});
+          }).find("a vertex moved farther than") != std::string::npos);
 }

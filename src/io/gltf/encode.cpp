@@ -21,12 +21,19 @@ class Numbering {
     explicit Numbering(std::size_t wedges) : number_(wedges, none) {}
     /// Takes the wedges among the corners, which it has none of, ascending.
     void collect(Table& table, const std::vector<Index>& corners) {
+        std::vector<Index>& wedges = table.wedges;
         for (const Index w : corners)
             if (number_[w] == none) {
                 number_[w] = 0;
-                table.wedges.push_back(w);
+                wedges.push_back(w);
             }
-        std::sort(table.wedges.begin(), table.wedges.end());
+        if (wedges.size() > number_.size() / 16) { // a look at all is less work than to sort these
+            wedges.clear();
+            for (Index w = 0; w < number_.size(); ++w)
+                if (number_[w] != none) wedges.push_back(w);
+        } else {
+            std::sort(wedges.begin(), wedges.end());
+        }
         for (Index i = 0; i < table.wedges.size(); ++i) number_[table.wedges[i]] = i;
     }
     void renumber(Table& table) const {

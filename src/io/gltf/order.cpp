@@ -1,6 +1,7 @@
 #include "io/gltf/order.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/spatial/hilbert_curve.hpp"
 #include "io/gltf/compress.hpp"
 
 #include <algorithm>
@@ -207,6 +208,59 @@ void order_for_cache(std::vector<Index>& corners, std::size_t vertices) {
     meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(), vertices);
 }
 
+/// The triangles along a curve through space, so that those of any stretch are near each other.
+std::vector<Index> corners_along_curve(const Mesh& mesh, const Table& table, const Box& box) {
+    const std::size_t triangles = table.indices.size() / 3;
+    const std::vector<Index> order = order_along_curve(triangles, box, [&](std::size_t t) {
+        Vec3 sum;
+        for (std::size_t c = 3 * t; c < 3 * t + 3; ++c)
+            sum += mesh.positions[mesh.vertex_of_wedge(table.wedges[table.indices[c]])] / 3;
+        return sum;
+    });
+    std::vector<Index> corners(table.indices.size());
+    parallel_for(triangles, [&](std::size_t t) {
+        for (std::size_t k = 0; k < 3; ++k) corners[3 * t + k] = table.indices[3 * std::size_t{order[t]} + k];
+    });
+    return corners;
+}
+
+/// The order for caches of each stretch of so many corners by itself.
+void order_stretches_for_cache(std::vector<Index>& corners, std::size_t vertices, std::size_t length) {
+    const std::size_t stretches = (corners.size() + length - 1) / length;
+    constexpr std::size_t tables = 8; // of numbers of all vertices, at most
+    parallel_chunks(
+        stretches,
+        [&](std::size_t begin, std::size_t end) {
+            std::vector<Index> number(vertices, none), own, used;
+            for (std::size_t s = begin; s < end; ++s) {
+                const auto stretch =
+                    std::span(corners).subspan(s * length, std::min(length, corners.size() - s * length));
+                own.clear();
+                used.clear();
+                for (const Index v : stretch) {
+                    if (number[v] == none) {
+                        number[v] = static_cast<Index>(used.size());
+                        used.push_back(v);
+                    }
+                    own.push_back(number[v]);
+                }
+                order_for_cache(own, used.size());
+                for (std::size_t c = 0; c < own.size(); ++c) stretch[c] = used[own[c]];
+                for (const Index v : used) number[v] = none;
+            }
+        },
+        (stretches + tables - 1) / tables);
+}
+
+/// The order for caches; of a large mesh in stretches, at the same time: at their borders, where hardly more
+/// than one vertex of a hundred is, it is transformed twice.
+void order_for_cache(const Mesh& mesh, Table& table, const Box& box) {
+    constexpr std::size_t stretch = 1 << 18; // triangles
+    if (table.indices.size() / 3 < 2 * stretch) return order_for_cache(table.indices, table.wedges.size());
+    table.indices = corners_along_curve(mesh, table, box);
+    order_stretches_for_cache(table.indices, table.wedges.size(), 3 * stretch);
+}
+
 /// The order for caches; strips begun in it, in the given one, and in those strips; for meshes that are not
 /// large, of which a percent is to be had, also strips begun along the axes, there and back: the one of the
 /// fewest bytes.
@@ -247,7 +301,7 @@ void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder
         if (order == TriangleOrder::size) {
             order_for_size(mesh, table, box);
         } else {
-            order_for_cache(table.indices, table.wedges.size());
+            order_for_cache(mesh, table, box);
             if (order == TriangleOrder::draw) order_groups(mesh, table);
             for (int i = 0; order == TriangleOrder::strips && i < 2; ++i) // strips of strips, the best alone
                 order_in_strips(table.indices, table.wedges.size());

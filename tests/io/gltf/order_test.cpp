@@ -1,4 +1,5 @@
 // Triangles and vertices in an order for caches: the same faces, fewer vertices transformed.
+#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "io/gltf/encode.hpp"
 #include "mesh/shapes.hpp"
@@ -6,6 +7,8 @@
 #include "support/gltf.hpp"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 using namespace facetmill;
 
@@ -25,6 +28,8 @@ Mesh shuffled_sphere() {
     mesh.attributes.push_back({"_id", Domain::vertex, Role::generic, 1, false, std::move(ids)});
     return mesh;
 }
+
+bool before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// Under meshopt, which takes that order, with all numbers as they are.
 io::WriteSettings ordered() {
@@ -51,6 +56,38 @@ TEST_CASE("an order for caches transforms fewer vertices", "[io]") {
         CHECK(cache.after < 5120 * 0.75);
         CHECK(cache.after >= 2562);
     }
+}
+
+TEST_CASE("a large mesh is ordered in stretches, as well as in one piece", "[io]") {
+    const Mesh mesh = shapes::grid(520, 520); // 540,800 triangles
+    std::vector<io::Bytes> files;
+    for (const int threads : {1, 3}) {
+        set_threads(threads);
+        io::gltf::Builder builder(Json::object(), nullptr);
+        io::Written written;
+        io::gltf::EncodeSettings settings;
+        settings.order = io::TriangleOrder::draw;
+        const io::VertexCacheUse cache = io::gltf::encode_mesh(builder, mesh, settings, written).cache;
+        CHECK(cache.triangles == mesh.face_count());
+        CHECK(cache.after < 0.74 * static_cast<double>(mesh.face_count()));
+        files.push_back(test::written(test::scene_in_metres(mesh), "glb").files[0].bytes);
+    }
+    set_threads(0);
+    CHECK(files[0] == files[1]);
+    const auto faces_of = [](const Mesh& m) {
+        std::vector<std::array<Vec3, 3>> faces(m.face_count());
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            for (std::size_t k = 0; k < 3; ++k)
+                faces[f][k] = m.positions[m.vertex(static_cast<Index>(3 * f + k))];
+            std::rotate(faces[f].begin(), std::min_element(faces[f].begin(), faces[f].end(), before),
+                        faces[f].end());
+        }
+        std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+            return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before);
+        });
+        return faces;
+    };
+    CHECK(faces_of(test::read_bytes(files[0], "glb").parts.at(0).mesh) == faces_of(mesh));
 }
 
 TEST_CASE("one order of strips is nearly as small under meshopt as the best of several", "[io]") {
