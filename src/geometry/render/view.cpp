@@ -146,8 +146,9 @@ UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings, Dra
     // large.
     const bool stands_on_y = stance.y_base > 0.03 * stance.area && stance.y_base > 2 * stance.z_base;
     const bool stands_on_z = stance.z_base > 0.03 * stance.area && stance.z_base > 2 * stance.y_base;
-    const bool longer_z = extent.z >= extent.y;
-    UpAndFront out = stands_on_z || (longer_z && !stands_on_y) ? z_up : y_up;
+    // What is longest along x, as vehicles are, tells nothing by its other sides: y is up in most such files.
+    const bool longest_z = extent.z >= extent.y && extent.z >= extent.x;
+    UpAndFront out = stands_on_z || (longest_z && !stands_on_y) ? z_up : y_up;
     if (dot(stance.net, out.front) < -0.1 * stance.area) out.front = -out.front;
     return out;
 }

@@ -17,8 +17,9 @@ Skinned parts are drawn as the nodes place their joints, and morphed parts by th
 as viewers show them before anything plays; other stages work on the bind pose.
 
 The front is towards +z if y points up (glTF), and towards -y if z does. If the file does not say
-which axis is up, the scene stands on its flat base, if it has one; otherwise the longer of the y
-and z extents is taken as up. An open surface is then seen from the side that its faces face.
+which axis is up, the scene stands on its flat base, if it has one; otherwise z is taken as up if
+the scene is longest along it, and y if not. An open surface is then seen from the side that its
+faces face.
 
 The light comes from the upper left of the viewer. `shading: one-sided` takes the cosine of the
 angle between the normal of a face and the light, so faces with reversed vertex order are dark.

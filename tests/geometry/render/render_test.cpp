@@ -284,6 +284,9 @@ TEST_CASE("a scene that does not say where up is stands on its base", "[geometry
     front.from.reset();
     front.viewpoint = Viewpoint::front;
     CHECK(size_of(picture_of(scene, front)).first < 70); // both ends are flat: the longer one, z, is up
+    Scene along = scene;                                 // longest along x: y is up, though z is longer
+    for (Vec3& p : along.parts[0].mesh.positions) p.x *= 3;
+    CHECK(size_of(picture_of(along, front)).second < 35); // 46 with z up
     Mesh& mesh = scene.parts[0].mesh;
     const double lowest = mesh.bounds().min.z;
     for (Index f = 0; f < mesh.face_count();) { // without the side at the lower end of z
