@@ -59,6 +59,24 @@ TEST_CASE("separate names options without effect", "[stages]") {
           }).find("'attribute' goes with by: group") != std::string::npos);
 }
 
+TEST_CASE("parts without groups stay as they are among others", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "other";
+    scene.parts[1].mesh.attributes.push_back(
+        {"group", Domain::face, Role::index, 1, false,
+         std::vector<std::uint32_t>{0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}});
+    const auto run = run_stage("separate", "group", scene).scene;
+    REQUIRE(run.parts.size() == 3);
+    CHECK(run.parts[0].name == "part");
+    CHECK(run.parts[1].name == "other.0");
+    CHECK(run.parts[2].mesh.face_count() == 10);
+    // An attribute that was asked for by name is to be there.
+    CHECK(failure([&] {
+              run_stage("separate", "{by: group, attribute: patch}", scene);
+          }).find("no face attribute 'patch'") != std::string::npos);
+}
+
 TEST_CASE("separate refuses a group that is not there, and too many parts", "[stages]") {
     CHECK(failure([] { run_stage("separate", "group", scene_of(shapes::cube())); }) ==
           "stage [E-GROUP] separate: part 'part' has no face attribute 'group' | merge creates 'group'; "

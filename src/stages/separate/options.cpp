@@ -42,8 +42,11 @@ FaceLabels by_material(const Part& part, const Scene& scene) {
     });
 }
 
-FaceLabels by_group(const Part& part, const std::string& attribute) {
+/// A part without numbers is one group where nobody named them and there are other parts: groups of an OBJ
+/// file may be its parts already.
+FaceLabels by_group(const Part& part, const Scene& scene, const std::string& attribute) {
     const Attribute* a = part.mesh.find(attribute, Domain::face);
+    if (!a && attribute == SeparateOptions{}.attribute && scene.parts.size() > 1) return {};
     if (!a)
         throw Error(ErrorKind::stage, "E-GROUP",
                     fmt::format("separate: part '{}' has no face attribute '{}'", part.name, attribute),
@@ -90,7 +93,7 @@ void verify_separate(const SeparateOptions& o, const Value& given, Problems& pro
 FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {
     const Mesh& mesh = part.mesh;
     if (o.by == By::material) return by_material(part, scene);
-    if (o.by == By::group) return by_group(part, o.attribute);
+    if (o.by == By::group) return by_group(part, scene, o.attribute);
     const Components components = o.cavities ? face_components(mesh, false) : solid_components(mesh);
     return labelled(
         mesh.face_count(), [&](Index f) { return components.of_face[f]; },

@@ -25,8 +25,8 @@ struct FaceLabels {
     std::vector<std::string> names;
 };
 
-/// The pieces of the part. Throws stage (E-GROUP) when it has no such attribute, or one
-/// whose values are not all whole numbers.
+/// The pieces of the part; none where it stays as it is. Throws stage (E-GROUP) when it has no such attribute
+/// and is not one of several parts, or one whose values are not all whole numbers.
 FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
 } // namespace facetmill::separate_stage
