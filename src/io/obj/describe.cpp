@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 
 namespace facetmill::io::obj {
 
@@ -59,6 +58,7 @@ class Describer {
         static const Json nothing = Json::object();
         const Place pbr = place.find("pbrMetallicRoughness").value_or(Place(nothing, "materials"));
         add_colour(place, pbr);
+        out_.double_sided = material_.double_sided;
         add_opacity(place);
         add_light(place);
         add_relief(place);
@@ -275,9 +275,8 @@ class Describer {
     void note_extensions(const Place& material) {
         const auto all = material.find("extensions");
         if (!all) return;
-        static const std::set<std::string> read{"KHR_materials_specular", "KHR_materials_emissive_strength"};
         for (const auto& [name, value] : all->json().items()) {
-            if (read.contains(name)) continue;
+            if (extensions_of_library().contains(name)) continue;
             const bool older = name == "KHR_materials_pbrSpecularGlossiness";
             lose(name, older ? "only its diffuse colour is written" : "MTL has no such word");
             note_textures(value);
@@ -334,6 +333,11 @@ class Describer {
 
 } // namespace
 
+const std::set<std::string>& extensions_of_library() {
+    static const std::set<std::string> all{"KHR_materials_specular", "KHR_materials_emissive_strength"};
+    return all;
+}
+
 Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses) {
     try {
         if (material.document >= 0 && material.index >= 0) return Describer(material, images, losses).run();
@@ -344,6 +348,7 @@ Description describe(const Material& material, LibraryImages& images, LibraryLos
     const auto& base = material.base_colour;
     colour.diffuse = {base[0], base[1], base[2]};
     colour.opacity = base[3];
+    colour.double_sided = material.double_sided;
     return colour;
 }
 

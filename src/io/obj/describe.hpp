@@ -4,6 +4,8 @@
 #include "io/obj/library_images.hpp"
 #include "io/obj/materials.hpp"
 
+#include <set>
+
 namespace facetmill::io::obj {
 
 /// What MTL has no words for, and which materials have it.
@@ -25,6 +27,9 @@ class LibraryLosses {
                      const std::string& material);
     Losses textures_, others_;
 };
+
+/// Extensions of materials that MTL has words for, wholly or in part; of others all is noted as lost.
+const std::set<std::string>& extensions_of_library();
 
 /// The words that are read as the material of the scene: what they cannot say is noted, and images that they
 /// name are marked as used. Of a material that no document has, the colour.

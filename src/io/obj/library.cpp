@@ -58,16 +58,26 @@ class LibraryReader {
   public:
     /// folder: of the library, relative to the OBJ file.
     LibraryReader(const Input& library, fs::path folder, std::map<std::string, Description>& out)
-        : text_(as_text(library.bytes()), library.name(), "E-MTL", '#'), folder_(std::move(folder)),
-          out_(out) {}
+        : all_(as_text(library.bytes())), text_(all_, library.name(), "E-MTL", '#'),
+          folder_(std::move(folder)), out_(out) {}
 
     void read() {
         do {
+            take_comment();
             statement(text_.word_on_line());
         } while (text_.next_line());
     }
 
   private:
+    /// What the line that begins here says where others read nothing.
+    void take_comment() {
+        std::string_view line = all_.substr(text_.offset());
+        line = line.substr(0, line.find_first_of("\r\n"));
+        if (!current_ || !line.starts_with('#')) return;
+        line.remove_prefix(std::min(line.find_first_not_of(' ', 1), line.size()));
+        if (line.starts_with(double_sided_comment)) current_->double_sided = true;
+    }
+
     void statement(std::string_view word) {
         if (word == "newmtl") {
             current_ = &out_[std::string(text_.rest_of_line())];
@@ -171,6 +181,7 @@ class LibraryReader {
         return true;
     }
 
+    std::string_view all_;
     Text text_;
     fs::path folder_;
     std::map<std::string, Description>& out_;

@@ -269,6 +269,7 @@ Json MaterialMaker::material_json(const std::string& name, const Description& d,
     else if (!physical && is_glossy(d) && d.shininess)
         json["pbrMetallicRoughness"]["roughnessFactor"] = roughness_of(*d.shininess);
     if (d.opacity < 1) json["alphaMode"] = "BLEND";
+    if (d.double_sided) json["doubleSided"] = true;
     if (!physical && is_glossy(d) && *d.specular != Colour{1, 1, 1})
         json["extensions"]["KHR_materials_specular"]["specularColorFactor"] = *d.specular;
     if (!textured) {

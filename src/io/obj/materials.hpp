@@ -33,8 +33,11 @@ struct Description {
     std::optional<double> shininess, roughness, metalness; ///< Ns, Pr, Pm
     std::optional<int> illumination;                       ///< illum
     double opacity = 1;                                    ///< d, or 1 - Tr
+    bool double_sided = false;                             ///< as a comment: MTL has no word for it
     std::map<std::string, Map> maps;                       ///< by their word, "map_Kd" as "kd"
     std::vector<std::string> left_out;                     ///< words and options that glTF cannot represent
+
+    bool operator==(const Description&) const = default;
 };
 
 /// The materials of all libraries that the events name, by name. What cannot be read is a warning (W-MTL):
@@ -85,6 +88,9 @@ class MaterialMaker {
     std::map<std::filesystem::path, std::optional<Image>> images_;
     std::map<std::pair<std::string, bool>, Index> known_;
 };
+
+/// What facetmill writes and reads behind # for a material whose both sides are seen.
+inline constexpr std::string_view double_sided_comment = "doubleSided: true";
 
 /// The roughness of a highlight with Phong's exponent (Ns).
 double roughness_of(double exponent);

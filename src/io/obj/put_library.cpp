@@ -3,6 +3,7 @@
 #include "io/flatten.hpp"
 #include "io/obj/materials.hpp"
 
+#include <fmt/format.h>
 #include <initializer_list>
 
 namespace facetmill::io::obj {
@@ -65,6 +66,7 @@ std::string material_library(const std::vector<std::pair<std::string, Descriptio
         put_colour(text, "Ke", d.emission);
         put_value(text, "Pr", d.roughness);
         put_value(text, "Pm", d.metalness);
+        if (d.double_sided) text += fmt::format("# {}\n", double_sided_comment);
         if (d.illumination) text += "illum " + std::to_string(*d.illumination) + '\n';
         for (const auto& [key, word] : words)
             if (const auto map = d.maps.find(key); map != d.maps.end()) put_map(text, word, map->second);

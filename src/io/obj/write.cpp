@@ -1,8 +1,6 @@
 #include "base/progress.hpp"
-#include "base/unique_names.hpp"
 #include "io/flatten.hpp"
-#include "io/obj/describe.hpp"
-#include "mesh/primitives_in_use.hpp"
+#include "io/obj/scene_library.hpp"
 
 #include <bit>
 #include <cstring>
@@ -213,37 +211,6 @@ class PartWriter {
     bool uvs_ = true;
 };
 
-/// Names for usemtl: on one line, never empty, each once.
-std::vector<std::string> material_names(const std::vector<Material>& materials) {
-    std::vector<std::string> names;
-    UniqueNames taken;
-    for (const auto& m : materials) {
-        std::string name = m.name.empty() ? "material" : m.name;
-        for (char& c : name)
-            if (static_cast<unsigned char>(c) <= ' ' || c == '#') c = '_';
-        names.push_back(taken.add(name));
-    }
-    return names;
-}
-
-/// The materials that the file uses, under the names that it has for them.
-std::vector<Material> named_materials(const Scene& scene, const std::vector<std::string>& names) {
-    std::vector<bool> used(scene.materials.size());
-    for (const Part& part : scene.parts) {
-        const std::vector<bool> primitives = primitives_in_use(part.mesh);
-        for (std::size_t p = 0; p < primitives.size(); ++p)
-            if (const Index m = part.mesh.primitives[p].material; primitives[p] && m < used.size())
-                used[m] = true;
-    }
-    std::vector<Material> named;
-    for (std::size_t m = 0; m < used.size(); ++m) {
-        if (!used[m]) continue;
-        named.push_back(scene.materials[m]);
-        named.back().name = names[m];
-    }
-    return named;
-}
-
 void tell_what_is_lost(const Mesh& mesh, Written& written) {
     for (const auto& a : mesh.attributes) {
         const bool face = a.domain == Domain::face &&
@@ -268,31 +235,14 @@ std::string one_line(std::string name) {
     return name;
 }
 
-std::string library_name(const WriteSettings& settings) { return settings.title + ".mtl"; }
-
-/// The .mtl file and the images that it names.
-void add_library(Written& written, const Scene& scene, const std::vector<Material>& materials,
-                 const WriteSettings& settings) {
-    LibraryImages images(scene, settings);
-    LibraryLosses losses;
-    std::vector<std::pair<std::string, Description>> described;
-    described.reserve(materials.size());
-    for (const Material& m : materials) described.emplace_back(m.name, describe(m, images, losses));
-    written.files.push_back({library_name(settings), bytes_of_text(material_library(described))});
-    for (const auto& warnings : {losses.warnings(), images.warnings()})
-        written.warnings.insert(written.warnings.end(), warnings.begin(), warnings.end());
-    for (OutputFile& file : images.take_files()) written.files.push_back(std::move(file));
-}
-
 } // namespace
 
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Bytes bytes;
     append(bytes, "# written by facetmill\n");
-    const std::vector<std::string> materials = material_names(scene.materials);
-    const std::vector<Material> named = named_materials(scene, materials);
-    if (!named.empty()) append(bytes, fmt::format("mtllib {}\n", library_name(settings)));
+    SceneLibrary library(scene, settings);
+    if (const auto name = library.file_name()) append(bytes, fmt::format("mtllib {}\n", *name));
     Offsets offsets;
     Index material = none;
     ShareOfSteps parts(std::vector<double>(scene.parts.size(), 1));
@@ -316,7 +266,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         put_values(bytes, "vn", normal);
         steps.next();
         const Share silent(nullptr); // it writes in pieces, by materials
-        PartWriter writer(bytes, *world, materials, material);
+        PartWriter writer(bytes, *world, library.names(), material);
         writer.faces(uv, normal, offsets);
         writer.lines(offsets);
         offsets.vertex += static_cast<std::int64_t>(world->vertex_count());
@@ -326,12 +276,12 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         tell_what_is_lost(part.mesh, written);
         parts.next();
     }
-    leave_documents(
-        written, scene, "OBJ",
-        {"textures", "KHR_texture_transform", "KHR_materials_specular", "KHR_materials_emissive_strength"});
+    std::set<std::string> kept{"textures", "KHR_texture_transform"};
+    kept.insert(extensions_of_library().begin(), extensions_of_library().end());
+    leave_documents(written, scene, "OBJ", kept);
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
-    if (!named.empty()) add_library(written, scene, named, settings);
+    library.add_to(written);
     return written;
 }
 

@@ -139,6 +139,45 @@ TEST_CASE("a material of MTL is written so that it is read the same again", "[io
     }
 }
 
+TEST_CASE("a material whose both sides are seen stays so through an OBJ", "[io]") {
+    const TemporaryDirectory dir;
+    const io::Written obj = obj_of(dir, R"("doubleSided":true,"pbrMetallicRoughness":{"metallicFactor":0})");
+    CHECK(warnings_of(obj) == "");
+    CHECK(text_of(obj, "lamp.mtl").find("# doubleSided: true\n") != std::string::npos);
+    put_files(obj, dir / "out");
+    const Scene again = load(dir / "out/lamp.obj");
+    CHECK(again.materials.at(0).double_sided);
+    CHECK(materials_of(again)[0]["doubleSided"] == true);
+}
+
+TEST_CASE("one material for faces with and without texture points is one again", "[io]") {
+    const TemporaryDirectory dir;
+    put_images(dir / "in");
+    const std::string mixed = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                              "usemtl m\nf 1/1 2/2 3/3\nf 3 2 1\n";
+    const auto names_in = [](const std::string& mtl) {
+        std::vector<std::string> names;
+        for (std::size_t at = 0; (at = mtl.find("newmtl ", at)) != std::string::npos; ++at)
+            names.push_back(mtl.substr(at + 7, mtl.find('\n', at) - at - 7));
+        return names;
+    };
+    using Names = std::vector<std::string>;
+    const auto both = [&](const std::string& words) {
+        put(dir / "in/a.obj", mixed);
+        put(dir / "in/a.mtl", "newmtl m\n" + words);
+        const Scene scene = load(dir / "in/a.obj");
+        CHECK(scene.materials.size() == 2); // as glTF has no texture without coordinates
+        const io::Written obj = written(scene, "obj", {.title = "lamp"});
+        put_files(obj, dir / "out");
+        CHECK(load(dir / "out/lamp.obj").materials.size() == 2);
+        return names_in(text_of(obj, "lamp.mtl"));
+    };
+    CHECK(both("Kd 0.5 0.5 1\nmap_Kd red.png\n") == Names{"m"});
+    CHECK(both("Kd 1 1 1\nd 0.5\nmap_Kd red.png\nmap_Pr grey.png\nnorm red.png\n") == Names{"m"});
+    // Black is white beside a texture, and black without one.
+    CHECK(both("Kd 0 0 0\nmap_Kd red.png\n") == Names{"m", "m_2"});
+}
+
 TEST_CASE("a GLB keeps its materials and images through an OBJ", "[io]") {
     const TemporaryDirectory dir;
     const io::Written obj = obj_of(
