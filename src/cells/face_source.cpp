@@ -95,9 +95,9 @@ std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSetti
 /// The way a file's numbers are meant, which must be the same for all.
 void take_convention(const io::Input& input, const io::ReadSettings& settings,
                      FaceSource::Contents& contents) {
-    const bool gltf = format_of(input) == Format::gltf;
-    const Unit unit = settings.unit.value_or(gltf ? Unit::m : Unit::unknown);
-    const UpAxis up = settings.up.value_or(gltf ? UpAxis::y : UpAxis::unknown);
+    const io::FileHeader header = io::file_header(input, settings);
+    const Unit unit = header.unit;
+    const UpAxis up = header.up;
     if (contents.files.empty()) {
         contents.unit = unit;
         contents.up = up;

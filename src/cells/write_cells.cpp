@@ -20,12 +20,14 @@ namespace facetmill::cells {
 namespace {
 
 /// The cell as a file of its own.
-io::Bytes file_of(Mesh mesh, const Transform& transform, const io::Codec& codec,
+io::Bytes file_of(Mesh mesh, const WritePlace& place, const io::Codec& codec,
                   const io::WriteSettings& settings) {
     Scene scene;
+    scene.unit = place.convention.unit;
+    scene.up = place.convention.up;
     Part& part = scene.parts.emplace_back();
     part.mesh = std::move(mesh);
-    part.transform = transform;
+    part.transform = place.transform;
     return std::move(codec.write(scene, settings).files.front().bytes);
 }
 
@@ -77,19 +79,20 @@ double rounding_of(const Mesh& mesh, const Transform& transform) {
     return most;
 }
 
-void write_ply(const Partition& partition, const Transform& transform, const io::Codec& codec,
+void write_ply(const Partition& partition, const WritePlace& place, const io::Codec& codec,
                const io::WriteSettings& settings, const std::function<void(io::Span)>& put,
                double& rounding) {
     check_limit(partition.vertices(), INT32_MAX, "vertices", codec);
     ShareOfSteps steps({2, 1});
     Numbering rows(partition.tree());
     bool first = true;
-    const bool flipped = transform.determinant() < 0;
+    const bool flipped = place.transform.determinant() < 0;
     io::Bytes some;
     each_cell(partition, [&](Cell cell) {
         const Numbering::Numbers numbers = rows.next(cell);
-        if (!settings.double_positions) rounding = std::max(rounding, rounding_of(cell.mesh, transform));
-        const io::Bytes bytes = file_of(std::move(cell.mesh), transform, codec, settings);
+        if (!settings.double_positions)
+            rounding = std::max(rounding, rounding_of(cell.mesh, place.transform));
+        const io::Bytes bytes = file_of(std::move(cell.mesh), place, codec, settings);
         const io::ply::Header header = io::ply::read_header(
             io::Input::of("cell", io::Bytes(bytes.begin(), bytes.begin() + head_of(bytes))));
         const std::size_t stride = row_size(header.elements.front().properties);
@@ -124,15 +127,15 @@ void write_ply(const Partition& partition, const Transform& transform, const io:
     });
 }
 
-void write_stl(const Partition& partition, const Transform& transform, const io::Codec& codec,
+void write_stl(const Partition& partition, const WritePlace& place, const io::Codec& codec,
                const io::WriteSettings& settings, const std::function<void(io::Span)>& put,
                double& rounding) {
     constexpr std::size_t title = 80;
     check_limit(partition.faces(), UINT32_MAX, "triangles", codec);
     bool first = true;
     each_cell(partition, [&](Cell cell) {
-        rounding = std::max(rounding, rounding_of(cell.mesh, transform));
-        const io::Bytes bytes = file_of(std::move(cell.mesh), transform, codec, settings);
+        rounding = std::max(rounding, rounding_of(cell.mesh, place.transform));
+        const io::Bytes bytes = file_of(std::move(cell.mesh), place, codec, settings);
         if (std::exchange(first, false)) {
             const auto count = static_cast<std::uint32_t>(partition.faces());
             put(io::Span(bytes).first(title));
@@ -257,9 +260,9 @@ double write_cells(const Partition& partition, const WritePlace& place, const io
                    const io::WriteSettings& settings, const std::function<void(io::Span)>& put) {
     double rounding = 0;
     if (codec.name == "ply")
-        write_ply(partition, place.transform, codec, settings, put, rounding);
+        write_ply(partition, place, codec, settings, put, rounding);
     else if (codec.name == "stl")
-        write_stl(partition, place.transform, codec, settings, put, rounding);
+        write_stl(partition, place, codec, settings, put, rounding);
     else
         write_glb(partition, place, settings, put, rounding);
     return rounding;

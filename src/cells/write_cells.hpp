@@ -3,6 +3,7 @@
 
 #include "cells/partition.hpp"
 #include "io/codec.hpp"
+#include "io/convert.hpp"
 
 #include <functional>
 
@@ -14,6 +15,7 @@ std::optional<std::string> why_not_written(const io::Codec& codec, const io::Wri
 struct WritePlace {
     Transform transform; ///< from the cells' own space to the file's
     Vec3 origin; ///< in the cells' own space: where coordinates of a GLB count from, and its node stands
+    io::Convention convention; ///< of the file's numbers
 };
 
 /// Hands the file over to put, piece by piece: as the codec writes it, but in the order of the cells, and of

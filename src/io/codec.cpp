@@ -212,9 +212,10 @@ FileHeader file_header(const Input& file, const ReadSettings& settings, const Co
     const Input input = readable(file).with_asset_roots(settings.asset_roots);
     ReadLog log; // its warnings come again when the file is read
     const Codec& codec = reader_for(input, log, forced);
-    FileHeader header{codec.name, codec.unit, settings.up.value_or(codec.up)};
+    FileHeader header{codec.name, codec.unit, codec.up};
     if (codec.peek) codec.peek(input, header);
     if (settings.unit) header.unit = *settings.unit;
+    if (settings.up) header.up = *settings.up;
     for (auto& name : header.parts)
         if (name.empty()) name = stem_of(input);
     return header;
@@ -222,11 +223,10 @@ FileHeader file_header(const Input& file, const ReadSettings& settings, const Co
 
 namespace {
 
-/// What the file states, where load was given something else.
-void warn_of_override(const Input& input, const Codec& codec, const ReadSettings& settings, ReadLog& log) {
-    if (!settings.unit && !settings.up) return;
-    FileHeader header{codec.name, codec.unit, codec.up};
-    if (codec.unit != Unit::unknown && settings.unit && codec.peek) codec.peek(input, header);
+/// What the file states, where load was given something else. A scene as it is read has what its file states,
+/// but for formats with a unit and an axis of their own, which are those of the codec.
+void warn_of_override(const Input& input, const Codec& codec, const Scene& scene,
+                      const ReadSettings& settings, ReadLog& log) {
     const auto warn = [&](const char* what, std::string_view stated, std::string_view given) {
         log.warnings.push_back({Severity::warning, "W-OVERRIDDEN",
                                 fmt::format("'{}' states {} {}, and is taken as {}: nothing is converted",
@@ -235,10 +235,14 @@ void warn_of_override(const Input& input, const Codec& codec, const ReadSettings
                                 fmt::format("leave it out; transform: {{{}: {}}} converts", what, given),
                                 false});
     };
+    FileHeader header{codec.name, codec.unit, codec.up};
+    if (codec.unit != Unit::unknown && settings.unit && codec.peek) codec.peek(input, header);
+    if (codec.unit == Unit::unknown) header.unit = scene.unit;
+    if (codec.up == UpAxis::unknown) header.up = scene.up;
     if (settings.unit && header.unit != Unit::unknown && *settings.unit != header.unit)
         warn("unit", to_string(header.unit), to_string(*settings.unit));
-    if (settings.up && codec.up != UpAxis::unknown && *settings.up != codec.up)
-        warn("up", to_string(codec.up), to_string(*settings.up));
+    if (settings.up && header.up != UpAxis::unknown && *settings.up != header.up)
+        warn("up", to_string(header.up), to_string(*settings.up));
 }
 
 } // namespace
@@ -252,7 +256,7 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     ShareOfSteps steps({8, 1});
     Scene scene = codec.read(input, settings, log);
     steps.next();
-    warn_of_override(input, codec, settings, log);
+    warn_of_override(input, codec, scene, settings, log);
     if (settings.unit) scene.unit = *settings.unit;
     if (settings.up) scene.up = *settings.up;
     bool any = false;

@@ -6,6 +6,7 @@
 #include "io/flatten.hpp"
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
+#include "io/stated.hpp"
 #include "io/text.hpp"
 #include "mesh/face.hpp"
 
@@ -462,6 +463,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     if (const std::size_t groups = lost_groups_of_lines(s); groups > 0) s.skipped["groups of l"] = groups;
     report_skipped(s, input.name(), log);
     Scene scene;
+    take_stated(scene, stated_in_lines(as_text(input.bytes())));
     Mesh mesh;
     const bool any_lines = s.lines() > 0;
     if (any_lines) mesh.attributes.push_back(marked_ends(s));
@@ -570,6 +572,7 @@ std::vector<NamedImage> images_of(const std::filesystem::path& path,
 
 /// Libraries are named near the beginning. The parts are known only when all is read.
 void peek(const Input& input, FileHeader& header) {
+    take_stated(header, stated_in_lines(as_text(input.bytes())));
     std::vector<Event> libraries;
     Text text(as_text(input.bytes().first(std::min<std::size_t>(input.bytes().size(), 1 << 20))),
               input.name(), "E-OBJ", '#');

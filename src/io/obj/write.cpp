@@ -1,6 +1,7 @@
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
 #include "io/obj/scene_library.hpp"
+#include "io/stated.hpp"
 
 #include <bit>
 #include <cstring>
@@ -240,7 +241,7 @@ std::string one_line(std::string name) {
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Bytes bytes;
-    append(bytes, "# written by facetmill\n");
+    append(bytes, "# written by facetmill\n" + stated_comments(scene, "# "));
     SceneLibrary library(scene, settings);
     if (const auto name = library.file_name()) append(bytes, fmt::format("mtllib {}\n", *name));
     Offsets offsets;

@@ -3,6 +3,7 @@
 #include "base/progress.hpp"
 #include "io/attributes.hpp"
 #include "io/not_finite.hpp"
+#include "io/stated.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -331,7 +332,9 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         BinaryReader(out, kind, text.offset()).read();
     else
         TextReader(out, text, kind).read();
-    return out.finish(log);
+    Scene scene = out.finish(log);
+    if (!kind.binary) take_stated(scene, stated_in_lines(as_text(input.bytes()), "OFF"));
+    return scene;
 }
 
 namespace {
@@ -353,6 +356,8 @@ const RegisterCodec codec({
         },
     .read = read,
     .write = write,
+    .peek = [](const Input& input,
+               FileHeader& header) { take_stated(header, stated_in_lines(as_text(input.bytes()), "OFF")); },
 });
 } // namespace
 

@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
+#include "io/stated.hpp"
 
 #include <fmt/format.h>
 
@@ -94,8 +95,8 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     const Rows rows{*world, world->has_seams() && colour && colours_differ(*world, *colour)};
     Written written;
     Bytes bytes;
-    append(bytes, fmt::format("{}{}OFF\n{} {} 0\n", colour ? "C" : "", normal ? "N" : "", rows.count(),
-                              world->face_count()));
+    append(bytes, fmt::format("{}{}OFF\n{}{} {} 0\n", colour ? "C" : "", normal ? "N" : "",
+                              stated_comments(scene, "# "), rows.count(), world->face_count()));
     ShareOfSteps steps({2, 3});
     put_rows(bytes, rows, colour, normal, settings.double_positions);
     steps.next();

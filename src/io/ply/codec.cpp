@@ -5,6 +5,7 @@
 #include "io/ply/ply.hpp"
 #include "io/ply/table.hpp"
 #include "io/ply/textures.hpp"
+#include "io/stated.hpp"
 
 #include <algorithm>
 
@@ -67,6 +68,7 @@ const RegisterCodec codec({
     .peek =
         [](const Input& input, FileHeader& header) {
             const Header read = read_header(input);
+            take_stated(header, read.stated);
             for (const auto& texture : read.textures)
                 if (const auto relative = relative_path_of(texture))
                     if (const auto path = path_below(input, *relative)) header.files.push_back(*path);

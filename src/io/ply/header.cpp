@@ -1,4 +1,5 @@
 #include "io/ply/ply.hpp"
+#include "io/stated.hpp"
 #include "io/text.hpp"
 
 #include <fmt/format.h>
@@ -114,7 +115,11 @@ Header read_header(const Input& input) {
             header.size = text.offset();
             return header;
         } else if (word == "comment") {
-            if (text.word_on_line() == "TextureFile") header.textures.emplace_back(text.rest_of_line());
+            Text ahead = text;
+            if (ahead.word_on_line() == "TextureFile")
+                header.textures.emplace_back(ahead.rest_of_line());
+            else
+                take_comment(text.rest_of_line(), header.stated);
         } else if (word != "obj_info" && !word.empty()) {
             text.fail(
                 fmt::format("expected element, property, comment or end_header, found {}", in_quotes(word)));

@@ -299,6 +299,7 @@ Scene Builder::read() {
         fail(*strips_.element, "faces and strips in one file cannot be read");
     add_strips();
     Scene scene;
+    take_stated(scene, header.stated);
     add_textures(scene, header);
     if (faces_.count() > 0) {
         add_colours(faces_, mesh_, Domain::face);

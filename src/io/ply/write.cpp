@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
+#include "io/stated.hpp"
 
 #include <array>
 #include <bit>
@@ -179,12 +180,12 @@ void add_attributes(Layout& l, const std::vector<Index>& first, Written& written
     }
 }
 
-std::string header_of(const Layout& l) {
+std::string header_of(const Layout& l, const Scene& scene) {
     const char* encoding = l.settings.ascii        ? "ascii"
                            : l.settings.big_endian ? "binary_big_endian"
                                                    : "binary_little_endian";
-    std::string text = fmt::format("ply\nformat {} 1.0\ncomment written by facetmill\nelement vertex {}\n",
-                                   encoding, l.rows());
+    std::string text = fmt::format("ply\nformat {} 1.0\ncomment written by facetmill\n{}element vertex {}\n",
+                                   encoding, stated_comments(scene, "comment "), l.rows());
     for (const auto& c : l.vertex) text += fmt::format("property {} {}\n", name_of(c.type()), c.name);
     text += fmt::format("element face {}\nproperty list {} int vertex_indices\n", l.mesh.face_count(),
                         name_of(l.count_type));
@@ -337,7 +338,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         written.changes.push_back(
             {"materials", Domain::face, AttributeChange::Kind::dropped, "PLY has no materials"});
     Bytes bytes;
-    append(bytes, header_of(l));
+    append(bytes, header_of(l, scene));
     if (settings.ascii)
         write_ascii(bytes, l);
     else

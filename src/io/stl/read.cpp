@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "base/spelling.hpp"
 #include "io/not_finite.hpp"
+#include "io/stated.hpp"
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/places.hpp"
@@ -252,10 +253,28 @@ bool is_text(Span bytes) {
     return word.empty() || same_word(word, "facet") || same_word(word, "endsolid") || bytes.size() < head;
 }
 
+namespace {
+
+/// What the words between semicolons state, of the bytes before the count.
+Convention stated_in_head(Span bytes) {
+    std::string_view words = as_text(bytes.first(std::min(bytes.size(), head - sizeof(std::uint32_t))));
+    words = words.substr(0, words.find('\0'));
+    Convention stated;
+    while (!words.empty()) {
+        const std::size_t end = std::min(words.find(';'), words.size());
+        take_comment(words.substr(0, end), stated);
+        words.remove_prefix(std::min(end + 1, words.size()));
+    }
+    return stated;
+}
+
+} // namespace
+
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     if (is_text(input.bytes())) return TextReader(input).read(input, settings);
     Scene scene;
     scene.parts.push_back(read_binary(input, settings, log));
+    take_stated(scene, stated_in_head(input.bytes()));
     return scene;
 }
 
@@ -276,6 +295,10 @@ const RegisterCodec codec({
         },
     .read = read,
     .write = write,
+    .peek =
+        [](const Input& input, FileHeader& header) {
+            if (!is_text(input.bytes())) take_stated(header, stated_in_head(input.bytes()));
+        },
 });
 } // namespace
 

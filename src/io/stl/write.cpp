@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
+#include "io/stated.hpp"
 
 #include <array>
 #include <cstring>
@@ -86,8 +87,8 @@ const std::vector<std::uint16_t>* attribute_bytes(const Mesh& mesh) {
     return a && a->components == 1 ? std::get_if<std::vector<std::uint16_t>>(&a->data) : nullptr;
 }
 
-void write_binary(Bytes& bytes, const Mesh& mesh) {
-    constexpr std::string_view title = "binary STL, written by facetmill";
+void write_binary(Bytes& bytes, const Mesh& mesh, const Scene& scene) {
+    const std::string title = "binary STL, written by facetmill" + stated_comments(scene, "; ", "");
     bytes.resize(head + record * mesh.face_count());
     std::memcpy(bytes.data(), title.data(), title.size());
     const auto n = static_cast<std::uint32_t>(mesh.face_count());
@@ -144,7 +145,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     } else {
         const WorldMesh world(scene);
         require_floats(*world, "the scene");
-        write_binary(bytes, *Triangles(*world));
+        write_binary(bytes, *Triangles(*world), scene);
     }
     tell_what_is_lost(scene, settings, written);
     written.files.push_back({settings.title + ".stl", std::move(bytes)});

@@ -36,9 +36,10 @@ void declare(Declare<LoadOptions>& d) {
         .primary()
         .required();
     d.choice<Unit>("unit", &LoadOptions::unit,
-                   unit_choices("auto", "as stated by the format, otherwise unknown"),
+                   unit_choices("auto", "as the file or its format states, otherwise unknown"),
                    "The unit of the file's numbers.");
-    d.choice<UpAxis>("up", &LoadOptions::up, up_choices("auto", "as stated by the format, otherwise unknown"),
+    d.choice<UpAxis>("up", &LoadOptions::up,
+                     up_choices("auto", "as the file or its format states, otherwise unknown"),
                      "The axis that points up in the file.");
     d.option("format", &LoadOptions::format,
              "The name of the format, when neither content nor suffix shows it.");

@@ -119,7 +119,8 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
         write_tileset(o, settings, flow, outline, report, context);
         return context.report(fields_of<WriteReport>(declare_write_report), &report);
     }
-    const cells::WritePlace place{outline.parts.front().transform, origin_of(o, codec, flow)};
+    const cells::WritePlace place{
+        outline.parts.front().transform, origin_of(o, codec, flow), {outline.unit, outline.up}};
     double rounding = 0;
     const auto& staged = context.run().outputs.add(
         target,

@@ -1,0 +1,27 @@
+#pragma once
+// What files of formats without a unit and an up axis tell of them in comments: "# unit: mm" and "# up: z" of
+// OBJ and OFF, "comment unit: mm" of PLY, and the same words in the header of binary STL.
+
+#include "io/codec.hpp"
+#include "io/convert.hpp"
+
+#include <string_view>
+
+namespace facetmill::io {
+
+/// The comments of a scene, each behind `before`: one for its unit and one for what is up, where they are
+/// known. Those of a reader: "# unit: m\n# up: y\n".
+std::string stated_comments(const Scene& scene, std::string_view before, std::string_view after = "\n");
+
+/// Takes what a comment states; the last one counts, and other comments say nothing.
+void take_comment(std::string_view comment, Convention& stated);
+
+/// What the comments (#) at the beginning of a text state, before its first line of anything else. keyword:
+/// what the first such line may end with, for comments to go on behind it.
+Convention stated_in_lines(std::string_view text, std::string_view keyword = {});
+
+/// What the reader of a file takes for the scene's.
+void take_stated(Scene& scene, const Convention& stated);
+void take_stated(FileHeader& header, const Convention& stated);
+
+} // namespace facetmill::io

@@ -1,0 +1,78 @@
+// What files of formats without a unit and an up axis tell of them in comments.
+#include "io/stated.hpp"
+
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+
+using namespace facetmill;
+using namespace facetmill::test;
+
+namespace {
+
+io::Convention stated_by(std::string_view text, std::string_view keyword = {}) {
+    return io::stated_in_lines(text, keyword);
+}
+
+Scene cube_in(Unit unit, UpAxis up) {
+    Scene scene;
+    scene.parts.push_back({.name = "cube", .mesh = shapes::cube()});
+    scene.unit = unit;
+    scene.up = up;
+    return scene;
+}
+
+std::string text_of(const io::Bytes& bytes) { return std::string(io::as_text(bytes)); }
+
+} // namespace
+
+TEST_CASE("the unit and the up axis of a scene are read back from what is written", "[io]") {
+    for (const char* format : {"obj", "ply", "off", "stl"})
+        for (const Unit unit : {Unit::unknown, Unit::um, Unit::mm, Unit::m, Unit::inch, Unit::foot})
+            for (const UpAxis up : {UpAxis::unknown, UpAxis::y, UpAxis::z}) {
+                INFO(format << " " << to_string(unit) << " " << to_string(up));
+                const io::Bytes bytes = written(cube_in(unit, up), format).files.at(0).bytes;
+                const Scene again = read_bytes(bytes, format);
+                CHECK(again.unit == unit);
+                CHECK(again.up == up);
+                const auto input = io::Input::of(std::string("cube.") + format, io::Bytes(bytes));
+                const io::FileHeader header = io::file_header(input, {});
+                CHECK(header.unit == unit);
+                CHECK(header.up == up);
+                CHECK(io::file_header(input, {.unit = Unit::km, .up = UpAxis::y}).unit == Unit::km);
+            }
+    // A scene that knows neither has a file without them.
+    CHECK(text_of(written(cube_in(Unit::unknown, UpAxis::unknown), "obj").files.at(0).bytes)
+              .starts_with("# written by facetmill\no "));
+}
+
+TEST_CASE("load takes what it is given, and tells that a comment states something else", "[io]") {
+    const io::Bytes bytes = written(cube_in(Unit::mm, UpAxis::z), "obj").files.at(0).bytes;
+    io::ReadLog log;
+    const Scene scene =
+        io::read_scene(io::Input::of("cube.obj", io::Bytes(bytes)), {.unit = Unit::cm, .up = UpAxis::y}, log);
+    CHECK(scene.unit == Unit::cm);
+    CHECK(scene.up == UpAxis::y);
+    REQUIRE(log.warnings.size() == 2);
+    CHECK(log.warnings[0].message == "'cube.obj' states unit mm, and is taken as cm: nothing is converted");
+    CHECK(log.warnings[1].message == "'cube.obj' states up z, and is taken as y: nothing is converted");
+    log = {};
+    io::read_scene(io::Input::of("cube.obj", io::Bytes(bytes)), {.unit = Unit::mm, .up = UpAxis::z}, log);
+    CHECK(log.warnings.empty());
+}
+
+TEST_CASE("only comments before the first line of anything else count", "[io]") {
+    const auto says = [](const io::Convention& c, Unit unit, UpAxis up) {
+        return c.unit == unit && c.up == up;
+    };
+    CHECK(says(stated_by("# unit: mm\n# up: z\nv 0 0 0\n"), Unit::mm, UpAxis::z));
+    CHECK(says(stated_by("\n#unit:in\r\n\r\n  #  up: y  \r\nv 0 0 0"), Unit::inch, UpAxis::y));
+    CHECK(says(stated_by("# up: z"), Unit::unknown, UpAxis::z));
+    CHECK(says(stated_by("# unit: mm\n# unit: m\n"), Unit::m, UpAxis::unknown));
+    CHECK(says(stated_by("v 0 0 0\n# unit: mm\n"), Unit::unknown, UpAxis::unknown));
+    CHECK(says(stated_by("# unit: parsec\n# up: x\n# units are mm, up: y\n# up:\n"), Unit::unknown,
+               UpAxis::unknown));
+    CHECK(says(stated_by(""), Unit::unknown, UpAxis::unknown));
+    CHECK(says(stated_by("COFF\n# unit: m\n8 6 12\n# up: y\n", "OFF"), Unit::m, UpAxis::unknown));
+    CHECK(says(stated_by("OFF\nOFF\n# unit: m\n", "OFF"), Unit::unknown, UpAxis::unknown));
+}
