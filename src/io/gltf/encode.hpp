@@ -49,6 +49,11 @@ struct Table {
     std::vector<Index> indices;
 };
 
+/// What Draco compresses well: degenerate faces, which would have it fall back to storing indices, are
+/// dropped or go into tables of their own. A table that has nothing else stays. With morph targets indices
+/// are stored anyway.
+std::vector<Table> draco_tables(const Mesh& mesh, std::vector<Table> tables, bool targets,
+                                const EncodeSettings& settings, EncodedMesh& out);
 /// Draco's part: fills the primitive's accessors and extension.
 void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& table,
                             const std::vector<Column>& columns, const EncodeSettings& settings,
