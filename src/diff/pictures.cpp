@@ -61,7 +61,7 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
         if (*view) (*view)->posed = posed_a || posed_b;
     ViewedScenes viewed(2);
     viewed.add_before(a, name_a, looks_a);
-    viewed.add_after(b, name_b, looks_b, &tree, name_a);
+    viewed.add_after(b, name_b, looks_b, {&tree, name_a});
     out.view = viewed.json();
     return out;
 }

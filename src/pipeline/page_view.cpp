@@ -1,7 +1,5 @@
 #include "pipeline/page_view.hpp"
 
-#include "geometry/deviation/signed_deviation.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -42,9 +40,9 @@ void PageView::before(const Step& step, const Scene& scene) {
 void PageView::add(const Scene& scene, const std::string& name) {
     const auto from = page_.reference();
     const bool compared = from && page_.differs(name) && from->faces > 0 && from->faces <= most_to_compare;
-    std::string from_name = compared ? from->name : std::string();
-    if (compared && last_cap(scene) > from->last_cap) from_name += " (of caps, too, which it has not)";
-    viewed_.add_after(scene, name, looks(scene), compared ? &from->shown->tree() : nullptr, from_name);
+    report::ViewedFrom seen_from;
+    if (compared) seen_from = {&from->shown->tree(), from->name, from->last_cap};
+    viewed_.add_after(scene, name, looks(scene), seen_from);
     any_after_ = true;
 }
 

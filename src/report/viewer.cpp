@@ -50,11 +50,47 @@ const char* word_of(MaterialLook::Alpha alpha) {
                                                  : "opaque";
 }
 
-/// The vertices of triangles.
-std::span<const Vec3> of_surface(const Preview& preview) {
-    const std::span<const Vec3> all = preview.mesh.positions;
-    if (preview.first_loose >= preview.mesh.wedge_count()) return all;
-    return all.first(preview.mesh.vertex_of_wedge(static_cast<Index>(preview.first_loose)));
+/// The vertices of faces that are no caps: those that are as far away as their distance tells.
+std::vector<Index> measured_vertices(const Preview& preview) {
+    const Mesh& mesh = preview.mesh;
+    std::vector<std::uint8_t> measured(mesh.vertex_count());
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (const Index w : mesh.face_wedges(f))
+            measured[mesh.vertex_of_wedge(w)] |= !preview.paints[mesh.primitive_of(f)].cap;
+    std::vector<Index> vertices;
+    for (Index v = 0; v < measured.size(); ++v)
+        if (measured[v]) vertices.push_back(v);
+    return vertices;
+}
+
+/// As far as the scale of the colours reaches, and farther.
+struct Distances {
+    std::vector<float> all; ///< [vertices] or empty; what is not measured has 0
+    double largest = 0, scale = 1;
+};
+
+Distances distances_of(const Preview& preview, const FaceTree& tree) {
+    const Mesh& mesh = preview.mesh;
+    const std::vector<Index> vertices = measured_vertices(preview);
+    Distances out;
+    if (vertices.empty()) return out;
+    std::vector<Vec3> points;
+    points.reserve(vertices.size());
+    for (const Index v : vertices) points.push_back(mesh.positions[v]);
+    const std::vector<float> found = signed_distances(tree, points);
+    out.largest = largest_of(found);
+    const double most = colour_limit(found, out.largest, box_of(mesh.positions).diagonal());
+    out.scale = most > 0 ? most : 1;
+    out.all.resize(mesh.vertex_count());
+    for (std::size_t i = 0; i < vertices.size(); ++i) out.all[vertices[i]] = found[i];
+    return out;
+}
+
+/// Whether two scenes of a view cannot be told apart in it.
+bool look_alike(const Json& a, const Json& b) {
+    for (const char* key : {"data", "groups", "origin", "size", "up", "front"})
+        if (a[key] != b[key]) return false;
+    return true;
 }
 
 Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -71,15 +107,14 @@ void ViewedScenes::stand_as(const Camera& camera, UpAxis up) {
 
 void ViewedScenes::add_before(const Scene& scene, const std::string& name,
                               const std::shared_ptr<const MaterialLooks>& looks) {
-    auto json = packed(scene, name, looks, nullptr);
+    auto json = packed(scene, name, looks, {});
     if (!json) return;
     (*json)["before"] = true;
     scenes_.push_back(std::move(*json));
 }
 
 void ViewedScenes::add_after(const Scene& scene, const std::string& name,
-                             const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from,
-                             const std::string& from_name) {
+                             const std::shared_ptr<const MaterialLooks>& looks, const ViewedFrom& from) {
     if (bytes_ > most_bytes * 3 / 4 || scenes_.size() > most_scenes) {
         ++left_out_;
         return;
@@ -87,10 +122,10 @@ void ViewedScenes::add_after(const Scene& scene, const std::string& name,
     auto json = packed(scene, name, looks, from);
     if (!json) return;
     (*json)["before"] = false;
-    (*json)["reference"] = from_name;
+    (*json)["reference"] = from.name;
     if (!scenes_.empty()) {
         Json& last = scenes_.back();
-        if (last["data"] == (*json)["data"] && last["groups"] == (*json)["groups"]) {
+        if (look_alike(last, *json)) {
             if (last["name"] != name) last["name"] = last["name"].get<std::string>() + ", " + name;
             last["before"] = false;
             return;
@@ -101,18 +136,14 @@ void ViewedScenes::add_after(const Scene& scene, const std::string& name,
 
 std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& name,
                                          const std::shared_ptr<const MaterialLooks>& looks,
-                                         const FaceTree* from) {
+                                         const ViewedFrom& from) {
     const auto posed = io::posed(given);
     const Scene& scene = posed ? *posed : given;
-    const Preview preview = preview_of(scene, {faces_, looks});
+    const Preview preview = preview_of(scene, {faces_, looks, from.last_cap});
     if (preview.mesh.vertex_count() == 0) return {};
-    std::vector<float> distances;
-    if (from && !from->empty() && preview.mesh.face_count() > 0)
-        distances = signed_distances(*from, of_surface(preview));
-    const double largest = largest_of(distances);
-    const double most = colour_limit(distances, largest, box_of(preview.mesh.positions).diagonal());
-    if (!distances.empty()) distances.resize(preview.mesh.vertex_count()); // lines and points have none
-    PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
+    Distances distances;
+    if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
+    PackedMesh mesh = report::packed(preview, distances.all, distances.scale);
     // A scene that does not say what is up keeps that of the first.
     const Camera camera = first_ && first_up_ == scene.up ? *first_ : camera_of(scene);
     if (!first_) stand_as(camera, scene.up);
@@ -125,32 +156,33 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
                  {"unit", scene.unit == Unit::unknown ? "" : to_string(scene.unit)},
                  {"groups", Json::array()}};
     json.update(mesh.json);
-    if (!distances.empty()) {
-        json["deviation"] = most > 0 ? most : 1;
-        json["largest"] = largest;
+    if (!distances.all.empty()) {
+        json["deviation"] = distances.scale;
+        json["largest"] = distances.largest;
     }
     const bool textures = preview.mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
     for (const PackedGroup& g : mesh.groups)
-        json["groups"].push_back(
-            group(scene, g.paint.material, g.paint.coloured, g.faces, textures, looks.get()));
+        json["groups"].push_back(group(scene, g.paint, g.faces, textures, looks.get()));
     bytes_ += json["data"].get_ref<const std::string&>().size();
     return json;
 }
 
-Json ViewedScenes::group(const Scene& scene, Index material, bool coloured, std::size_t count, bool textures,
+Json ViewedScenes::group(const Scene& scene, const PreviewPaint& paint, std::size_t count, bool textures,
                          const MaterialLooks* looks) {
+    const Index material = paint.material;
     const MaterialLook* look = looks && material < looks->size() ? &(*looks)[material] : nullptr;
     const double grey[3] = {0.72, 0.74, 0.78}; // as in pictures
     Json base = Json::array();
     for (std::size_t c = 0; c < 4; ++c)
-        base.push_back(look ? static_cast<double>(look->base[c]) : coloured || c == 3 ? 1.0 : grey[c]);
+        base.push_back(look ? static_cast<double>(look->base[c]) : paint.coloured || c == 3 ? 1.0 : grey[c]);
     const auto alpha = look ? look->alpha : MaterialLook::Alpha::opaque;
     Json image;
     if (look && look->base_texture && textures)
         image = texture(look->base_texture, alpha != MaterialLook::Alpha::opaque);
     return {{"count", count},
             {"base", std::move(base)},
-            {"coloured", coloured},
+            {"coloured", paint.coloured},
+            {"cap", paint.cap},
             {"texture", std::move(image)},
             {"alpha", word_of(alpha)},
             {"cutoff", look ? static_cast<double>(look->cutoff) : 0.5},

@@ -2,6 +2,7 @@
 // The 3D view of a page: scenes as few triangles, packed into the page, and drawn there by viewer.js.
 
 #include "base/json.hpp"
+#include "geometry/preview/preview.hpp"
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/face_tree.hpp"
 #include "mesh/scene.hpp"
@@ -12,6 +13,13 @@
 #include <tuple>
 
 namespace facetmill::report {
+
+/// A surface that the distances of a scene are taken from.
+struct ViewedFrom {
+    const FaceTree* tree = nullptr; ///< null: there are no such colours
+    std::string name{};
+    std::optional<Index> last_cap{}; ///< SignedDeviationSettings::last_cap
+};
 
 /// Gathers the scenes that one view shows: one before, and those after it.
 class ViewedScenes {
@@ -25,19 +33,17 @@ class ViewedScenes {
     /// The scene that the others are compared with, first of all.
     void add_before(const Scene& scene, const std::string& name,
                     const std::shared_ptr<const MaterialLooks>& looks);
-    /// A scene after it; one that looks as the last only adds its name to that, as it does where nothing has
-    /// changed. from: coloured by the signed
-    /// distances of its vertices from this, too, which is called so; none: no such colours.
+    /// A scene after it; one that looks as the last, at the same place, only adds its name to that, as it
+    /// does where nothing has changed. from: coloured by the signed distances of its vertices from this, too.
     void add_after(const Scene& scene, const std::string& name,
-                   const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from = nullptr,
-                   const std::string& from_name = {});
+                   const std::shared_ptr<const MaterialLooks>& looks, const ViewedFrom& from = {});
     /// What viewer_section() takes; null where there is nothing to be seen.
     Json json() const;
 
   private:
     std::optional<Json> packed(const Scene& scene, const std::string& name,
-                               const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from);
-    Json group(const Scene& scene, Index material, bool coloured, std::size_t count, bool textures,
+                               const std::shared_ptr<const MaterialLooks>& looks, const ViewedFrom& from);
+    Json group(const Scene& scene, const PreviewPaint& paint, std::size_t count, bool textures,
                const MaterialLooks* looks);
     Json texture(const Texture& texture, bool with_alpha);
 

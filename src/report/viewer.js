@@ -430,7 +430,6 @@ void main() {
   // What blends comes last, over all else; grey and deviations are opaque.
   function draw_faces(scene, mode, wireframe) {
     const over = wireframe || scene.loose < scene.dots; // lines on the surface
-    gl.uniform1i(uniforms.mode, mode);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const blending of [false, true]) {
@@ -440,6 +439,7 @@ void main() {
         if (blends === blending) {
           const texture = mode === 0 ? image_of(group.texture) : null;
           gl.bindTexture(gl.TEXTURE_2D, texture || scale_texture);
+          gl.uniform1i(uniforms.mode, mode === 2 && group.cap ? 1 : mode);
           gl.uniform1i(uniforms.textured, Boolean(texture));
           gl.uniform4fv(uniforms.base, group.base);
           gl.uniform1i(uniforms.blends, blends);
@@ -493,7 +493,8 @@ void main() {
       shown < all ? `${grouped(shown)} of ${grouped(all)} ${what}` : `all ${grouped(all)} ${what}`);
     section.querySelector(".caption").textContent =
       `${scene.before ? "Before: " : ""}${scene.name}, shown with ${shown.join(", ")}.` +
-      (scene.deviation && heat ? ` Colours: signed distance from ${scene.reference}, blue inside, red outside.` : "") +
+      (scene.deviation && heat ? ` Colours: signed distance from ${scene.reference}, blue inside, red outside` +
+        `${scene.groups.some((group) => group.cap) ? "; what closes cuts (caps) is grey" : ""}.` : "") +
       (scene.note && !heat ? ` ${scene.note}` : "") + (data.left_out ? ` ${data.left_out}` : "");
     canvas.setAttribute("aria-label", `3D view of ${scene.name}`);
     const scale = section.querySelector(".scale"), [low, high] = scale.querySelectorAll("span");

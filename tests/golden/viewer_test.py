@@ -131,6 +131,22 @@ report: page.html
             self.assertTrue(browser.do("document.querySelector('.viewer fieldset').hidden"))
             self.clean(browser)
 
+    def test_what_closes_a_cut_is_grey(self):
+        """Seen onto the cap of half a ball, where nothing but the cap is seen."""
+        self.mill("pipe", "-q", "--report", "page.html", "generate", "icosphere", "--subdivisions", "4", "!", "clip", "z=0.3",
+                  "--cap", "--keep", "back", "!", "split", "midpoint", "--passes", "2", "!", "write", "half.ply")
+        with Browser() as browser:
+            browser.size(600, 600)
+            self.page(browser, self.dir / "page.html")
+            self.assertNotIn("caps", browser.do("document.querySelector('.viewer .caption').textContent"))
+            self.choose(browser, "colours", "deviation")
+            self.assertIn("what closes cuts (caps) is grey", browser.do("document.querySelector('.viewer .caption').textContent"))
+            shown = browser.do(SHOWN)
+            self.assertGreater(shown["covered"], 0.02)
+            self.assertLess(abs(shown["red"] - shown["blue"]), 12, shown)  # neither is far off
+            self.assertRegex(browser.do("document.querySelector('.viewer .scale').textContent"), r"largest [\d.]+e-1\d")
+            self.clean(browser)
+
     def test_textures_and_colours(self):
         self.write("red.obj", "mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl red\n"
                    "f 1/1 2/2 3/3 4/4\n")

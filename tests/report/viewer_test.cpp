@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/clip/clip.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/surface.hpp"
 #include "support/run_stage.hpp"
@@ -17,9 +18,9 @@ TEST_CASE("a view has a scene before and those after it, each once", "[report]")
     const Scene before = scene_of(shapes::icosphere(2), Unit::mm), after = scene_of(shapes::icosphere(1));
     const FaceTree tree(surface_of(before), FaceTree::Use::near);
     viewed.add_before(before, "a.ply", nullptr);
-    viewed.add_after(after, "b.glb", nullptr, &tree, "a.ply");
-    viewed.add_after(after, "b.stl", nullptr, &tree, "a.ply");
-    viewed.add_after(scene_of(Mesh{}), "empty.ply", nullptr, &tree, "a.ply");
+    viewed.add_after(after, "b.glb", nullptr, {&tree, "a.ply"});
+    viewed.add_after(after, "b.stl", nullptr, {&tree, "a.ply"});
+    viewed.add_after(scene_of(Mesh{}), "empty.ply", nullptr, {&tree, "a.ply"});
     const Json json = viewed.json();
     REQUIRE(json["scenes"].size() == 2);
     CHECK(json["scenes"][0]["name"] == "a.ply");
@@ -31,6 +32,66 @@ TEST_CASE("a view has a scene before and those after it, each once", "[report]")
     CHECK(json["scenes"][1]["faces"] == 80);
     CHECK(json["scenes"][1]["largest"].get<double>() < 1e-6); // its vertices are among the other's
     CHECK(json["left_out"] == "");
+}
+
+TEST_CASE("a scene that was moved or made larger is another one to a view", "[report]") {
+    const Scene ball = scene_of(shapes::icosphere(1));
+    ViewedScenes viewed(4);
+    viewed.add_before(ball, "ball", nullptr);
+    viewed.add_after(ball, "same", nullptr);
+    for (const double scale : {2.0, 1.0}) {
+        Scene other = ball;
+        for (Vec3& p : other.parts[0].mesh.positions) p = p * scale + Vec3{3, 0, 0};
+        viewed.add_after(other, "other", nullptr);
+    }
+    const Json json = viewed.json();
+    REQUIRE(json["scenes"].size() == 3);
+    CHECK(json["scenes"][0]["name"] == "ball, same");
+}
+
+TEST_CASE("what closes a cut has no distance in a view, and does not widen the scale", "[report]") {
+    const Mesh ball = shapes::icosphere(4);
+    ClipSettings settings;
+    settings.planes = {{{0, 0, 1}, {0, 0, 0.25}}};
+    settings.cap = settings.cap_numbers = true;
+    Mesh mesh = clip(ball, settings).front;
+    mesh.positions.push_back({0, 0, 0.25}); // a corner of a cap that lies inside the ball
+    mesh.corners.back() = static_cast<Index>(mesh.vertex_count() - 1);
+    REQUIRE(mesh.find("cut_id", Domain::face)->value(mesh.face_count() - 1, 0) == 1);
+    const Scene half = scene_of(std::move(mesh));
+    const FaceTree tree(surface_of(ball), FaceTree::Use::near);
+    const auto with_caps_above = [&](std::optional<Index> last_cap) {
+        ViewedScenes viewed(2);
+        viewed.add_after(half, "half", nullptr, {&tree, "ball", last_cap});
+        return viewed.json()["scenes"][0];
+    };
+    const auto caps = [](const Json& scene) {
+        std::size_t count = 0;
+        for (const Json& group : scene["groups"])
+            if (group["cap"].get<bool>()) count += group["count"].get<std::size_t>();
+        return count;
+    };
+    CHECK(with_caps_above({})["largest"].get<double>() > 0.01);
+    CHECK(caps(with_caps_above({})) == 0);
+    CHECK(with_caps_above(0)["largest"].get<double>() < 1e-6);
+    CHECK(caps(with_caps_above(0)) > 0);
+    CHECK(caps(with_caps_above(1)) == 0); // the reference has this one
+}
+
+TEST_CASE("a view stands as the picture beside it", "[report]") {
+    Scene scene = scene_of(shapes::icosphere(1));
+    scene.up = UpAxis::unknown;
+    const auto up_of = [&](UpAxis stated) {
+        ViewedScenes viewed(1);
+        Camera camera;
+        camera.up = {1, 0, 0};
+        camera.front = {0, 1, 0};
+        viewed.stand_as(camera, stated);
+        viewed.add_before(scene, "a", nullptr);
+        return viewed.json()["scenes"][0]["up"];
+    };
+    CHECK(up_of(UpAxis::unknown) == Json({1.0, 0.0, 0.0}));
+    CHECK(up_of(UpAxis::y) != Json({1.0, 0.0, 0.0}));
 }
 
 TEST_CASE("a view tells how many triangles are shown, and stays small", "[report]") {

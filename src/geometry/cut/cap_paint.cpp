@@ -75,6 +75,20 @@ Index largest_number(const Mesh& mesh, std::string_view name) {
         [](Index a, Index b) { return std::max(a, b); });
 }
 
+std::vector<std::uint8_t> later_caps(const Mesh& mesh, Index last) {
+    const Attribute* cut = mesh.find(cut_id_attribute, Domain::face);
+    const Attribute* group = mesh.find(group_attribute, Domain::face);
+    if (!cut || !group || largest_number(mesh, cut_id_attribute) <= last) return {};
+    std::vector<std::uint8_t> caps(mesh.face_count());
+    bool any = false;
+    for (std::size_t f = 0; f < caps.size(); ++f) {
+        caps[f] = cut->value(f, 0) > last && group->value(f, 0) > 0;
+        any |= caps[f] != 0;
+    }
+    if (!any) caps.clear();
+    return caps;
+}
+
 bool caps_have_own_wedges(const Mesh& mesh) {
     return std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [](const Attribute& a) {
         return a.domain == Domain::wedge &&

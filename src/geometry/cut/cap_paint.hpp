@@ -1,5 +1,5 @@
 #pragma once
-// The attributes that caps have of their own. For the stages that cap only.
+// The attributes that caps have of their own, for the stages that cap, and how caps are known by them.
 
 #include "mesh/mesh.hpp"
 #include "mesh/plane.hpp"
@@ -17,6 +17,10 @@ struct CapPaint {
 
 /// The largest number in a face attribute; 0 without it.
 Index largest_number(const Mesh& mesh, std::string_view name);
+
+/// [faces] whether the face closes a cut with a number above `last`; empty: none does. Faces that a boolean
+/// operation took from another part have such a number, too, but no group: they close nothing.
+std::vector<std::uint8_t> later_caps(const Mesh& mesh, Index last);
 
 /// Whether a cap has wedges of its own: when there are normals, tangents or texture coordinates.
 bool caps_have_own_wedges(const Mesh& mesh);

@@ -32,13 +32,12 @@ Scene bare(const Scene& scene) {
     return out;
 }
 
-/// Takes the faces that close cuts with numbers above `last` out of the mesh, which keeps the vertices that
-/// no cap has.
-Mesh taken_caps(Mesh& mesh, const Attribute& cut_id, Index last) {
+/// Takes the caps out of the mesh, which keeps the vertices that no cap has.
+Mesh taken_caps(Mesh& mesh, const std::vector<std::uint8_t>& is_cap_face) {
     Mesh caps, others;
     std::vector<std::uint8_t> of_caps(mesh.vertex_count());
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        const bool is_cap = cut_id.value(f, 0) > last;
+        const bool is_cap = is_cap_face[f] != 0;
         add_face(is_cap ? caps : others, mesh.face_wedges(f));
         for (Index c = mesh.face_begin(f); is_cap && c < mesh.face_end(f); ++c) of_caps[mesh.vertex(c)] = 1;
     }
@@ -55,12 +54,12 @@ Mesh taken_caps(Mesh& mesh, const Attribute& cut_id, Index last) {
 std::vector<Part> taken_caps(Scene& bare, const Scene& given, Index last) {
     std::vector<Part> all;
     for (std::size_t i = 0; i < given.parts.size(); ++i) {
-        const Mesh& mesh = given.parts[i].mesh;
-        if (largest_number(mesh, cut_id_attribute) <= last) continue;
+        const auto is_cap = later_caps(given.parts[i].mesh, last);
+        if (is_cap.empty()) continue;
         Part caps;
         caps.name = bare.parts[i].name;
         caps.transform = bare.parts[i].transform;
-        caps.mesh = taken_caps(bare.parts[i].mesh, *mesh.find(cut_id_attribute, Domain::face), last);
+        caps.mesh = taken_caps(bare.parts[i].mesh, is_cap);
         all.push_back(std::move(caps));
     }
     return all;

@@ -1,5 +1,6 @@
 #include "geometry/preview/gathered.hpp"
 
+#include "geometry/cut/cap_paint.hpp"
 #include "mesh/transform.hpp"
 
 #include <algorithm>
@@ -42,14 +43,17 @@ struct Gatherer::Placed {
     Transform normals; ///< world to part: pull_normal takes the part's to the world
     const Attribute *colours, *own_normals;
     std::vector<Index> vertices, wedges; ///< [of the mesh] where it went, or none
-    std::vector<Index> primitives;       ///< [of the mesh] likewise
+    std::vector<Index> primitives;       ///< [of the mesh, of other faces and of caps] likewise
     std::vector<Index> wedge_primitive;  ///< [wedges] that it went with
+    std::vector<std::uint8_t> is_cap;    ///< [faces], or empty
 
-    Placed(const Mesh& m, const Transform& t)
+    Placed(const Mesh& m, const Transform& t, const std::optional<Index>& last_cap)
         : mesh(m), to_world(t), normals(inverse(t).value_or(Transform{})), colours(colours_in(m)),
           own_normals(normals_in(m)), vertices(m.vertex_count(), none), wedges(m.wedge_count(), none),
-          primitives(std::max<std::size_t>(1, m.primitives.size()), none),
-          wedge_primitive(m.wedge_count(), none) {}
+          primitives(2 * std::max<std::size_t>(1, m.primitives.size()), none),
+          wedge_primitive(m.wedge_count(), none) {
+        if (last_cap) is_cap = later_caps(m, *last_cap);
+    }
 };
 
 Gatherer::Gatherer(const Scene& scene, const MaterialLooks* looks, PreviewAttributes wanted)
@@ -58,15 +62,18 @@ Gatherer::Gatherer(const Scene& scene, const MaterialLooks* looks, PreviewAttrib
 Index Gatherer::primitive_for(Placed& placed, Index face) {
     const Mesh& mesh = placed.mesh;
     const Index own = mesh.primitives.empty() ? 0 : mesh.primitive_of(face);
-    Index& known = placed.primitives[std::min<std::size_t>(own, placed.primitives.size() - 1)];
+    const bool cap = !placed.is_cap.empty() && placed.is_cap[face] != 0;
+    const std::size_t last = placed.primitives.size() / 2 - 1;
+    Index& known = placed.primitives[2 * std::min<std::size_t>(own, last) + (cap ? 1 : 0)];
     if (known != none) return known;
     PreviewPaint paint;
+    paint.cap = cap;
     if (own < mesh.primitives.size()) paint.material = mesh.primitives[own].material;
     if (paint.material >= scene_.materials.size()) paint.material = none;
     paint.coloured =
         placed.colours && (own >= mesh.primitives.size() || mesh.primitives[own].has(placed.colours->name));
     const auto same = std::find_if(out_.paints.begin(), out_.paints.end(), [&](const PreviewPaint& p) {
-        return p.material == paint.material && p.coloured == paint.coloured;
+        return p.material == paint.material && p.coloured == paint.coloured && p.cap == paint.cap;
     });
     known = static_cast<Index>(same - out_.paints.begin());
     if (same == out_.paints.end()) out_.paints.push_back(paint);
@@ -134,7 +141,7 @@ Index Gatherer::wedge_for(Placed& placed, Index corner, Index primitive) {
 }
 
 void Gatherer::add(const Mesh& triangles, const Transform& to_world, std::span<const Index> corners) {
-    Placed placed(triangles, to_world);
+    Placed placed(triangles, to_world, wanted_.last_cap);
     const bool mirrored = to_world.determinant() < 0;
     for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
         std::array<Index, 3> face{corners[c], corners[c + 1], corners[c + 2]};

@@ -10,7 +10,8 @@ namespace facetmill {
 /// What of a scene comes along in a preview.
 struct PreviewAttributes {
     bool normals = false, colours = false, textures = false;
-    bool baked = false; ///< base textures as colours, sampled at each wedge
+    bool baked = false;              ///< base textures as colours, sampled at each wedge
+    std::optional<Index> last_cap{}; ///< PreviewSettings::last_cap
 };
 /// The colours of a mesh, or null.
 const Attribute* colours_in(const Mesh& mesh);

@@ -140,6 +140,7 @@ Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     if (faces == 0) return {};
     const MaterialLooks* looks = settings.looks.get();
     PreviewAttributes wanted = preview_attributes(scene, looks);
+    wanted.last_cap = settings.last_cap;
     wanted.baked = wanted.textures && faces > many_with_textures * settings.faces;
     if (wanted.baked) wanted.textures = false;
     std::optional<double> cell;

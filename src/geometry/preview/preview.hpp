@@ -5,17 +5,22 @@
 #include "geometry/render/texture.hpp"
 #include "mesh/scene.hpp"
 
+#include <optional>
+
 namespace facetmill {
 
 struct PreviewSettings {
     std::size_t faces = 60000; ///< about so many triangles at most; of lines and of points exactly so many
     std::shared_ptr<const MaterialLooks> looks{}; ///< whose base textures will be laid on; or none
+    /// What closes cuts with numbers above it (later_caps) has paints of its own; none: it has not.
+    std::optional<Index> last_cap{};
 };
 
 /// What the faces of a primitive of the preview are painted with.
 struct PreviewPaint {
     Index material = none; ///< of the scene
     bool coloured = false; ///< their part has colours
+    bool cap = false;      ///< they close a cut, where PreviewSettings::last_cap asks for it
 };
 
 struct Preview {

@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 
 #include "geometry/clip/clip.hpp"
+#include "geometry/cut/cap_paint.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
@@ -113,6 +114,10 @@ TEST_CASE("what closes a cut is not measured, unless the reference has it", "[ge
         CHECK(found.scene.parts[1].mesh.face_count() == half.cap_faces);
         CHECK(found.scene.parts[1].mesh.attributes.empty());
     }
+    // A boolean operation numbers what it took from another part, and gives it no group: that is measured.
+    Mesh taken = half.front;
+    taken.drop(group_attribute, Domain::face);
+    CHECK(signed_deviation(scene_with(taken), near_tree(ball), {.last_cap = 0}).caps == 0);
     const Scene scene = scene_with(half.front);
     const auto itself = signed_deviation(scene, near_tree(half.front), {.last_cap = last_cap(scene)});
     CHECK(itself.caps == 0);
