@@ -177,6 +177,7 @@ Picture info_picture(const Scene& scene, const Console& console) {
     PictureSettings settings;
     settings.width = 800;
     settings.height = 600;
+    settings.point = 3; // as the stage does
     std::vector<Diagnostic> warnings;
     io::LookReader reader;
     settings.looks = reader.looks(scene, warnings);

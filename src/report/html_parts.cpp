@@ -56,11 +56,19 @@ td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height
   .stage.pictured > .shown { grid-column: 1; } .stage.pictured > .told { grid-column: 2; } }
 @media (max-width: 480px) { body { padding: 1.2rem 1rem 3rem; } dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
   dd { margin-bottom: .5rem; } tr > th[scope=row] { white-space: normal; width: auto; } td.said { min-width: 15rem; } }
+@media (max-width: 640px) { table.cards, .cards tbody, .cards tr { display: block; }
+  .cards tr { border-bottom: 1px solid var(--line); padding: .45rem 0; } .cards tr:first-child { display: none; }
+  .cards td, .cards td.number { display: block; border: 0; padding: .12rem 0 .12rem 7.5rem; position: relative;
+    text-align: left; white-space: normal; min-width: 0; width: auto; overflow-wrap: break-word; }
+  .cards td::before { content: attr(data-head); position: absolute; left: 0; width: 7rem; color: var(--quiet);
+    font-weight: 400; } .cards td:empty { display: none; } .digest code { min-width: 0; }
+  td:last-child { overflow-wrap: anywhere; } }
 @media print { body { max-width: none; padding: 0; } details { display: none; } .scroll { overflow: visible; } }
 )";
 
-/// Shows the picture before beneath a stage's own, left of the slider; without scripts the page has no
-/// sliders.
+/// Shows the picture before beneath a stage's own, left of the slider. Of tables that a phone has no room
+/// for, each cell knows its heading, which it shows there (table.cards). Without scripts the page has no
+/// sliders, and such tables scroll.
 constexpr const char* script = R"(
 for (const input of document.querySelectorAll("figure input")) {
   const figure = input.closest("figure"), before = figure.querySelector("[data-of]");
@@ -70,6 +78,13 @@ for (const input of document.querySelectorAll("figure input")) {
   figure.classList.add("compared");
   input.addEventListener("input", move);
   move();
+}
+for (const table of document.querySelectorAll("table")) {
+  const heads = [...table.rows[0].cells].map((cell) => cell.textContent);
+  if (heads.length < 4 || table.querySelector("th[scope=row]")) continue;
+  table.classList.add("cards");
+  for (const row of [...table.rows].slice(1))
+    [...row.cells].forEach((cell, i) => { if (heads[i]) cell.dataset.head = heads[i]; });
 }
 )";
 

@@ -24,6 +24,7 @@ std::string told(const Json& value) {
     if (!value.is_array()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string items;
     for (const Json& item : value) append_item(items, told(item));
+    if (value.empty()) return "none";
     return value.size() > 1 || items.empty() ? "[" + items + "]" : items;
 }
 
@@ -147,8 +148,10 @@ std::string picture_of(const RunRecord& record, std::size_t number, std::size_t&
     const auto shown = [&](const std::string& caption) {
         return picture(picture_id(number), caption, stage.picture);
     };
-    const std::string caption =
-        fmt::format("{}: {} faces", stage.name, grouped(stage.after ? stage.after->faces : 0));
+    const std::string caption = fmt::format("{}: {}", stage.name,
+                                            !stage.after || stage.after->faces > 0
+                                                ? grouped(stage.after ? stage.after->faces : 0) + " faces"
+                                                : grouped(stage.after->vertices) + " vertices");
     if (!before || stage.camera == 0 || stage.camera != before->camera)
         return figure(shown(caption), caption);
     return compared_figure(shown(caption), before_id, stage.name,

@@ -8,6 +8,7 @@ namespace facetmill::report {
 PictureSettings page_settings() {
     PictureSettings settings;
     settings.coarse_occlusion = true;
+    settings.point = 3; // as in pictures of their own: single pixels are hardly seen
     return settings;
 }
 
@@ -24,6 +25,7 @@ std::string small_picture(const Scene& scene) {
     PictureSettings small = page_settings();
     small.width = 160;
     small.height = 120;
+    small.point = 2;
     io::LookReader looks;
     return scene_picture(scene, small, looks);
 }

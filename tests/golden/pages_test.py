@@ -27,11 +27,14 @@ addEventListener("message", event => {{ told.push(event.data); told.sort();
   document.getElementById("told").textContent = "TOLD" + JSON.stringify(told) + "END"; }});
 </script>{}</body></html>"""
 TELL = """<script>addEventListener("load", () => {
+  const hidden = innerWidth > 400 ? [] : [...document.querySelectorAll(".scroll")]
+    .filter(e => e.scrollWidth > e.clientWidth).map(e => "columns of " + e.ariaLabel);
   for (const part of document.querySelectorAll("details")) part.open = true;
   const slider = document.querySelector("input[type=range]:not([hidden])");
   if (slider) { slider.value = 80; slider.dispatchEvent(new Event("input")); }
   const wide = [...document.querySelectorAll("body *")].filter(e => !e.closest(".scroll") && !e.closest("pre") &&
-    !e.closest("svg") && e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + "." + e.className);
+    !e.closest("svg") && e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + "." + e.className)
+    .concat(hidden);
   parent.postMessage([innerWidth, document.documentElement.scrollWidth, matchMedia("(prefers-color-scheme: dark)").matches,
     slider ? slider.closest("figure").style.getPropertyValue("--at") : "", wide.slice(0, 5).join(" ")], "*");
 });</script></body>"""
@@ -136,6 +139,14 @@ class Pages(Case):
         self.assertRegex(text, r"deviation [\d.e-]+ % of the diagonal, from the scene as loaded, without caps")
         self.assertRegex(text, r"The \d+ faces that close cuts \(caps\) are grey and not measured")
         self.assertLess(float(re.search(r"deviation ([\d.e-]+) % of the diagonal", text)[1]), 0.001)
+
+    def test_what_a_difference_leaves_of_its_tool_is_no_cap(self):
+        page, _ = self.report(*"generate cube ! generate icosphere ! transform --only icosphere --scale 1.25 ! combine difference"
+                               " --with icosphere ! write drilled.ply".split())
+        text = shown(page)
+        self.assertNotRegex(text, r"\(caps\)|without caps")  # the scene that it is compared with has the ball's surface
+        self.assertLess(float(re.search(r"deviation\s+([\d.e-]+) % of the diagonal", text)[1]), 1e-9)
+        self.assertNotIn('"cap":true', page)
 
     def test_distances_are_those_in_the_pose_that_is_seen(self):
         """A ball that a morph target makes twice as large is compared as it is seen: at about twice the distances."""
