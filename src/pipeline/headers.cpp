@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace facetmill::pipeline {
 
@@ -127,7 +129,7 @@ class Walk {
     using Images = std::vector<io::NamedImage>;
     struct Loaded {
         io::FileHeader header;
-        std::function<Images()> embedded_images;
+        std::function<io::LibraryImageNames()> library_images;
     };
 
     void load(const Step& step, std::optional<Unit>& unit) {
@@ -146,7 +148,7 @@ class Walk {
                 headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
                                            header.files.end());
                 loaded_.push_back({header, [path = file.path, roots = asset_roots_of({step}, places_)] {
-                                       return io::embedded_images(path, roots);
+                                       return io::library_images(path, roots);
                                    }});
             } catch (Error& error) {
                 refused.add(error.at(file.where), file.path);
@@ -172,20 +174,28 @@ class Walk {
         // What names its images in a library has all of them as files.
         io::ImageNames names(io::without_packing(path).stem().string(),
                              all ? io::ImageNames::Spelling::plain : io::ImageNames::Spelling::kept);
-        std::set<std::string> copied;
-        const auto copy = [&](const io::NamedImage& image) {
-            if ((!files.copies || files.copies(image)) && copied.insert(image.digest).second)
-                headers.more_outputs.push_back(
-                    places_.output((path.parent_path() / names.add(image.relative)).string()));
+        std::map<std::string, std::pair<fs::path, bool>>
+            copies; // by digest: its name, and whether it is written
+        const auto copy = [&](const io::NamedImage& image, bool used) {
+            if (files.copies && !files.copies(image)) return;
+            const auto [place, fresh] = copies.try_emplace(image.digest);
+            auto& [name, written] = place->second;
+            if (fresh) name = names.add(image.relative);
+            if (used && !std::exchange(written, true))
+                headers.more_outputs.push_back(places_.output((path.parent_path() / name).string()));
         };
         for (auto& file : loaded_) {
-            for (const auto& image : known(file.header.images)) copy(image);
-            if (all)
-                for (const auto& image : known(file.embedded_images)) copy(image);
+            const io::LibraryImageNames of_file = all ? known(file.library_images) : io::LibraryImageNames{};
+            const auto is_used = [&](const io::NamedImage& image) {
+                return !of_file.idle.contains(image.relative);
+            };
+            for (const auto& image : known(file.header.images)) copy(image, is_used(image));
+            for (const auto& image : of_file.embedded) copy(image, is_used(image));
         }
     }
 
     /// Asked once, however many outputs there are.
+    template <class Images>
     static Images known(std::function<Images()>& images) {
         if (!images) return {};
         const Images all = images();

@@ -55,6 +55,35 @@ class Obj(Case):
         planned, written = self.both("--set", "load.path=u.gltf")
         self.assertEqual((sorted(planned), written), (["out/t.obj"], ["out/t.obj"]))
 
+    def test_the_plan_leaves_out_images_of_materials_that_nothing_has(self):
+        self.mill("pipe", "load", "in/t.obj", "!", "write", "t.gltf")
+        document = json.loads((self.dir / "t.gltf").read_text())
+        blue, green = png(0, 0, 255), png(0, 255, 0)
+        (self.dir / "in/blue.png").write_bytes(blue)
+        (self.dir / "in/green.png").write_bytes(green)
+        document["images"] += [{"uri": "in/blue.png"}, {"uri": "in/green.png"}]
+        document["textures"].append({"source": len(document["images"]) - 1})
+        idle = {"baseColorTexture": {"index": len(document["textures"]) - 1}}
+        document["materials"].append({"name": "idle", "pbrMetallicRoughness": idle})
+        self.write("u.gltf", json.dumps(document))
+        planned, written = self.both("--set", "load.path=u.gltf")
+        self.assertEqual(sorted(planned), written)
+        self.assertEqual(written, ["out/maps/t.tex.png", "out/t.mtl", "out/t.obj"])
+        # The same as images of a GLB.
+        self.mill("pipe", "load", "u.gltf", "!", "write", "u.glb")
+        for path in written:
+            (self.dir / path).unlink()
+        planned, written = self.both("--set", "load.path=u.glb")
+        self.assertEqual(sorted(planned), written)
+        self.assertEqual(len(written), 3)
+        # Where faces have none of the materials there is no library.
+        del document["meshes"][0]["primitives"][0]["material"]
+        self.write("u.gltf", json.dumps(document))
+        for path in written:
+            (self.dir / path).unlink()
+        planned, written = self.both("--set", "load.path=u.gltf")
+        self.assertEqual((planned, written), (["out/t.obj"], ["out/t.obj"]))
+
     def test_images_are_outputs_like_others(self):
         self.mill("pipe", "-o", "out", "--depfile", "t.d", "--report", "t.json", "load", "in/t.obj", "!", "write", "t.obj")
         names = {"out/t.obj", "out/t.mtl", "out/maps/t.tex.png"}

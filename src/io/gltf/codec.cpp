@@ -339,10 +339,9 @@ void peek(const Input& input, FileHeader& header) {
         Json json = parse_document(chunks_of(input).json, unread);
         check_asset(json);
         part_lines(json);
-        for (const auto& placement : placements(json, node_frames(json)))
-            header.parts.push_back(placement.name);
-        if (json.contains("materials") && !json["materials"].empty())
-            header.has_materials = [] { return true; };
+        const std::vector<Placement> placed = placements(json, node_frames(json));
+        for (const auto& placement : placed) header.parts.push_back(placement.name);
+        if (!drawn_materials(json, placed).empty()) header.has_materials = [] { return true; };
         std::vector<std::pair<std::filesystem::path, std::filesystem::path>> images_there;
         for (const bool images : {false, true})
             for (const auto& name : neighbours(json, images ? "images" : "buffers")) {

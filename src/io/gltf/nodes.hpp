@@ -49,6 +49,9 @@ struct Placement {
 /// One per node with a mesh that has triangles or lines, in node order.
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
 
+/// The materials that these have; all of them, where nothing is placed, as in a document of points.
+std::set<std::size_t> drawn_materials(const Json& document, const std::vector<Placement>& placements);
+
 /// True for primitives that make triangles (lists, strips and fans) of positions.
 bool makes_triangles(const Place& primitive);
 bool has_triangles(const Place& mesh);

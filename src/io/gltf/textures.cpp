@@ -372,28 +372,6 @@ std::vector<ImageFile> image_files(const Document& document, const Json& json) {
     return files;
 }
 
-std::vector<NamedImage> embedded_images(const std::filesystem::path& file,
-                                        const std::vector<std::filesystem::path>& asset_roots) {
-    std::vector<NamedImage> all;
-    try {
-        const Input input = Input::open(file).with_asset_roots(asset_roots);
-        const Codec* codec = sure_codec(input);
-        if (!codec || !codec->can.quantize) return {};
-        const bool binary = is_glb(input.bytes());
-        const Chunks chunks =
-            binary ? split_glb(input.bytes()) : Chunks{without_byte_order_mark(as_text(input.bytes())), {}};
-        const Json json = parse_document(chunks.json);
-        ReadLog ignored; // reading the file will tell
-        Document document;
-        document.buffers = load_buffers(json, chunks.binary, input, ignored);
-        for (const ImageFile& image : image_files(document, json))
-            if (image.uri.empty() && image_colours(image.bytes))
-                all.push_back({image.relative, sha256(image.bytes), false});
-    } catch (const Error&) { // nor will it be written
-    }
-    return all;
-}
-
 std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
                                          const std::filesystem::path& directory) {
     namespace fs = std::filesystem;

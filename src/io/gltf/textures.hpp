@@ -58,10 +58,18 @@ struct ImageFile {
 /// Those whose bytes are there: first the files, then what is in the document itself, each by index.
 std::vector<ImageFile> image_files(const Document& document, const Json& json);
 
-/// What is in a glTF file itself, of the kinds that other formats name, under the names that image_files
-/// gives; none of a file of another format, or that cannot be read.
-std::vector<NamedImage> embedded_images(const std::filesystem::path& file,
-                                        const std::vector<std::filesystem::path>& asset_roots);
+/// The images that a material of the document names. A reference to nothing is passed over.
+std::set<std::size_t> images_of_material(const Json& document, const Json& material);
+
+/// What a plan of a format that names images in a library needs to know of a glTF file.
+struct LibraryImageNames {
+    std::vector<NamedImage> embedded; ///< of the kinds that libraries name, as image_files calls them
+    /// Of these and of the files that it names, those of no material that something is drawn with.
+    std::set<std::filesystem::path> idle;
+};
+/// Nothing of a file of another format, or that cannot be read.
+LibraryImageNames library_images(const std::filesystem::path& file,
+                                 const std::vector<std::filesystem::path>& asset_roots);
 
 /// Where the file is that a relative URI of a document names.
 struct PlaceOfFile {

@@ -2,6 +2,7 @@
 
 #include "base/words.hpp"
 #include "io/gltf/container.hpp"
+#include "io/gltf/textures.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -293,34 +294,10 @@ class Describer {
 
     /// Images are files beside the library whether it has words for their textures or not, since a plan does
     /// not tell them apart.
-    void keep_images(const Json& json) {
-        if (!json.is_object()) return;
-        for (const auto& [key, value] : json.items()) {
-            if (key.ends_with("Texture") && value.is_object()) keep_images_of(texture_of(value));
-            keep_images(value);
-        }
-    }
-
-    void keep_images_of(const Json& texture) {
-        keep_image(texture);
-        if (const auto all = texture.find("extensions"); all != texture.end() && all->is_object())
-            for (const auto& extension : *all) keep_image(extension);
-    }
-
-    void keep_image(const Json& owner) {
-        const auto source = owner.find("source");
-        if (source == owner.end() || !source->is_number_unsigned()) return;
-        const auto* image = images_.find(material_.document, source->get<std::size_t>());
-        if (image && image->planned) images_.use(*image);
-    }
-
-    /// An empty object where there is none.
-    const Json& texture_of(const Json& reference) const {
-        static const Json nothing = Json::object();
-        const auto all = json_.find("textures"), index = reference.find("index");
-        if (all == json_.end() || index == reference.end() || !index->is_number_unsigned()) return nothing;
-        const auto i = index->get<std::size_t>();
-        return all->is_array() && i < all->size() && (*all)[i].is_object() ? (*all)[i] : nothing;
+    void keep_images(const Json& material) {
+        for (const std::size_t i : images_of_material(json_, material))
+            if (const auto* image = images_.find(material_.document, i); image && image->planned)
+                images_.use(*image);
     }
 
     const Material& material_;
