@@ -2,6 +2,7 @@
 
 #include "base/json.hpp"
 #include "base/words.hpp"
+#include "mesh/primitives_in_use.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -78,14 +79,52 @@ void leave_documents(Written& written, const Scene& scene, const char* format,
              "glTF keeps them: write .glb"});
 }
 
-void warn_of_textures(Written& written, const Scene& scene, const char* format) {
+namespace {
+
+/// Those that faces have.
+std::set<Index> materials_in_use(const Scene& scene) {
     std::set<Index> used;
-    for (const auto& part : scene.parts)
-        for (const auto& primitive : part.mesh.primitives)
-            if (primitive.material < scene.materials.size()) used.insert(primitive.material);
+    for (const auto& part : scene.parts) {
+        if (part.mesh.face_count() == 0) continue;
+        const std::vector<bool> primitives = primitives_in_use(part.mesh);
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            if (const Index m = part.mesh.primitives[p].material; primitives[p] && m < scene.materials.size())
+                used.insert(m);
+    }
+    return used;
+}
+
+} // namespace
+
+std::string some_of(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    if (names.size() <= most) return join_texts(names);
+    return fmt::format("{} and {} more", join_texts({names.begin(), names.begin() + most}),
+                       names.size() - most);
+}
+
+void warn_of_colours(Written& written, const Scene& scene, const char* format) {
+    std::vector<std::string> coloured;
+    for (const Index m : materials_in_use(scene)) {
+        const Material& material = scene.materials[m];
+        const auto& c = material.base_colour;
+        if (c[0] != 1 || c[1] != 1 || c[2] != 1)
+            coloured.push_back(material.name.empty() ? fmt::format("{}", m) : material.name);
+    }
+    if (!coloured.empty())
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-MATERIAL",
+             fmt::format("the colours of {} are not written to {}: {}", counted(coloured.size(), "material"),
+                         format, some_of(coloured)),
+             {},
+             "glTF, OBJ and 3MF keep them"});
+}
+
+void warn_of_textures(Written& written, const Scene& scene, const char* format) {
     std::map<int, Json> documents;
     std::vector<std::string> textured;
-    for (const Index m : used) {
+    for (const Index m : materials_in_use(scene)) {
         const Material& material = scene.materials[m];
         if (material.document < 0 || material.index < 0) continue;
         const auto [at, fresh] = documents.try_emplace(material.document);
@@ -103,7 +142,7 @@ void warn_of_textures(Written& written, const Scene& scene, const char* format) 
             {Severity::warning,
              "W-TEXTURES",
              fmt::format("the textures of {} are not written to {}: {}", counted(textured.size(), "material"),
-                         format, fmt::join(textured, ", ")),
+                         format, some_of(textured)),
              {},
              "glTF keeps them: write .glb"});
 }

@@ -40,8 +40,14 @@ void leave_documents(Written& written, const Scene& scene, const char* format,
 /// textures.
 void warn_of_textures(Written& written, const Scene& scene, const char* format);
 
+/// Warns (W-MATERIAL) of materials with a colour that the scene's faces have, by a format without materials.
+void warn_of_colours(Written& written, const Scene& scene, const char* format);
+
 /// Warns (W-MATERIAL) of materials that points have, by a format that gives them none; lines, too.
 void warn_of_point_materials(Written& written, const Scene& scene, const char* format, bool lines = true);
+
+/// Some of the names, and how many more there are.
+std::string some_of(const std::vector<std::string>& names);
 
 /// Numbers, text or bytes written chunk by chunk in parallel and joined in order.
 /// write(begin, end, std::string& out) appends the text of items [begin, end).

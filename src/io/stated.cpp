@@ -1,15 +1,17 @@
 #include "io/stated.hpp"
 
+#include "base/words.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill::io {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-    return text.substr(0, text.find_last_not_of(blanks) + 1);
+/// A line, without the CR at its end either.
+std::string_view trimmed_line(std::string_view text) {
+    text = trimmed(text);
+    return text.ends_with('\r') ? trimmed(text.substr(0, text.size() - 1)) : text;
 }
 
 template <class Owner>
@@ -44,7 +46,7 @@ Convention stated_in_lines(std::string_view text, std::string_view keyword) {
     Convention stated;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size() - 1);
-        const std::string_view line = trimmed(text.substr(0, end + (text[end] != '\n')));
+        const std::string_view line = trimmed_line(text.substr(0, end + (text[end] != '\n')));
         text.remove_prefix(end + 1);
         if (line.starts_with('#'))
             take_comment(line.substr(1), stated);

@@ -6,6 +6,7 @@
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/failure.hpp"
+#include "support/gltf.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary.hpp"
 
@@ -264,7 +265,7 @@ TEST_CASE("OBJ holds seams, polygons, groups and materials", "[io]") {
     REQUIRE(back.materials.size() == 2);
     CHECK(back.materials[0].name == "red");
     CHECK(back.materials[0].base_colour[1] == 0.25);
-    CHECK(back.materials[1].name == "blue_sky");
+    CHECK(back.materials[1].name == "blue sky");
     REQUIRE(log.files.size() == 1);
     CHECK(log.files[0].path == dir / "a.mtl");
 
@@ -277,6 +278,24 @@ TEST_CASE("OBJ holds seams, polygons, groups and materials", "[io]") {
     std::get<std::vector<std::uint32_t>>(mesh.find(primitive_attribute, Domain::face)->data) = primitive;
     CHECK(library_of().find("newmtl red\n") == std::string::npos);
     CHECK(library_of().find("newmtl blue_sky\n") != std::string::npos);
+}
+
+TEST_CASE("PLY and OFF tell that materials have colours, which they do not hold", "[io]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.materials = {{.name = "white"}, {.name = "blue sky"}, {.name = "unused"}};
+    scene.materials[1].base_colour[0] = scene.materials[2].base_colour[0] = 0.25;
+    scene.parts[0].mesh.primitives = {{0, {}, {}}};
+    for (const char* format : {"ply", "off"}) {
+        INFO(format);
+        scene.parts[0].mesh.primitives[0].material = 0;
+        CHECK(written(scene, format).warnings.empty());
+        scene.parts[0].mesh.primitives[0].material = 1;
+        const auto warnings = written(scene, format).warnings;
+        REQUIRE(warnings.size() == 1);
+        CHECK(warnings[0].id == "W-MATERIAL");
+        CHECK(warnings[0].message.find("the colours of 1 material are not written to") == 0);
+        CHECK(warnings[0].message.ends_with(": blue sky"));
+    }
 }
 
 TEST_CASE("OFF holds polygons and colours", "[io]") {

@@ -1,6 +1,7 @@
 #include "io/obj/describe.hpp"
 
 #include "base/words.hpp"
+#include "io/flatten.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/textures.hpp"
 #include "io/text.hpp"
@@ -328,18 +329,6 @@ Description describe(const Material& material, LibraryImages& images, LibraryLos
     colour.double_sided = material.double_sided;
     return colour;
 }
-
-namespace {
-
-/// Some of the names, and how many more there are.
-std::string some_of(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 8;
-    if (names.size() <= most) return join_texts(names);
-    return fmt::format("{} and {} more", join_texts({names.begin(), names.begin() + most}),
-                       names.size() - most);
-}
-
-} // namespace
 
 void LibraryLosses::note(Losses& losses, const std::string& what, const std::string& why,
                          const std::string& material) {

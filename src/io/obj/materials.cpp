@@ -255,7 +255,7 @@ void MaterialMaker::add_relief_map(Json& json, const std::string& name, const De
 }
 
 Json MaterialMaker::material_json(const std::string& name, const Description& d, bool textured) {
-    Json json = {{"name", name}};
+    Json json = {{"name", d.name.value_or(name)}};
     const bool physical = is_physical(d);
     const auto kd = d.maps.find("kd");
     const Colour base =

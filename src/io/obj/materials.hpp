@@ -29,6 +29,7 @@ using Colour = std::array<double, 3>;
 
 /// A material as a library has it. Words that are not in the file are none.
 struct Description {
+    std::optional<std::string> name{};                     ///< as a comment, where newmtl has another
     std::optional<Colour> diffuse, specular, emission;     ///< Kd, Ks, Ke
     std::optional<double> shininess, roughness, metalness; ///< Ns, Pr, Pm
     std::optional<int> illumination;                       ///< illum
@@ -91,6 +92,8 @@ class MaterialMaker {
 
 /// What facetmill writes and reads behind # for a material whose both sides are seen.
 inline constexpr std::string_view double_sided_comment = "doubleSided: true";
+/// ... and before a name that newmtl does not spell, or that another material has, too.
+inline constexpr std::string_view name_comment = "glTF name:";
 
 /// The roughness of a highlight with Phong's exponent (Ns).
 double roughness_of(double exponent);

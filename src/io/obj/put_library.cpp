@@ -59,6 +59,7 @@ std::string material_library(const std::vector<std::pair<std::string, Descriptio
     std::string text = "# written by facetmill\n";
     for (const auto& [name, d] : materials) {
         text += "newmtl " + name + '\n';
+        if (d.name) text += fmt::format("# {} {}\n", name_comment, *d.name);
         put_colour(text, "Kd", d.diffuse);
         put_value(text, "d", d.opacity);
         put_colour(text, "Ks", d.specular);

@@ -3,6 +3,8 @@
 #include "base/unique_names.hpp"
 #include "mesh/primitives_in_use.hpp"
 
+#include <algorithm>
+
 namespace facetmill::io::obj {
 
 namespace {
@@ -35,6 +37,7 @@ SceneLibrary::SceneLibrary(const Scene& scene, const WriteSettings& settings)
       textured_(scene.materials.size()) {
     describe_used(scene);
     join_untextured(scene);
+    keep_names(scene);
 }
 
 void SceneLibrary::describe_used(const Scene& scene) {
@@ -75,6 +78,15 @@ void SceneLibrary::join_untextured(const Scene& scene) {
             }
         }
         at = joined ? described_.erase(at) : std::next(at);
+    }
+}
+
+/// Names that are spelled otherwise here, or that several materials have.
+void SceneLibrary::keep_names(const Scene& scene) {
+    const auto is_control = [](unsigned char c) { return c < ' '; };
+    for (auto& [m, description] : described_) {
+        const std::string& name = scene.materials[m].name;
+        if (name != names_[m] && std::none_of(name.begin(), name.end(), is_control)) description.name = name;
     }
 }
 

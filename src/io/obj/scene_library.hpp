@@ -19,6 +19,7 @@ class SceneLibrary {
   private:
     void describe_used(const Scene& scene);
     void join_untextured(const Scene& scene);
+    void keep_names(const Scene& scene);
 
     const WriteSettings& settings_;
     LibraryImages images_;

@@ -1,3 +1,4 @@
+#include "base/once_each.hpp"
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
 #include "io/obj/scene_library.hpp"
@@ -212,6 +213,37 @@ class PartWriter {
     bool uvs_ = true;
 };
 
+/// What people may miss: not tangents, which follow from the rest, nor skins, which W-ANIMATION tells of, nor
+/// numbers of groups that a reader or a stage made.
+bool is_missed(const Attribute& a) {
+    if (a.domain == Domain::wedge && (a.name == "TEXCOORD_0" || a.name == "COLOR_0")) return false;
+    return a.role == Role::uv || a.role == Role::colour || a.role == Role::morph_vector ||
+           (a.role == Role::generic && a.domain != Domain::face);
+}
+
+bool has_alpha(const Attribute& colour) {
+    for (std::size_t i = 0; i < colour.size(); ++i)
+        if (colour.value(i, 3) != 1) return true;
+    return false;
+}
+
+void warn_of_attributes(const Scene& scene, Written& written) {
+    OnceEach<std::string> lost;
+    for (const Part& part : scene.parts)
+        for (const Attribute& a : part.mesh.attributes) {
+            if (a.name == "COLOR_0" && a.components == 4 && a.domain == Domain::wedge && has_alpha(a))
+                lost.add("alpha of COLOR_0");
+            else if (is_missed(a))
+                lost.add(a.name);
+        }
+    if (!lost.all().empty())
+        written.warnings.push_back({Severity::warning,
+                                    "W-ATTRIBUTE",
+                                    fmt::format("OBJ has no place for attributes: {}", some_of(lost.all())),
+                                    {},
+                                    "glTF keeps them: write .glb"});
+}
+
 void tell_what_is_lost(const Mesh& mesh, Written& written) {
     for (const auto& a : mesh.attributes) {
         const bool face = a.domain == Domain::face &&
@@ -282,6 +314,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     leave_documents(written, scene, "OBJ", kept);
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
+    warn_of_attributes(scene, written);
     library.add_to(written);
     return written;
 }

@@ -333,6 +333,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY");
     warn_of_textures(written, scene, "PLY");
+    warn_of_colours(written, scene, "PLY");
     warn_of_point_materials(written, scene, "PLY");
     if (!scene.materials.empty())
         written.changes.push_back(

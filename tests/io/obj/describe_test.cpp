@@ -2,6 +2,7 @@
 // read the same again, and what it cannot say is said.
 #include "base/hash.hpp"
 #include "io/gltf/textures.hpp"
+#include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
 #include "support/images.hpp"
@@ -148,6 +149,55 @@ TEST_CASE("a material whose both sides are seen stays so through an OBJ", "[io]"
     const Scene again = load(dir / "out/lamp.obj");
     CHECK(again.materials.at(0).double_sided);
     CHECK(materials_of(again)[0]["doubleSided"] == true);
+}
+
+TEST_CASE("materials keep names that MTL does not spell, and that others have, too", "[io]") {
+    Scene scene;
+    scene.materials = {
+        {.name = "dark blue"}, {.name = "red"}, {.name = "red"}, {.name = ""}, {.name = "plain"}};
+    Part& part = scene.parts.emplace_back();
+    part.name = "cube";
+    part.mesh = shapes::cube();
+    std::vector<std::uint32_t> of_face;
+    for (Index f = 0; f < part.mesh.face_count(); ++f) of_face.push_back(f % 5);
+    for (Index m = 0; m < 5; ++m) {
+        part.mesh.primitives.push_back({.material = m, .attributes = {}, .json = {}});
+        scene.materials[m].base_colour[0] = 0.1 * m;
+    }
+    part.mesh.attributes.push_back(
+        {std::string(primitive_attribute), Domain::face, Role::index, 1, false, of_face});
+    const io::Written obj = written(scene, "obj", {.title = "lamp"});
+    const std::string mtl = text_of(obj, "lamp.mtl");
+    CHECK(mtl.find("newmtl dark_blue\n# glTF name: dark blue\n") != std::string::npos);
+    CHECK(mtl.find("newmtl red_2\n# glTF name: red\n") != std::string::npos);
+    CHECK(mtl.find("newmtl plain\nKd") != std::string::npos);
+    const TemporaryDirectory dir;
+    put_files(obj, dir / "out");
+    const Scene again = load(dir / "out/lamp.obj");
+    REQUIRE(again.materials.size() == 5);
+    for (std::size_t m = 0; m < 5; ++m) CHECK(again.materials[m].name == scene.materials[m].name);
+}
+
+TEST_CASE("attributes that an OBJ has no place for are told", "[io]") {
+    Scene scene;
+    Part& part = scene.parts.emplace_back();
+    part.mesh = shapes::cube();
+    const std::size_t n = part.mesh.vertex_count();
+    const auto add = [&](const char* name, Role role, int components, float value) {
+        part.mesh.attributes.push_back({name, Domain::wedge, role, components, false,
+                                        std::vector<float>(n * static_cast<std::size_t>(components), value)});
+    };
+    add("TEXCOORD_0", Role::uv, 2, 0.5F);
+    add("NORMAL", Role::normal, 3, 1);
+    add("TANGENT", Role::tangent, 4, 1);
+    add("COLOR_0", Role::colour, 4, 1);
+    CHECK(warnings_of(written(scene, "obj")) == "");
+    add("TEXCOORD_1", Role::uv, 2, 0.5F);
+    add("_HEAT", Role::generic, 1, 0.5F);
+    part.mesh.attributes[3].data = std::vector<float>(4 * n, 0.5F);
+    CHECK(warnings_of(written(scene, "obj"))
+              .find("OBJ has no place for attributes: alpha of COLOR_0, TEXCOORD_1, _HEAT") !=
+          std::string::npos);
 }
 
 TEST_CASE("one material for faces with and without texture points is one again", "[io]") {
