@@ -89,7 +89,8 @@ std::string deviation_html(const DeviationView& view, const std::string& id, con
     out += "<div class=\"wide\">" + svg_of(chart_of(view, id)) +
            fmt::format(
                "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
-               "diagonal of {}.{}{}{} What {} has and {} lost is not seen here.</p>\n",
+               "diagonal of {}.{}{}{} What {} has and {} lost is not seen here. Stages and verdicts look at "
+               "more points, and may find one that is farther.</p>\n",
                view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(view.from), beyond_text(view),
                caps_text(view),
                view.posed ? " Both are in the pose that the pictures show; what stages and checks measure is "

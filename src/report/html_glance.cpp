@@ -54,8 +54,10 @@ std::string deviation_text(const RunRecord& record) {
     const double most = std::abs(worst->worst_distance);
     const char* caps = worst->caps > 0 ? ", without caps" : "";
     if (!(worst->diagonal > 0)) return fmt::format("{:.4g}{}", most, caps);
-    return fmt::format("{} of the diagonal, from {}{}", percentage(100 * most / worst->diagonal),
-                       escaped(worst->from), caps);
+    constexpr double float_step = 1.0 / (1 << 24); // half the distance of floats of 32 bits, of their size
+    return fmt::format(
+        "{} of the diagonal, from {}{}{}", percentage(100 * most / worst->diagonal), escaped(worst->from),
+        caps, most > 0 && most < float_step * worst->diagonal ? "; less than 32-bit floats hold" : "");
 }
 
 } // namespace

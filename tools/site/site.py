@@ -122,6 +122,7 @@ def main():
     (folder / "mkdocs.yml").write_text(yaml.safe_dump(settings, sort_keys=False))
     if not options.pages:
         subprocess.run(["mkdocs", "build", "--quiet", "--config-file", str(folder / "mkdocs.yml")], check=True)
+        (folder / "html/404.html").unlink()  # a server's; its links lead nowhere in a folder
         print(f"Look at {folder}/html/index.html.")
 
 
