@@ -4,6 +4,7 @@
 #include "io/obj/scene_library.hpp"
 #include "io/stated.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
@@ -227,14 +228,27 @@ bool has_alpha(const Attribute& colour) {
     return false;
 }
 
+/// Whether the wedges of a vertex differ in it.
+bool has_seams(const Mesh& mesh, const Attribute& a) {
+    if (!mesh.has_seams()) return false;
+    std::vector<Index> first(mesh.vertex_count(), none);
+    for (Index w = 0; w < mesh.wedge_count(); ++w) {
+        Index& slot = first[mesh.vertex_of_wedge(w)];
+        if (slot == none) slot = w;
+        for (int c = 0; c < std::min(a.components, 3); ++c)
+            if (a.value(w, c) != a.value(slot, c)) return true;
+    }
+    return false;
+}
+
 void warn_of_attributes(const Scene& scene, Written& written) {
     OnceEach<std::string> lost;
     for (const Part& part : scene.parts)
         for (const Attribute& a : part.mesh.attributes) {
-            if (a.name == "COLOR_0" && a.components == 4 && a.domain == Domain::wedge && has_alpha(a))
-                lost.add("alpha of COLOR_0");
-            else if (is_missed(a))
-                lost.add(a.name);
+            const bool colour = a.name == "COLOR_0" && a.domain == Domain::wedge;
+            if (colour && a.components == 4 && has_alpha(a)) lost.add("alpha of COLOR_0");
+            if (colour && has_seams(part.mesh, a)) lost.add("COLOR_0 that differs between faces at a vertex");
+            if (is_missed(a)) lost.add(a.name);
         }
     if (!lost.all().empty())
         written.warnings.push_back({Severity::warning,

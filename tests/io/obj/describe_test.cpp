@@ -198,6 +198,16 @@ TEST_CASE("attributes that an OBJ has no place for are told", "[io]") {
     CHECK(warnings_of(written(scene, "obj"))
               .find("OBJ has no place for attributes: alpha of COLOR_0, TEXCOORD_1, _HEAT") !=
           std::string::npos);
+    Scene seams;
+    seams.parts.emplace_back().mesh = shapes::uv_cube();
+    Mesh& mesh = seams.parts[0].mesh;
+    std::vector<float> colours(3 * mesh.wedge_count(), 0.5F);
+    mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 3, false, colours});
+    CHECK(warnings_of(written(seams, "obj")) == "");
+    colours[0] = 1;
+    mesh.attributes.back().data = colours;
+    CHECK(warnings_of(written(seams, "obj")).find("COLOR_0 that differs between faces at a vertex") !=
+          std::string::npos);
 }
 
 TEST_CASE("one material for faces with and without texture points is one again", "[io]") {
