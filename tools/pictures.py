@@ -42,7 +42,8 @@ FIGURES = {
                                                              "features")]], EDGES),
     "split-targets": (190, 190, [[f"cylinder{n}.ply" for n in ("", "-short", "-budget", "-narrow")]], EDGES),
     "split-triangles": (130, 130, [[f"triangles-{n}.ply" for n in ("midpoint", "bisect", "widest-angle", "notch",
-                                                                   "centroid", "core", "quads")]], EDGES),
+                                                                   "centroid", "core", "quads")]],
+                        [*EDGES, "--from", "-0.4,-0.3,1"]),
     "thickened": (900, 300, [["thickened.glb"]], ["--edges", "no"]),
 }
 SECTIONS = {"cut-sponge": "sponge-section.svg"}  # drawings, as they are
