@@ -8,6 +8,7 @@
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
 #include "io/not_finite.hpp"
+#include "io/other_formats.hpp"
 #include "io/packing.hpp"
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
@@ -49,6 +50,9 @@ const Codec& choose(const Input& input, ReadLog& log) {
     if (by_name) return *by_name;
     for (const auto& codec : codecs())
         if (codec.sniff && codec.sniff(input.bytes()) == 1) return codec;
+    if (std::string hint = hint_for_reading(input.name()); !hint.empty())
+        throw Error(ErrorKind::usage, "E-FORMAT",
+                    fmt::format("'{}' is in no format that is read", input.name()), std::move(hint));
     throw Error(ErrorKind::usage, "E-FORMAT",
                 fmt::format("the format of '{}' is not recognised", input.name()),
                 fmt::format("give 'format', one of: {}", fmt::join(names_of_readers(), ", ")));

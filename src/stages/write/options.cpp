@@ -1,6 +1,7 @@
 #include "stages/write/options.hpp"
 
 #include "base/spelling.hpp"
+#include "io/other_formats.hpp"
 #include "io/packing.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
@@ -295,6 +296,7 @@ std::string hint_of_suffix(const std::string& path, const std::vector<std::strin
     if (suffix == ".svg" || suffix == ".dxf")
         return fmt::format("section: {{path: {}}} draws what a plane cuts", path);
     if (suffix == ".png") return fmt::format("render: {{path: {}}} makes a picture", path);
+    if (std::string hint = io::hint_for_writing(path); !hint.empty()) return hint;
     return fmt::format("give 'format', one of: {}", fmt::join(names, ", "));
 }
 
