@@ -191,7 +191,7 @@ class Parser {
         std::vector<Value> bare;
         const Option* primary = stage ? stage->options->primary() : nullptr;
         while (!at_end_of_step()) {
-            if (skip_own_option(stage)) continue;
+            if (skip_own_option(stage) || (stage && skip_misspelt_option(*stage))) continue;
             if (is_forgotten_separator(primary, bare.empty())) {
                 wrong(fmt::format("'{}' is a stage, found among the values of '{}'", all_[at_], name),
                       fmt::format("did you forget ! before {}?", all_[at_]));
@@ -261,6 +261,25 @@ class Parser {
         return true;
     }
 
+    /// "ratio=10%", "ratio:10%" and "-ratio" as other programs have them, unless a file is called so.
+    bool skip_misspelt_option(const StageInfo& stage) {
+        const std::string& word = all_[at_];
+        if (is_option(word)) return false;
+        const bool dash = word.starts_with('-');
+        const auto end = word.find_first_of("=:");
+        const std::string name = word.substr(dash, end == word.npos ? end : end - dash);
+        std::error_code ignored;
+        if ((!dash && end == word.npos) || name.empty() || !takes(stage, name) ||
+            std::filesystem::exists(word, ignored))
+            return false;
+        const std::string value = end == word.npos ? "" : word.substr(end + 1);
+        wrong(fmt::format("an option of a stage begins with two dashes, found '{}'", word),
+              fmt::format("write --{}{}{}", name, value.empty() ? "" : " ", value));
+        ++at_;
+        if (dash && end == word.npos && wants_value(name, find_dotted(*stage.options, name))) ++at_;
+        return true;
+    }
+
     /// Whether an option of this name is one of the stage, or a common key.
     static bool takes(const StageInfo& stage, const std::string& name) {
         return is_common(name.substr(0, name.find('.'))) || find_dotted(*stage.options, name) ||
@@ -277,6 +296,8 @@ class Parser {
                               fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
                               is_foreign_truth(bare[1].text)
                                   ? "an option is switched by true and false: --draco, --draco=false"
+                              : takes(*stage, bare[1].text)
+                                  ? fmt::format("did you mean '--{}'?", bare[1].text)
                                   : "stages are separated by ! or +");
             Value list = Value::list({}, bare[0].mark);
             for (auto& b : bare)

@@ -4,6 +4,7 @@
 #include "base/plain_number.hpp"
 #include "base/spelling.hpp"
 #include "options/mark_at.hpp"
+#include "options/other_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -245,6 +246,37 @@ const Option* other_choice(const Declaration& declaration, const Option& primary
     return it == declaration.options.end() || &*it == &primary ? nullptr : &*it;
 }
 
+/// More names than one reads through are not listed.
+constexpr std::size_t most_listed = 24;
+
+std::string where_listed(std::string_view owner, std::size_t names) {
+    return names > most_listed ? fmt::format("facetmill stages {} lists its options", owner) : "";
+}
+
+/// A bare value where none may stand: often the name of an option, as it is here or elsewhere.
+std::string hint_of_bare_value(const Declaration& declaration, std::string_view owner, const Value& value) {
+    const std::vector<std::string> names = declaration.names();
+    const std::vector<std::string> called =
+        value.is_scalar() ? options_called(value.text, names) : std::vector<std::string>{};
+    const Option* option =
+        value.is_scalar() ? declaration.find(called.empty() ? value.text : called.front()) : nullptr;
+    if (option)
+        return fmt::format("write {}: {{{}: {}}}", owner, option->name,
+                           option->kind == OptionKind::boolean ? "true" : "...");
+    const std::string where = where_listed(owner, names.size());
+    return where.empty() ? fmt::format("its options are: {}", fmt::join(names, ", ")) : where;
+}
+
+/// The primary option, where it takes the share that was given to one that counts: `faces: 10%`.
+const Option* meant_share(const Declaration& declaration, const Option& option, const Value& value) {
+    const Option* primary = declaration.primary();
+    if (!primary || primary->kind != OptionKind::ratio || option.kind != OptionKind::integer ||
+        !value.is_scalar())
+        return nullptr;
+    const auto number = parse_real(value.text);
+    return value.text.ends_with('%') || (number && *number > 0 && *number < 1) ? primary : nullptr;
+}
+
 /// A bare value as the map that it is short for.
 Value as_map(const Option& option, const Value& value) {
     return Value::map({{option.name, value.mark, value}}, value.mark);
@@ -268,7 +300,7 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         if (bare) return parse(as_map(*bare, value), target, owner, problems, also_known);
         problems.add(value.mark, "E-VALUE",
                      fmt::format("{} takes no bare value, found {}", owner, value.described()),
-                     fmt::format("its options are: {}", fmt::join(names(), ", ")));
+                     hint_of_bare_value(*this, owner, value));
         return false;
     }
     bool good = true;
@@ -276,13 +308,21 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
     for (const auto& entry : value.entries) {
         if (also_known.contains(entry.key)) continue;
         if (const Option* o = find(entry.key)) {
+            if (const Option* share = meant_share(*this, *o, entry.value)) {
+                good = wrong_type(entry.value, "an integer", problems,
+                                  fmt::format("a share is the value of '{0}': write {1}: {{{0}: {2}}}",
+                                              share->name, owner, entry.value.text));
+                continue;
+            }
             good &= parse_option(*o, entry.value, target, problems);
             continue;
         }
         std::vector<std::string> known = names();
         known.insert(known.end(), also_known.begin(), also_known.end());
         problems.add(entry.key_mark, "E-KEY", fmt::format("{} has no option '{}'", owner, entry.key),
-                     suggestion(entry.key, known));
+                     hint_for_option(entry.key, known, where_listed(owner, known.size())));
+        const std::vector<std::string> called = options_called(entry.key, known);
+        meant.insert(called.begin(), called.end());
         meant.insert(nearest(entry.key, known));
         good = false;
     }
@@ -291,7 +331,11 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
             problems.add(value.mark, "E-MISSING", fmt::format("{}: '{}' is needed", owner, o.name), o.help);
             good = false;
         }
-    for (const auto& rule : exclusions) good &= check_exclusion(rule, value, owner, problems);
+    for (const auto& rule : exclusions) {
+        const bool named = std::any_of(rule.names.begin(), rule.names.end(),
+                                       [&](const std::string& name) { return meant.contains(name); });
+        if (!named) good &= check_exclusion(rule, value, owner, problems);
+    }
     return good;
 }
 

@@ -5,7 +5,9 @@
 #include "base/spelling.hpp"
 #include "options/lists.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -22,9 +24,22 @@ constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um"
                                                                            {"ft", 0.3048},
                                                                            {"inch", 0.0254}}};
 
+/// For the name of a param in the form of other languages: {keep}, $keep, {{keep}}.
+std::string hint_of_foreign_expression(std::string_view text) {
+    const auto is_sign = [](char c) { return c == '$' || c == '{' || c == '}' || c == ' '; };
+    if (text.empty() || (text[0] != '$' && text[0] != '{')) return {};
+    while (!text.empty() && is_sign(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_sign(text.back())) text.remove_suffix(1);
+    const bool name = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '_' || c == '-' || c == '.';
+    });
+    return name ? fmt::format("the value of a param is written ${{{}}}", text) : "";
+}
+
 } // namespace
 
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint) {
+    if (hint.empty() && value.is_scalar()) hint = hint_of_foreign_expression(value.text);
     if (hint.empty() && value.is_scalar() && value.quoted) hint = "leave the quotes out";
     problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()),
                  std::move(hint));
@@ -69,6 +84,20 @@ std::string hint_of_integer(const Value& value) {
     constexpr double most = 1e15; // exact in a double, with room
     if (factor == 0 || number != std::floor(number) || std::abs(number) > most) return {};
     return fmt::format("write {}", static_cast<std::int64_t>(number));
+}
+
+/// What to write for 10% and 2mm; empty when it is neither.
+std::string hint_of_number(const Value& value) {
+    const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
+    if (!parts) return {};
+    const double number = parts->first;
+    const std::string_view unit = parts->second;
+    if (unit == "%" || unit == "pct") return fmt::format("write {}", to_string(number / 100));
+    const bool length =
+        std::any_of(length_units.begin(), length_units.end(), [&](const auto& u) { return u.first == unit; });
+    if (!length) return {};
+    return fmt::format("it has no unit here: write {}; transform: {{unit: {}}} converts a scene to a unit",
+                       to_string(number), unit);
 }
 
 } // namespace
@@ -161,7 +190,7 @@ std::optional<double> OptionType<std::int64_t>::magnitude(const std::int64_t& v)
 bool OptionType<double>::parse(const Value& value, double& out, Problems& problems) {
     if (value.deferred) return true;
     const auto number = value.as_real();
-    if (!number) return wrong_type(value, "a finite number", problems);
+    if (!number) return wrong_type(value, "a finite number", problems, hint_of_number(value));
     out = *number;
     return true;
 }

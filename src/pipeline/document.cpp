@@ -242,7 +242,9 @@ class Builder : public YAML::EventHandler {
         } else if (!frame.key) {
             if (!value.is_scalar())
                 problems_.add(value.mark.known() ? value.mark : frame.value.mark, "E-YAML",
-                              fmt::format("a key must be a text, found {}", value.described()));
+                              fmt::format("a key must be a text, found {}", value.described()),
+                              value.is_map() ? "the value of a param is written \"${name}\", not {{name}}"
+                                             : "");
             frame.key = std::move(value);
         } else {
             Value key = std::move(*frame.key);

@@ -1,7 +1,7 @@
 // Assertions from what people write, of stage/assertions.hpp.
 #include "base/numbers.hpp"
-#include "base/spelling.hpp"
 #include "options/lists.hpp"
+#include "options/other_names.hpp"
 #include "stage/assertions.hpp"
 #include "stage/options/convention.hpp"
 
@@ -228,7 +228,7 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
             auto known = property_names();
             known.insert(known.end(), also_known.begin(), also_known.end());
             problems.add(entry.key_mark, "E-KEY", fmt::format("{} knows no property '{}'", owner, entry.key),
-                         suggestion(entry.key, known));
+                         hint_for_option(entry.key, known, "facetmill stages validate lists the properties"));
             good = false;
             continue;
         }

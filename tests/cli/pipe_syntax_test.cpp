@@ -205,6 +205,28 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
           std::string::npos);
 }
 
+TEST_CASE("options as other programs have them are answered with two dashes", "[cli]") {
+    const auto hint = [](const std::string& line) {
+        const std::string text = yaml(line);
+        const auto at = text.find("  hint: ");
+        return text.find("an option of a stage begins with two dashes") == std::string::npos
+                   ? text
+                   : text.substr(at + 8);
+    };
+    CHECK(yaml("load a ! combine operation=union") ==
+          "command line:1:33: error[E-PIPE]: an option of a stage begins with two dashes, found "
+          "'operation=union'\n"
+          "  facetmill pipe load a ! combine operation=union\n"
+          "                                  ^~~~~~~~~~~~~~~\n"
+          "  hint: write --operation union\n");
+    CHECK(hint("simplify ratio:10%") == "write --ratio 10%\n");
+    CHECK(hint("simplify -faces 100") == "write --faces\n");
+    CHECK(hint("write a.glb draco=true") == "write --draco true\n");
+    CHECK(yaml("write a.glb draco").find("hint: did you mean '--draco'?") != std::string::npos);
+    CHECK(same("clip z=0", "[{clip: z=0}]")); // an equation, and no option is called z
+    CHECK(same("load a=b.stl", "[{load: a=b.stl}]"));
+}
+
 TEST_CASE("no line of brackets, separators and options crashes the parser", "[cli][property]") {
     const std::vector<std::string> words{"[",      "]",   "!",     "relax",  "foreach",
                                          "branch", "a=1", "--cap", "--join", "3"};

@@ -2,6 +2,8 @@
 
 #include "options/declaration.hpp"
 
+#include <fmt/format.h>
+
 using namespace facetmill;
 
 namespace {
@@ -118,6 +120,49 @@ TEST_CASE("a bare value that is a choice of another option is answered with its 
                                                 "'plain' (plain is a value of 'method': give it that "
                                                 "name)\n");
     CHECK(complaints(Value::scalar("fancy")) == "E-TYPE expected an integer, found 'fancy'\n");
+}
+
+TEST_CASE("a share where a count belongs is answered with the option that takes one", "[options]") {
+    struct Reduction {
+        std::optional<Ratio> ratio;
+        std::optional<std::int64_t> faces;
+        bool draco = false;
+    };
+    Declare<Reduction> d;
+    d.option("ratio", &Reduction::ratio, "Of the faces.").primary();
+    d.option("faces", &Reduction::faces, "How many are left.");
+    d.option("draco", &Reduction::draco, "Compressed.");
+    Reduction read;
+    Problems problems;
+    for (const char* share : {"10%", "0.1"}) {
+        d.declaration.parse(map({{"faces", Value::scalar(share)}}), &read, "reduce", problems);
+        CHECK(problems.all().back().hint ==
+              fmt::format("a share is the value of 'ratio': write reduce: {{ratio: {}}}", share));
+    }
+    d.declaration.parse(map({{"faces", Value::scalar("1.5")}}), &read, "reduce", problems);
+    CHECK(problems.all().back().hint.empty());
+    d.declaration.parse(map({{"target_faces", Value::scalar("3")}}), &read, "reduce", problems);
+    CHECK(problems.all().back().hint == "'target_faces' is called 'faces' here");
+}
+
+TEST_CASE("a bare value where none may stand is often the name of an option", "[options]") {
+    struct Checks {
+        bool closed = false;
+        std::int64_t faces = 0;
+    };
+    Declare<Checks> d;
+    d.option("closed", &Checks::closed, "No boundary.");
+    d.option("faces", &Checks::faces, "How many.");
+    Checks read;
+    const auto hint = [&](const char* bare) {
+        Problems problems;
+        d.declaration.parse(Value::scalar(bare), &read, "check", problems);
+        return problems.all().back().hint;
+    };
+    CHECK(hint("closed") == "write check: {closed: true}");
+    CHECK(hint("watertight") == "write check: {closed: true}");
+    CHECK(hint("faces") == "write check: {faces: ...}");
+    CHECK(hint("3") == "its options are: closed, faces");
 }
 
 TEST_CASE("true gives a group its defaults where it is a switch, false leaves it out", "[options]") {

@@ -51,6 +51,18 @@ TEST_CASE("numbers are finite", "[options]") {
     CHECK_FALSE(parsed<double>("1,5"));
 }
 
+TEST_CASE("a number with a unit, and the name of a param in signs of other languages, say what to write",
+          "[options]") {
+    CHECK(complaint<double>("2mm") ==
+          "E-TYPE expected a finite number, found '2mm' (it has no unit here: write 2; "
+          "transform: {unit: mm} converts a scene to a unit)");
+    CHECK(complaint<double>("10%") == "E-TYPE expected a finite number, found '10%' (write 0.1)");
+    CHECK(complaint<double>("2 kg") == "E-TYPE expected a finite number, found '2 kg'");
+    for (const char* text : {"$keep", "{keep}", "{{ keep }}"})
+        CHECK(complaint<Ratio>(text).find("(the value of a param is written ${keep})") != std::string::npos);
+    CHECK(complaint<Ratio>("{a, b}").find("param") == std::string::npos);
+}
+
 TEST_CASE("truths are true and false only", "[options]") {
     CHECK(parsed<bool>("true") == true);
     CHECK(parsed<bool>("False") == false);

@@ -1,0 +1,19 @@
+#pragma once
+// What other programs call options and properties: watertight, target_faces, merge_vertices. For hints only;
+// an option has one name. What they call stages is in stage/other_names.hpp.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facetmill {
+
+/// The names among those known that other programs call so; none when there is none.
+std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known);
+
+/// What to say about a word that is none of the known names: what it is called here, the nearest of them, or
+/// otherwise. Empty: the list of all known.
+std::string hint_for_option(std::string_view word, const std::vector<std::string>& known,
+                            std::string otherwise = {});
+
+} // namespace facetmill

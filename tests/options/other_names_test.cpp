@@ -1,0 +1,27 @@
+#include "support/catch.hpp"
+
+#include "options/other_names.hpp"
+#include "stage/stage.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("options are found by what other programs call them, where the option is known", "[options]") {
+    const std::vector<std::string> validate = stage_named("validate")->options->names();
+    const std::vector<std::string> simplify = stage_named("simplify")->options->names();
+    CHECK(hint_for_option("watertight", validate) == "'watertight' is called 'closed' here");
+    CHECK(hint_for_option("Manifold", validate) ==
+          "'Manifold' is called 'edge_manifold' or 'vertex_manifold' here");
+    CHECK(hint_for_option("target-faces", simplify) == "'target-faces' is called 'faces' here");
+    CHECK(hint_for_option("reduction", simplify) ==
+          "here it is ratio, the share that stays and not the one that goes");
+    CHECK(hint_for_option("preserve_border", simplify) == "here it is lock: {boundary: true}");
+    CHECK(options_called("watertight", simplify).empty());
+    CHECK(options_called("holes", validate) == std::vector<std::string>{"boundary_loops"});
+}
+
+TEST_CASE("a word that no other program uses is answered with the nearest option", "[options]") {
+    const std::vector<std::string> known{"ratio", "faces"};
+    CHECK(hint_for_option("rato", known) == "did you mean 'ratio'?");
+    CHECK(hint_for_option("qqqqq", known) == "expected one of: ratio, faces");
+    CHECK(hint_for_option("qqqqq", known, "see the help") == "see the help");
+}
