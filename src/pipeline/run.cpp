@@ -275,7 +275,7 @@ class Runner {
             if (!failures_.guarded(step.where, "the condition", [&] { skip = is_skipped(step, flow.scene); }))
                 return false;
             if (skip) {
-                if (step.kind == Step::Kind::stage) record_skipped(step);
+                record_skipped(step);
                 continue;
             }
             std::size_t checked = record().checks.size();
@@ -331,7 +331,12 @@ class Runner {
         return stage;
     }
 
+    /// All stages of a branch or foreach; where its arms are parts, which nobody looks for, as they were
+    /// planned.
     void record_skipped(const Step& step) {
+        for (const Arm& arm : step.arms)
+            for (const Step& inner : *arm.steps) record_skipped(inner);
+        if (step.kind != Step::Kind::stage) return;
         auto stage = new_record(step);
         stage.skipped = true;
         trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::skipped});

@@ -112,6 +112,20 @@ TEST_CASE("files that collide once the parts are known fail before anything is w
     CHECK(ground.directory.names() == Names{"A.ply", "a.ply"});
 }
 
+TEST_CASE("stages in a foreach or a branch that is skipped are told, too", "[pipeline]") {
+    Ground ground;
+    const auto record =
+        ground.run("  - test-load: a.ply\n"
+                   "  - foreach: {n: [5, 4]}\n    when: {closed: false}\n"
+                   "    do: [{test-cut: \"${n}\"}]\n"
+                   "  - branch: {a: [test-cut: 3, {branch: {b: [test-cut: 2]}}]}\n    when: false\n"
+                   "  - test-write: b.txt\n");
+    CHECK(errors_of(record).empty());
+    CHECK(ran(record) == "test-load n=5/test-cut(skipped) n=4/test-cut(skipped) a/test-cut(skipped) "
+                         "a/b/test-cut(skipped) test-write");
+    CHECK(ground.file("b.txt") == "a 12\n");
+}
+
 TEST_CASE("when skips a stage, and sees the scene at its place", "[pipeline]") {
     Ground ground;
     const auto record = ground.run("  - test-load: a.ply\n"
