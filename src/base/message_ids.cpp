@@ -686,6 +686,11 @@ std::span<const MessageId> message_ids() {
          "optimize made no palette of more than 512 different looks, which the bits of a texture coordinate "
          "would not tell apart.",
          "Optimize some of the parts at a time, with `only`."},
+        {"W-PLACEHOLDER",
+         {},
+         "The name of a file to write has what other programs replace, such as `{input.stem}`; facetmill "
+         "replaces `${input.stem}` (in `facetmill pipe` `@{input.stem}`), so the name has it as it is.",
+         "Write an expression with `$` (or `@`); `--quiet=W-PLACEHOLDER` if the name is meant."},
         {"W-PROBE-OPEN",
          {},
          "The surface is open, so no point is inside or outside.",

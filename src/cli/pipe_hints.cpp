@@ -22,6 +22,7 @@ class Rewriter {
         while (at_ < hint_.size()) {
             const bool begins =
                 is_word_character(hint_[at_]) && (at_ == 0 || !is_word_character(hint_[at_ - 1]));
+            if (rewrite_expression()) continue;
             if (!begins || !rewrite_pair()) out_ += hint_[at_++];
         }
         return std::move(out_);
@@ -31,6 +32,17 @@ class Rewriter {
     struct Argument {
         std::string name, value; ///< dotted
     };
+
+    /// "${" or "$${" at the place, which a shell would take for its own.
+    bool rewrite_expression() {
+        std::size_t brace = at_;
+        while (brace < hint_.size() && hint_[brace] == '$') ++brace;
+        if (brace == at_ || brace == hint_.size() || hint_[brace] != '{') return false;
+        out_.append(brace - at_, '@');
+        out_ += '{';
+        at_ = brace + 1;
+        return true;
+    }
 
     /// "word: value" at the place; false when it is none that pipe writes in another way.
     bool rewrite_pair() {

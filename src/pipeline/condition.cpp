@@ -1,5 +1,6 @@
 #include "base/numbers.hpp"
 #include "base/words.hpp"
+#include "pipeline/condition_hints.hpp"
 #include "pipeline/planner.hpp"
 
 #include <fmt/format.h>
@@ -87,16 +88,21 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
             condition.known = truth;
             return condition;
         }
+        const std::string hint = value.is_scalar() ? hint_of_property_alone(value.text) : "";
         problems.add(
             value.mark, "E-WHEN",
             fmt::format("expected true, false, a comparison or properties, found {}", is.described()),
-            "when: \"${flag}\", when: ${quality} == high, or when: {closed: false}");
+            hint.empty() ? "when: \"${flag}\", when: ${quality} == high, or when: {closed: false}" : hint);
         return condition;
     }
     const auto [at, op] = *found;
     const std::string_view text = value.text;
     const std::string texts[] = {std::string(trimmed(text.substr(0, at))),
                                  std::string(trimmed(text.substr(at + op.size())))};
+    if (auto meant = meant_comparison(texts[0], op, texts[1], scope)) {
+        problems.add(value.mark, "E-WHEN", std::move(meant->message), std::move(meant->hint));
+        return condition;
+    }
     Value sides[2];
     for (std::size_t i = 0; i < 2; ++i)
         sides[i] = resolved(Value::scalar(texts[i], mark_within(value.mark, texts[i])), scope, problems);

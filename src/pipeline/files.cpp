@@ -2,6 +2,7 @@
 #include "base/once_each.hpp"
 #include "base/spelling.hpp"
 #include "io/output_files.hpp"
+#include "pipeline/placeholders.hpp"
 #include "pipeline/plan.hpp"
 
 #include <algorithm>
@@ -212,6 +213,12 @@ std::vector<PlannedFile> missing_files(const Plan& plan) {
     return files;
 }
 
+std::string hint_of_missing(const fs::path& path) {
+    if (const auto found = placeholder_in(path.filename().string(), {}))
+        return fmt::format("for the value of a param or variable write {}", found->expression);
+    return nearest_file(path);
+}
+
 Diagnostic about_missing(const PlannedFile& file) {
     if (!file.pattern.empty())
         return {Severity::error,
@@ -220,7 +227,7 @@ Diagnostic about_missing(const PlannedFile& file) {
                 file.where,
                 {}};
     return {Severity::error, "E-FILE", fmt::format("there is no file '{}'", file.path.string()), file.where,
-            nearest_file(file.path)};
+            hint_of_missing(file.path)};
 }
 
 } // namespace

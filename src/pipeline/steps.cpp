@@ -1,4 +1,5 @@
 #include "base/spelling.hpp"
+#include "pipeline/placeholders.hpp"
 #include "pipeline/planner.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/other_names.hpp"
@@ -257,6 +258,12 @@ void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& sco
     overrides_.apply(names, *step.stage, step.given, problems_);
     step.options = step.stage->make_options();
     const bool good = step.stage->options->parse(step.given, step.options.get(), entry.key, problems_);
+    if (good && step.stage->files) {
+        std::vector<std::string> outputs;
+        for (const PathText& path : step.stage->files(step.options.get()).outputs)
+            outputs.push_back(path.text);
+        warn_of_placeholders(entry.value, outputs, scope, problems_);
+    }
     if (good && step.stage->verify && !is_deferred(step.given))
         step.stage->verify(step.options.get(), step.given, problems_);
 }

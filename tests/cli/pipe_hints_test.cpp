@@ -28,6 +28,9 @@ TEST_CASE("hints name stages and options as pipe takes them", "[cli]") {
         {"units: um, mm, or %", "units: um, mm, or %"},
         {"it was {a: b", "it was {a: b"},
         {"load: {path", "load: {path"},
+        {"write ${lod}, without blanks", "write @{lod}, without blanks"},
+        {"for a literal ${ write $${", "for a literal @{ write @@{"},
+        {"it costs 5$", "it costs 5$"},
         {"", ""},
     };
     for (const Case& c : cases) CHECK(in_pipe_syntax(c.yaml) == c.pipe);

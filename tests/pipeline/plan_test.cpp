@@ -370,6 +370,62 @@ TEST_CASE("what a parameter is compared with is read by its type", "[pipeline]")
     CHECK(when("r: {type: ratio, default: 50%}", "${r} >= 0.5") == "true");
 }
 
+TEST_CASE("a condition on a property or a variable as other languages have it says what to write",
+          "[pipeline]") {
+    const auto hint_of = [](const std::string& condition) {
+        const auto result =
+            planned("facetmill: 1\nparams: {q: {type: choice, choices: [low, high], default: low}}\n"
+                    "stages:\n  - test-load: a.ply\n  - test-cut:\n    when: '" +
+                    condition + "'\n");
+        const auto at = result.problems.find("hint: ");
+        return result.problems.find("E-WHEN") == std::string::npos || at == std::string::npos
+                   ? result.problems
+                   : result.problems.substr(at + 6);
+    };
+    CHECK(hint_of("faces > 1000") == "write when: {faces: {min: 1001}}");
+    CHECK(hint_of("faces >= 1000") == "write when: {faces: {min: 1000}}");
+    CHECK(hint_of("1000 > faces") == "write when: {faces: {max: 999}}");
+    CHECK(hint_of("faces == 12") == "write when: {faces: 12}");
+    CHECK(hint_of("faces != 12") == "write when: {faces: {min: ..., max: ...}}");
+    CHECK(hint_of("area < 2.5") == "write when: {area: {max: 2.5}}");
+    CHECK(hint_of("max_extent < 20cm") == "write when: {max_extent: {max: 20cm}}");
+    CHECK(hint_of("watertight == false") == "write when: {closed: false}");
+    CHECK(hint_of("closed != true") == "write when: {closed: false}");
+    CHECK(hint_of("unit == mm") == "write when: {unit: mm}");
+    CHECK(hint_of("not closed") == "write when: {closed: false}");
+    CHECK(hint_of("closed") == "write when: {closed: true}");
+    CHECK(hint_of("q == high") == "write ${q} == high");
+    CHECK(hint_of("${q} == faces").find("E-CHOICE") != std::string::npos); // it is compared as it was
+    CHECK(hint_of("1 == 1").empty());
+}
+
+TEST_CASE("a file to write whose name has what other programs replace is warned of", "[pipeline]") {
+    const auto warnings = [](const std::string& name) {
+        return planned("facetmill: 1\nparams: {scan: {type: path, default: a.ply}}\nstages:\n  - test-load: "
+                       "a.ply\n"
+                       "  - test-write: \"" +
+                       name + "\"\n")
+            .problems;
+    };
+    CHECK(warnings("x-{scan.stem}.glb") == "p.yaml:5:20: warning[W-PLACEHOLDER]: '{scan.stem}' is no "
+                                           "expression: the name of the file has it as it "
+                                           "is\n"
+                                           "    - test-write: \"x-{scan.stem}.glb\"\n"
+                                           "                     ^~~~~~~~~~~\n"
+                                           "  hint: write ${scan.stem}");
+    CHECK(warnings("$scan.glb").find("hint: write ${scan}") != std::string::npos);
+    CHECK(warnings("@{scan}.glb").find("'@{scan}' is no expression") != std::string::npos);
+    CHECK(
+        warnings("{input.stem}.glb")
+            .find("hint: an expression is written ${input.stem}, where input is a param or the variable of a "
+                  "foreach") != std::string::npos);
+    for (const char* name :
+         {"${scan.stem}.glb", "{3F25-9a}.glb", "{model}.glb", "a{}.glb", "$5.glb", "a@b.glb", "{"})
+        CHECK(warnings(name).empty());
+    const auto missing = missing_inputs(planned_stages("  - test-load: \"{input}\"\n").plan);
+    CHECK(missing.at(0).hint == "for the value of a param or variable write ${input}");
+}
+
 TEST_CASE("plan shows everything resolved", "[pipeline]") {
     const auto result = planned("facetmill: 1\nabout: A test\nparams: {keep: {type: ratio, default: "
                                 "10%}}\nstages:\n  - test-load: a.ply\n"
