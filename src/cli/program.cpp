@@ -2,10 +2,12 @@
 #include "base/sandbox.hpp"
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
+#include "cli/stage_commands.hpp"
 #include "docs/ready.hpp"
 #include "docs/stages.hpp"
 #include "docs/versions.hpp"
 #include "stage/common_keys.hpp"
+#include "stage/other_names.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -48,7 +50,7 @@ Commands
 )";
 
 constexpr const char* help_end = R"(
-  --help, --version, --version --json
+  --help, --version, --version --json, and help TOPIC: what facetmill docs TOPIC prints
 
 Examples
   facetmill pipe load scan.ply ! simplify 25% ! write web.glb
@@ -74,13 +76,31 @@ std::string help_text() {
 
 /// What was meant by a word that is no command: a mesh file, a word of other tools, a ready pipeline, or a
 /// command.
-std::string hint_for(const std::string& name, const std::vector<std::string>& names) {
+std::string hint_for(const std::vector<std::string>& words, const std::vector<std::string>& names) {
+    const std::string& name = words[0];
     if (name == "convert" || name.find_first_of("./\\") != name.npos)
         return "a mesh file is converted by facetmill pipe load IN ! write OUT, and looked at by facetmill "
                "info IN";
     if (docs::ready_pipeline(name))
         return fmt::format("a pipeline runs by facetmill run {} -D input=FILE", name);
+    if (const std::string_view stage = stage_called(name); !stage.empty()) return as_pipe(stage, words);
     return suggestion(name, names);
+}
+
+/// An option, then perhaps the command that it is of.
+std::string option_first(const std::vector<std::string>& words, const std::vector<std::string>& names) {
+    const auto command = std::find_first_of(words.begin() + 1, words.end(), names.begin(), names.end());
+    return fmt::format("options come after the command: facetmill {} {} ...",
+                       command == words.end() ? "run" : *command, words[0]);
+}
+
+/// The stage whose help is wanted as if it were a command, or null.
+const StageInfo* help_of_stage(const std::vector<std::string>& words) {
+    const auto is_command = [&](const Command& c) { return c.name == words[0]; };
+    const bool wanted = std::any_of(words.begin() + 1, words.end(),
+                                    [](const std::string& word) { return word == "--help" || word == "-h"; });
+    return wanted && std::none_of(commands().begin(), commands().end(), is_command) ? stage_named(words[0])
+                                                                                    : nullptr;
 }
 
 const Command& command_named(const std::string& name, const CommandLine& line) {
@@ -90,19 +110,14 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
         names.push_back(c.name);
     }
     if (stage_named(name) || is_control_item(name))
-        throw Error(
-            ErrorKind::usage, "E-COMMAND", fmt::format("'{}' is a stage, not a command", name),
-            stage_named(name)
-                ? fmt::format("facetmill pipe load IN ! {0} ... ! write OUT; facetmill stages {0} lists its "
-                              "options",
-                              name)
-                : "facetmill pipe --help",
-            line.mark(0));
+        throw Error(ErrorKind::usage, "E-COMMAND", fmt::format("'{}' is a stage, not a command", name),
+                    stage_named(name) ? as_pipe(name, line.arguments()) : "facetmill pipe --help",
+                    line.mark(0));
     if (name.starts_with("-"))
         throw Error(ErrorKind::usage, "E-OPTION", fmt::format("facetmill itself has no option '{}'", name),
-                    "options come after the command: facetmill run ... " + name, line.mark(0));
+                    option_first(line.arguments(), names), line.mark(0));
     throw Error(ErrorKind::usage, "E-COMMAND", fmt::format("there is no command '{}'", name),
-                hint_for(name, names), line.mark(0));
+                hint_for(line.arguments(), names), line.mark(0));
 }
 
 std::string option_hint(const Command& command, const Arguments& arguments, const std::string& given) {
@@ -203,12 +218,18 @@ int program(std::vector<std::string> arguments, Console& console) {
         console.say(help_text());
         return static_cast<int>(ErrorKind::usage);
     }
-    if (all[0] == "--help" || all[0] == "-h" || all[0] == "help") {
+    const bool asks = all[0] == "--help" || all[0] == "-h" || all[0] == "help";
+    if (asks && all.size() == 1) {
         print(help_text());
         return 0;
     }
+    if (asks) return execute(docs_command(), line, console);
     if (all[0] == "--version" || all[0] == "-V") {
         print(version_text(all.size() > 1 && all[1] == "--json"));
+        return 0;
+    }
+    if (const StageInfo* stage = help_of_stage(all)) {
+        print(docs::stage_page(*stage));
         return 0;
     }
     return execute(command_named(all[0], line), line, console);

@@ -72,7 +72,11 @@ TEST_CASE("options before the command are answered with where they go", "[cli]")
           "command line:1:11: error[E-OPTION]: facetmill itself has no option '--quiet'\n"
           "  facetmill --quiet run\n"
           "            ^~~~~~~\n"
-          "  hint: options come after the command: facetmill run ... --quiet\n");
+          "  hint: options come after the command: facetmill run --quiet ...\n");
+    CHECK(message({"--no-cache", "pipe", "load", "a.stl"})
+              .find("hint: options come after the command: facetmill pipe --no-cache ...\n") !=
+          std::string::npos);
+    CHECK(message({"-v"}).find("facetmill run -v ...\n") != std::string::npos);
 }
 
 TEST_CASE("one JSON document names the release and its libraries", "[cli]") {
@@ -100,12 +104,37 @@ TEST_CASE("an id beside --strict is not taken for a pipeline or a stage", "[cli]
 }
 
 TEST_CASE("a stage is no command", "[cli]") {
-    CHECK(
-        message({"relax", "a.ply"}) ==
-        "command line:1:11: error[E-COMMAND]: 'relax' is a stage, not a command\n"
-        "  facetmill relax a.ply\n"
-        "            ^~~~~\n"
-        "  hint: facetmill pipe load IN ! relax ... ! write OUT; facetmill stages relax lists its options\n");
+    CHECK(message({"relax", "a.ply"}) ==
+          "command line:1:11: error[E-COMMAND]: 'relax' is a stage, not a command\n"
+          "  facetmill relax a.ply\n"
+          "            ^~~~~\n"
+          "  hint: facetmill pipe load a.ply ! relax ... ! write OUT; facetmill relax --help lists its "
+          "options\n");
+}
+
+TEST_CASE("a stage typed as a command is answered with the same words for pipe", "[cli]") {
+    const auto meant = [](std::vector<std::string> words) {
+        const std::string text = message(std::move(words));
+        const auto at = text.find("hint: facetmill pipe "), end = text.find("; facetmill", at);
+        return end == std::string::npos ? text : text.substr(at + 21, end - at - 21);
+    };
+    CHECK(meant({"validate", "--watertight", "part.stl"}) == "load part.stl ! validate --closed");
+    CHECK(meant({"simplify", "a.ply", "b c.glb", "--target-faces", "100"}) ==
+          "load a.ply ! simplify --faces 100 ! write 'b c.glb'");
+    CHECK(meant({"decimate", "a.ply", "-o", "b.glb", "50%"}) == "load a.ply ! simplify 50% ! write b.glb");
+    CHECK(meant({"combine", "union", "a.stl", "--with", "b.stl"}) ==
+          "load a.stl ! combine union --with b.stl ! write OUT");
+    CHECK(meant({"section", "a.stl", "z=0", "o.svg"}) == "load a.stl ! section z=0 o.svg");
+    CHECK(meant({"generate", "sphere"}) == "generate sphere ! write OUT");
+    CHECK(meant({"write"}) == "load IN ! write ...");
+}
+
+TEST_CASE("help of a word is that of docs", "[cli]") {
+    CHECK(message({"help", "simplfy"}) ==
+          "command line:1:16: error[E-ARGUMENT]: there is no topic 'simplfy'\n"
+          "  facetmill help simplfy\n"
+          "                 ^~~~~~~\n"
+          "  hint: did you mean 'simplify'?\n");
 }
 
 TEST_CASE("render takes the options of the stage, and says what it needs", "[cli]") {

@@ -97,6 +97,11 @@ class Text(Case):
         self.assertEqual(self.mill("docs", "Diff").stdout, self.mill("diff", "--help").stdout)
         self.assertEqual(self.mill("docs", "w-units").stdout, self.mill("explain", "W-UNITS").stdout)
         self.assertIn("did you mean 'simplify'?", self.mill("docs", "simplfy", expect=2).stderr)
+        for words in (["help", "simplify"], ["simplify", "--help"], ["--help", "simplify"]):
+            self.assertEqual(self.mill(*words).stdout, self.mill("stages", "simplify").stdout)
+        self.assertEqual(self.mill("help", "run").stdout, self.mill("run", "--help").stdout)
+        self.assertEqual(self.mill("help", "checks").stdout, self.mill("docs", "checks").stdout)
+        self.assertEqual(self.mill("help").stdout, self.mill("--help").stdout)
         self.assertRegex(self.mill("docs", "draco", expect=2).stderr, r"it occurs in: .*\bscan-to-web\b.*\bwrite\b")
         self.assertIn("facetmill docs lists the topics", self.mill("docs", "xyzzy-12", expect=2).stderr)
 

@@ -1,0 +1,78 @@
+#include "cli/stage_commands.hpp"
+
+#include "base/markup.hpp"
+#include "io/codec.hpp"
+#include "options/other_names.hpp"
+#include "stage/stage.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+/// Tells files from what the stage takes.
+class StageWords {
+  public:
+    explicit StageWords(const StageInfo& stage) : stage_(stage) {}
+
+    void read(const std::vector<std::string>& words) {
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            const std::string& word = words[i];
+            const bool more = i + 1 < words.size();
+            if (word == "-o" || word == "--output" || word == "--out") {
+                if (more) out_ = words[++i];
+            } else if (word.starts_with("--")) {
+                const Option* option = add_option(word);
+                const bool alone =
+                    !option || option->kind == OptionKind::boolean || word.find('=') != word.npos;
+                if (!alone && more && !words[i + 1].starts_with("--")) taken_ += " " + for_shell(words[++i]);
+            } else if (is_mesh(word) && in_.empty() && !stage_.loads)
+                in_ = word;
+            else if (is_mesh(word) && out_.empty() && !stage_.tells && !stage_.loads)
+                out_ = word;
+            else
+                taken_ += " " + for_shell(word);
+        }
+    }
+
+    std::string line() const {
+        std::string text = "facetmill pipe";
+        if (!stage_.loads) text += fmt::format(" load {} !", in_.empty() ? "IN" : for_shell(in_));
+        text += fmt::format(" {}{}", stage_.name, taken_.empty() ? " ..." : taken_);
+        if (!out_.empty() || (!stage_.checks && !stage_.tells))
+            text += fmt::format(" ! write {}", out_.empty() ? "OUT" : for_shell(out_));
+        return text;
+    }
+
+  private:
+    /// Under the name that it has here; null when it has none.
+    const Option* add_option(const std::string& word) {
+        const auto end = std::min(word.find('='), word.size());
+        std::string name = word.substr(2, end - 2);
+        const auto called = options_called(name, stage_.options->names());
+        if (!stage_.options->find(name) && !called.empty()) name = called.front();
+        taken_ += " " + for_shell("--" + name + word.substr(end));
+        return stage_.options->find(name);
+    }
+
+    static bool is_mesh(const std::string& word) {
+        std::error_code ignored;
+        return !word.starts_with('-') &&
+               (io::codec_for(word) || std::filesystem::is_regular_file(word, ignored));
+    }
+
+    const StageInfo& stage_;
+    std::string in_, out_, taken_;
+};
+
+} // namespace
+
+std::string as_pipe(std::string_view stage, const std::vector<std::string>& words) {
+    StageWords read(*stage_named(stage));
+    read.read(words);
+    return fmt::format("{}; facetmill {} --help lists its options", read.line(), stage);
+}
+
+} // namespace facetmill::cli
