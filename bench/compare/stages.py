@@ -5,8 +5,8 @@ Runs each stage on a closed, slightly rough sphere of 5.2 million faces (--level
 one thread and with two, in turn. Told are the seconds of the stage alone (--timings), the fastest of several runs, the
 speed-up, and the share of the work that must be serial for it: none would give 2.00. The floor is the time in which one
 core copies as many bytes as the stage must read and write at least: positions and corners of the mesh before and after
-it, and the files, for whose disk nobody waits (--no-sync). Wall times: they mean something only on a machine that has nothing else to do, which the load of the
-machine before and after the table tells.
+it, and the files, for whose disk nobody waits (--no-sync). Wall times: they mean something only on a machine that has
+nothing else to do, which the load of the machine before and after the table tells.
 """
 import argparse
 import json
