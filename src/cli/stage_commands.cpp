@@ -5,6 +5,8 @@
 #include "options/other_names.hpp"
 #include "stage/stage.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -33,7 +35,7 @@ class StageWords {
             else if (is_mesh(word) && out_.empty() && !stage_.tells && !stage_.loads)
                 out_ = word;
             else
-                taken_ += " " + for_shell(word);
+                taken_ += (is_result(word) ? " --path " : " ") + for_shell(word);
         }
     }
 
@@ -61,6 +63,14 @@ class StageWords {
         std::error_code ignored;
         return !word.starts_with('-') &&
                (io::codec_for(word) || std::filesystem::is_regular_file(word, ignored));
+    }
+
+    /// A file such as outline.svg, for a stage whose bare value is something else and that writes one.
+    bool is_result(const std::string& word) const {
+        const Option* path = stage_.options->find("path");
+        const std::string suffix = std::filesystem::path(word).extension().string();
+        return path && !path->primary && suffix.size() > 1 &&
+               std::all_of(suffix.begin() + 1, suffix.end(), [](unsigned char c) { return std::isalpha(c); });
     }
 
     const StageInfo& stage_;

@@ -124,7 +124,7 @@ TEST_CASE("a stage typed as a command is answered with the same words for pipe",
     CHECK(meant({"decimate", "a.ply", "-o", "b.glb", "50%"}) == "load a.ply ! simplify 50% ! write b.glb");
     CHECK(meant({"combine", "union", "a.stl", "--with", "b.stl"}) ==
           "load a.stl ! combine union --with b.stl ! write OUT");
-    CHECK(meant({"section", "a.stl", "z=0", "o.svg"}) == "load a.stl ! section z=0 o.svg");
+    CHECK(meant({"section", "a.stl", "z=0", "o.svg"}) == "load a.stl ! section z=0 --path o.svg");
     CHECK(meant({"generate", "sphere"}) == "generate sphere ! write OUT");
     CHECK(meant({"write"}) == "load IN ! write ...");
 }
