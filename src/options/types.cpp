@@ -68,8 +68,8 @@ std::string hint_of_truth(const Value& value) {
     return word == "no" || word == "off" || word == "n" ? "write false" : "";
 }
 
-/// "write 20000" for 20k and 20,000; empty when it is neither, or no integer.
-std::string hint_of_integer(const Value& value) {
+/// 20000 for 20k and 20,000.
+std::optional<std::int64_t> integer_meant(const Value& value) {
     if (!value.is_scalar()) return {};
     std::string digits = value.text;
     std::erase_if(digits, [](char c) { return c == ',' || c == '_' || c == '\''; });
@@ -83,7 +83,12 @@ std::string hint_of_integer(const Value& value) {
     const double number = parts->first * factor;
     constexpr double most = 1e15; // exact in a double, with room
     if (factor == 0 || number != std::floor(number) || std::abs(number) > most) return {};
-    return fmt::format("write {}", static_cast<std::int64_t>(number));
+    return static_cast<std::int64_t>(number);
+}
+
+std::string hint_of_integer(const Value& value) {
+    const auto meant = integer_meant(value);
+    return meant ? fmt::format("write {}", *meant) : "";
 }
 
 /// What to write for 10% and 2mm; empty when it is neither.
@@ -226,8 +231,11 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     const std::string expected = "a ratio (25% or 0.25)";
     if (!value.is_scalar()) return wrong_type(value, expected, problems);
     const auto parts = number_and_unit(value.text);
-    if (!parts || !(parts->second == "%" || parts->second == "pct" || parts->second.empty()))
-        return wrong_type(value, expected, problems);
+    if (!parts || !(parts->second == "%" || parts->second == "pct" || parts->second.empty())) {
+        const auto count = integer_meant(value); // 10k
+        return wrong_type(value, expected, problems,
+                          count ? fmt::format("name the option that counts (faces: {})", *count) : "");
+    }
     const bool percent = !parts->second.empty();
     if (!percent && value.text.find('.') == std::string::npos && parts->first != 0) {
         const auto hint =

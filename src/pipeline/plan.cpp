@@ -8,6 +8,7 @@
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/planner.hpp"
+#include "pipeline/yaml_text.hpp"
 #include "report/form.hpp"
 
 #include <array>
@@ -178,10 +179,11 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     plan.allowed = settings.allowed;
     if (!document.is_map()) {
         plan.reports = read_reports(nullptr, {}, settings, plan.others, problems);
+        const std::string mesh = hint_for_no_pipeline(settings.name);
         problems.add(
             document.mark, "E-TYPE",
             fmt::format("a pipeline is a map with facetmill and stages, found {}", document.described()),
-            "facetmill: 1\n    stages:\n      - load: scan.ply");
+            mesh.empty() ? "facetmill: 1\n    stages:\n      - load: scan.ply" : mesh);
         return plan;
     }
     check_head(document, top_level_keys, problems);

@@ -47,7 +47,7 @@ std::string hint_of_no_stage(const std::string& name) {
         return fmt::format("a colon and a blank follow the name: {}: {}", word, name.substr(value));
     }
     if (name.find_first_of("./") != std::string::npos)
-        return fmt::format("a file is read by the stage load: load {}", name);
+        return fmt::format("load: {0} reads a file, write: {0} writes one", name);
     return hint_for_stage(name, all_stage_names());
 }
 

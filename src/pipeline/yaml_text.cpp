@@ -1,6 +1,7 @@
 #include "pipeline/yaml_text.hpp"
 
 #include "base/words.hpp"
+#include "io/codec.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -37,12 +38,20 @@ Mark SourceIndex::mark(std::size_t offset, int length) const {
     return {source_, line, characters(*(next - 1), offset) + 1, std::max(1, length)};
 }
 
+std::string hint_for_no_pipeline(const std::string& name) {
+    if (!io::codec_for(name)) return {};
+    return fmt::format(
+        "is this a mesh? facetmill info {0} tells what it holds, facetmill pipe load {0} ! ... works on it",
+        name);
+}
+
 bool check_text(const SourceIndex& source, Problems& problems) {
     const std::string& text = source.text();
+    const std::string mesh = hint_for_no_pipeline(source.name());
     if (text.size() > max_text) {
-        problems.add(source.mark(0), "E-YAML",
-                     fmt::format("a pipeline of {} bytes is too large", text.size()),
-                     fmt::format("the limit is {} bytes; is this a pipeline?", max_text));
+        problems.add(
+            source.mark(0), "E-YAML", fmt::format("a pipeline of {} bytes is too large", text.size()),
+            mesh.empty() ? fmt::format("the limit is {} bytes; is this a pipeline?", max_text) : mesh);
         return false;
     }
     for (std::size_t i = 0; i < text.size();) {
@@ -53,7 +62,7 @@ bool check_text(const SourceIndex& source, Problems& problems) {
                          length == 0
                              ? fmt::format("the byte 0x{:02x} is not UTF-8", byte)
                              : fmt::format("the control character 0x{:02x} may not be in a pipeline", byte),
-                         "a pipeline is a text in UTF-8");
+                         mesh.empty() ? "a pipeline is a text in UTF-8" : mesh);
             return false;
         }
         i += length;

@@ -18,6 +18,7 @@ class SourceIndex {
     explicit SourceIndex(std::shared_ptr<const SourceText> source);
 
     const std::string& text() const { return source_->text; }
+    const std::string& name() const { return source_->name; }
     /// The place of the byte at offset (clamped to the text), underlining so many characters.
     Mark mark(std::size_t offset, int length = 1) const;
     /// Characters (UTF-8) in the bytes [begin, end).
@@ -27,6 +28,9 @@ class SourceIndex {
     std::shared_ptr<const SourceText> source_;
     std::vector<std::size_t> line_begins_;
 };
+
+/// Where the name of what is no pipeline is that of a mesh, what to do with one; else empty.
+std::string hint_for_no_pipeline(const std::string& name);
 
 /// Whether the text is UTF-8 without control characters and of bearable size; adds E-YAML at the first place
 /// that is not. YAML allows no control characters, and a NUL or EOT would end some parsers early without a

@@ -102,7 +102,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
         {stages("  - a.ply: 3\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'a.ply'\n"
                                    "    - a.ply: 3\n"
                                    "      ^~~~~\n"
-                                   "  hint: a file is read by the stage load: load a.ply"},
+                                   "  hint: load: a.ply reads a file, write: a.ply writes one"},
         {stages("  - test-cut: {faces: 3, capp: true}\n"),
          "p.yaml:4:26: error[E-KEY]: test-cut has no option 'capp'\n"
          "    - test-cut: {faces: 3, capp: true}\n"
@@ -224,6 +224,13 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "          ^~~~~"},
     };
     for (const auto& c : cases) CHECK(planned(c.text).problems == c.problem);
+}
+
+TEST_CASE("a mesh in the place of a pipeline is told from one", "[pipeline]") {
+    for (const std::string text : {"solid a\nfacet normal 0 0 1\n", "glTF\x02"})
+        CHECK(planned(text, {}, "a.stl")
+                  .problems.ends_with("hint: is this a mesh? facetmill info a.stl tells what it holds, "
+                                      "facetmill pipe load a.stl ! ... works on it"));
 }
 
 TEST_CASE("all errors are reported at once", "[pipeline]") {

@@ -11,10 +11,11 @@ struct Planned {
     std::string problems; ///< rendered, one after the other
 };
 
-inline Planned planned(const std::string& text, pipeline::PlanSettings settings = {}) {
+inline Planned planned(const std::string& text, pipeline::PlanSettings settings = {},
+                       const std::string& name = "p.yaml") {
     Problems problems;
-    settings.name = "p.yaml";
-    const auto source = std::make_shared<const SourceText>(SourceText{"p.yaml", text});
+    settings.name = name;
+    const auto source = std::make_shared<const SourceText>(SourceText{name, text});
     const Value document = pipeline::parse_yaml(source, problems);
     Planned out;
     if (!problems.any_errors()) out.plan = pipeline::make_plan(document, settings, problems);
