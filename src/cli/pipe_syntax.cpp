@@ -261,7 +261,8 @@ class Parser {
         return true;
     }
 
-    /// "ratio=10%", "ratio:10%" and "-ratio" as other programs have them, unless a file is called so.
+    /// "ratio=10%", "ratio:10%" and "-ratio" as other programs have them, unless a file is called so, or may
+    /// be: "draco=1.glb".
     bool skip_misspelt_option(const StageInfo& stage) {
         const std::string& word = all_[at_];
         if (is_option(word)) return false;
@@ -270,14 +271,27 @@ class Parser {
         const std::string name = word.substr(dash, end == word.npos ? end : end - dash);
         std::error_code ignored;
         if ((!dash && end == word.npos) || name.empty() || !takes(stage, name) ||
-            std::filesystem::exists(word, ignored))
+            std::filesystem::exists(word, ignored) || (!dash && may_be_file(stage, name, word)))
             return false;
-        const std::string value = end == word.npos ? "" : word.substr(end + 1);
-        wrong(fmt::format("an option of a stage begins with two dashes, found '{}'", word),
-              fmt::format("write --{}{}{}", name, value.empty() ? "" : " ", value));
+        std::string value = end == word.npos ? "" : word.substr(end + 1);
+        const Mark where = mark();
         ++at_;
-        if (dash && end == word.npos && wants_value(name, find_dotted(*stage.options, name))) ++at_;
+        if (dash && end == word.npos && wants_value(name, find_dotted(*stage.options, name)))
+            value = all_[at_++];
+        problems_.add(where, "E-PIPE",
+                      fmt::format("an option of a stage begins with two dashes, found '{}'", word),
+                      fmt::format("write --{}{}{}", name, value.empty() ? "" : " ", value));
         return true;
+    }
+
+    /// Whether the bare value of the stage is a path, and the word ends in a suffix as files do. A file that
+    /// is called as the option itself, "path=a.glb", is nothing that anybody wants.
+    static bool may_be_file(const StageInfo& stage, const std::string& name, const std::string& word) {
+        const Option* primary = stage.options->primary();
+        if (!primary || name == primary->name) return false;
+        if (primary->kind != OptionKind::path && primary->one != OptionKind::path) return false;
+        const std::string suffix = std::filesystem::path(word).extension().string();
+        return suffix.size() > 1 && std::isalpha(static_cast<unsigned char>(suffix[1]));
     }
 
     /// Whether an option of this name is one of the stage, or a common key.

@@ -220,11 +220,16 @@ TEST_CASE("options as other programs have them are answered with two dashes", "[
           "                                  ^~~~~~~~~~~~~~~\n"
           "  hint: write --operation union\n");
     CHECK(hint("simplify ratio:10%") == "write --ratio 10%\n");
-    CHECK(hint("simplify -faces 100") == "write --faces\n");
+    CHECK(hint("simplify -faces 100") == "write --faces 100\n");
     CHECK(hint("write a.glb draco=true") == "write --draco true\n");
     CHECK(yaml("write a.glb draco").find("hint: did you mean '--draco'?") != std::string::npos);
     CHECK(same("clip z=0", "[{clip: z=0}]")); // an equation, and no option is called z
     CHECK(same("load a=b.stl", "[{load: a=b.stl}]"));
+    // Files may be called like an option and its value.
+    CHECK(same("write draco=1.glb", "[{write: draco=1.glb}]"));
+    CHECK(same("load unit=mm.stl", "[{load: unit=mm.stl}]"));
+    CHECK(hint("write path=a.glb") == "write --path a.glb\n");
+    CHECK(hint("write unit=mm a.glb") == "write --unit mm\n");
 }
 
 TEST_CASE("no line of brackets, separators and options crashes the parser", "[cli][property]") {
