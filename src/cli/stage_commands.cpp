@@ -25,23 +25,33 @@ class StageWords {
             const bool more = i + 1 < words.size();
             if (word == "-o" || word == "--output" || word == "--out") {
                 if (more) out_ = words[++i];
+            } else if (word == "-h" || word == "--help" || word == "--") {
+                continue;
             } else if (word.starts_with("--")) {
                 const Option* option = add_option(word);
                 const bool alone =
                     !option || option->kind == OptionKind::boolean || word.find('=') != word.npos;
                 if (!alone && more && !words[i + 1].starts_with("--")) taken_ += " " + for_shell(words[++i]);
-            } else if (is_mesh(word) && in_.empty() && !stage_.loads)
-                in_ = word;
-            else if (is_mesh(word) && out_.empty() && !stage_.tells && !stage_.loads)
-                out_ = word;
+            } else if (is_mesh(word) && !takes_files())
+                meshes_.push_back(word);
             else
                 taken_ += (is_result(word) ? " --path " : " ") + for_shell(word);
+        }
+        // Without -o the last of several files is the one to write; a shape has no other.
+        const std::size_t to_load = stage_.loads ? 0 : 1;
+        if (out_.empty() && !stage_.tells && !stage_.checks && meshes_.size() > to_load) {
+            out_ = meshes_.back();
+            meshes_.pop_back();
         }
     }
 
     std::string line() const {
         std::string text = "facetmill pipe";
-        if (!stage_.loads) text += fmt::format(" load {} !", in_.empty() ? "IN" : for_shell(in_));
+        if (!stage_.loads) {
+            text += meshes_.empty() ? " load IN" : " load";
+            for (const std::string& mesh : meshes_) text += " " + for_shell(mesh);
+            text += " !";
+        }
         text += fmt::format(" {}{}", stage_.name, taken_.empty() ? " ..." : taken_);
         if (!out_.empty() || (!stage_.checks && !stage_.tells))
             text += fmt::format(" ! write {}", out_.empty() ? "OUT" : for_shell(out_));
@@ -53,10 +63,16 @@ class StageWords {
     const Option* add_option(const std::string& word) {
         const auto end = std::min(word.find('='), word.size());
         std::string name = word.substr(2, end - 2);
-        const auto called = options_called(name, stage_.options->names());
+        const auto called = options_alike(name, stage_.options->names());
         if (!stage_.options->find(name) && !called.empty()) name = called.front();
         taken_ += " " + for_shell("--" + name + word.substr(end));
         return stage_.options->find(name);
+    }
+
+    /// Whether a bare value of the stage is a file that it adds to the scene, as that of load.
+    bool takes_files() const {
+        const Option* primary = stage_.options->primary();
+        return stage_.loads && primary && primary->one == OptionKind::path;
     }
 
     static bool is_mesh(const std::string& word) {
@@ -74,7 +90,8 @@ class StageWords {
     }
 
     const StageInfo& stage_;
-    std::string in_, out_, taken_;
+    std::vector<std::string> meshes_; ///< to load
+    std::string out_, taken_;
 };
 
 } // namespace

@@ -12,7 +12,8 @@ namespace {
 struct OtherNames {
     std::string_view option;
     std::vector<std::string_view> words;
-    std::string_view how = {}; ///< where the name alone does not say what to write, or how it differs
+    std::string_view how = {};    ///< where the name alone does not say what to write, or how it differs
+    std::string_view beside = {}; ///< an option that must be known, too
 };
 
 /// Made when somebody asks, not at each start. A row counts where its option is known.
@@ -20,9 +21,11 @@ const std::vector<OtherNames>& other_names() {
     static const std::vector<OtherNames> all{
         {"closed", {"watertight", "is_watertight", "water_tight", "airtight", "solid", "is_closed"}},
         {"edge_manifold",
-         {"manifold", "is_manifold", "2_manifold", "non_manifold", "nonmanifold", "non_manifold_edges"}},
-        {"vertex_manifold",
-         {"manifold", "is_manifold", "2_manifold", "non_manifold", "nonmanifold", "non_manifold_vertices"}},
+         {"non_manifold", "nonmanifold", "non_manifold_edges"},
+         "(edge_manifold: true), which says the opposite"},
+        {"vertex_manifold", {"non_manifold_vertices"}, "(vertex_manifold: true), which says the opposite"},
+        {"edge_manifold", {"manifold", "is_manifold", "2_manifold"}},
+        {"vertex_manifold", {"manifold", "is_manifold", "2_manifold"}},
         {"boundary_loops", {"holes", "hole_count", "open_boundaries"}},
         {"boundary_edges", {"open_edges", "border_edges", "naked_edges"}},
         {"self_intersections",
@@ -30,8 +33,10 @@ const std::vector<OtherNames>& other_names() {
         {"degenerate_faces", {"degenerate", "degenerates", "zero_area", "slivers"}},
         {"duplicate_faces", {"duplicates", "doubles"}},
         {"isolated_vertices", {"unreferenced", "unreferenced_vertices", "unused_vertices", "loose_vertices"}},
-        {"oriented", {"winding", "consistent_winding", "is_winding_consistent", "flipped"}},
-        {"outward_oriented", {"normals_outward", "outward", "inside_out", "inverted"}},
+        {"oriented", {"winding", "consistent_winding", "is_winding_consistent"}},
+        {"oriented", {"flipped"}, "(oriented: true), which says the opposite"},
+        {"outward_oriented", {"normals_outward", "outward"}},
+        {"outward_oriented", {"inside_out", "inverted"}, "(outward_oriented: true), which says the opposite"},
         {"euler", {"euler_number", "euler_characteristic"}},
         {"components", {"shells", "bodies", "islands", "body_count", "connected_components"}},
         {"faces",
@@ -55,7 +60,7 @@ const std::vector<OtherNames>& other_names() {
         {"weld", {"merge_vertices", "weld_vertices", "merge_close_vertices", "merge", "weld_distance"}},
         {"duplicates", {"remove_duplicates", "remove_doubles", "dedup"}},
         {"isolated", {"remove_unreferenced", "remove_isolated", "unreferenced"}},
-        {"components", {"keep_largest", "largest", "largest_component"}, "components: {keep: 1}"},
+        {"components", {"keep_largest", "largest", "largest_component"}, "components: {keep: 1}", "isolated"},
         {"translate", {"move", "offset", "translation", "position"}},
         {"rotate",
          {"rotation", "rotate_x", "rotate_y", "rotate_z", "rx", "ry", "rz"},
@@ -98,7 +103,7 @@ std::vector<const OtherNames*> rows_of(std::string_view other_name, const std::v
     std::vector<const OtherNames*> rows;
     for (const auto& row : other_names())
         if (std::find(row.words.begin(), row.words.end(), word) != row.words.end() &&
-            among(row.option, known))
+            among(row.option, known) && (row.beside.empty() || among(row.beside, known)))
             rows.push_back(&row);
     return rows;
 }
@@ -108,6 +113,13 @@ std::vector<const OtherNames*> rows_of(std::string_view other_name, const std::v
 std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known) {
     std::vector<std::string> names;
     for (const OtherNames* row : rows_of(other_name, known)) names.emplace_back(row->option);
+    return names;
+}
+
+std::vector<std::string> options_alike(std::string_view other_name, const std::vector<std::string>& known) {
+    std::vector<std::string> names;
+    for (const OtherNames* row : rows_of(other_name, known))
+        if (row->how.empty()) names.emplace_back(row->option);
     return names;
 }
 

@@ -11,6 +11,9 @@ namespace facetmill {
 /// The names among those known that other programs call so; none when there is none.
 std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known);
 
+/// Of these the ones that take the same value: not ratio, the share that stays, for reduction.
+std::vector<std::string> options_alike(std::string_view other_name, const std::vector<std::string>& known);
+
 /// What to say about a word that is none of the known names: what it is called here, the nearest of them, or
 /// otherwise. Empty: the list of all known.
 std::string hint_for_option(std::string_view word, const std::vector<std::string>& known,

@@ -126,7 +126,15 @@ TEST_CASE("a stage typed as a command is answered with the same words for pipe",
           "load a.stl ! combine union --with b.stl ! write OUT");
     CHECK(meant({"section", "a.stl", "z=0", "o.svg"}) == "load a.stl ! section z=0 --path o.svg");
     CHECK(meant({"generate", "sphere"}) == "generate sphere ! write OUT");
+    CHECK(meant({"simplify", "a.ply", "--reduction", "0.9"}) ==
+          "load a.ply ! simplify --reduction 0.9 ! write OUT"); // pipe says what it is here
     CHECK(meant({"write"}) == "load IN ! write ...");
+    CHECK(meant({"load", "a.ply", "b.glb"}) == "load a.ply b.glb ! write OUT");
+    CHECK(meant({"generate", "sphere", "a.glb"}) == "generate sphere ! write a.glb");
+    CHECK(meant({"combine", "a.ply", "b.ply", "-o", "c.ply"}) ==
+          "load a.ply b.ply ! combine ... ! write c.ply");
+    CHECK(meant({"validate", "a.ply", "b.ply", "--closed"}) == "load a.ply b.ply ! validate --closed");
+    CHECK(meant({"smooth", "a.ply", "--help"}) == "load a.ply ! relax ... ! write OUT");
 }
 
 TEST_CASE("help of a word is that of docs", "[cli]") {

@@ -15,6 +15,12 @@ TEST_CASE("options are found by what other programs call them, where the option 
     CHECK(hint_for_option("reduction", simplify) ==
           "here it is ratio, the share that stays and not the one that goes");
     CHECK(hint_for_option("preserve_border", simplify) == "here it is lock: {boundary: true}");
+    CHECK(hint_for_option("inside_out", validate) ==
+          "here it is (outward_oriented: true), which says the opposite");
+    CHECK(hint_for_option("keep_largest", stage_named("clean")->options->names()) ==
+          "here it is components: {keep: 1}");
+    CHECK(hint_for_option("keep_largest", validate).find("keep: 1") == std::string::npos);
+    CHECK(options_alike("reduction", simplify).empty());
     CHECK(options_called("watertight", simplify).empty());
     CHECK(options_called("holes", validate) == std::vector<std::string>{"boundary_loops"});
 }
