@@ -16,7 +16,7 @@ const Property* property_meant(std::string_view word) {
     if (const Property* property = property_named(word)) return property;
     std::vector<std::string> names;
     for (const Property& property : property_table()) names.emplace_back(property.name);
-    const auto called = options_called(word, names);
+    const auto called = options_alike(word, names);
     return called.empty() ? nullptr : property_named(called.front());
 }
 
@@ -36,7 +36,9 @@ std::string bound_text(PropertyKind kind, std::string_view op, std::string_view 
     if (kind == PropertyKind::word) return op == "==" ? std::string(value) : "";
     const bool length = kind == PropertyKind::length;
     const auto number = parse_integer(value);
-    if (truth || kind == PropertyKind::box || !(number || length || parse_real(value))) return {};
+    if (truth || kind == PropertyKind::box || (kind == PropertyKind::count && !number)) return {};
+    if (!(length ? value.find_first_of("0123456789") != value.npos : parse_real(value).has_value()))
+        return {};
     if (op == "==") return std::string(value);
     // Bounds hold at their ends: of counts the next one is meant.
     const bool next = kind == PropertyKind::count && number && (op == "<" || op == ">");
@@ -45,13 +47,20 @@ std::string bound_text(PropertyKind kind, std::string_view op, std::string_view 
     return op == "<" || op == "<=" ? fmt::format("{{max: {}}}", end) : "";
 }
 
-MeantCondition of_property(const Property& property, std::string_view op, std::string_view value) {
+/// None for a word that only other programs call the property by and that is compared with another word:
+/// texts may well be points and solid.
+std::optional<MeantCondition> of_property(std::string_view name, std::string_view op,
+                                          std::string_view value) {
+    const Property* meant = property_meant(name);
+    if (!meant) return {};
+    const Property& property = *meant;
     std::string bound = bound_text(property.kind, op, value);
+    if (bound.empty() && property.name != name && (op == "==" || op == "!=")) return {};
     if (bound.empty())
         bound = property.kind == PropertyKind::truth || property.kind == PropertyKind::word
                     ? "..."
                     : "{min: ..., max: ...}";
-    return {
+    return MeantCondition{
         fmt::format("'{}' is a property of the scene, which is not compared by an operator", property.name),
         fmt::format("write when: {{{}: {}}}", property.name, bound)};
 }
@@ -69,9 +78,8 @@ std::optional<MeantCondition> meant_comparison(std::string_view left, std::strin
             return MeantCondition{fmt::format("'{}' is compared as a word here, which never changes", side),
                                   fmt::format("write {} {} {}", shown(left), op, shown(right))};
         }
-    if (const Property* property = property_meant(left)) return of_property(*property, op, right);
-    if (const Property* property = property_meant(right)) return of_property(*property, exchanged(op), left);
-    return {};
+    if (auto meant = of_property(left, op, right)) return meant;
+    return of_property(right, exchanged(op), left);
 }
 
 std::string hint_of_property_alone(std::string_view text) {

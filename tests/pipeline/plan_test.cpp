@@ -404,6 +404,13 @@ TEST_CASE("a condition on a property or a variable as other languages have it sa
     CHECK(hint_of("q == high") == "write ${q} == high");
     CHECK(hint_of("${q} == faces").find("E-CHOICE") != std::string::npos); // it is compared as it was
     CHECK(hint_of("1 == 1").empty());
+    // Words that only others call properties by may be mere words; and no bound is made up that is refused.
+    CHECK(hint_of("points == points").empty());
+    CHECK(hint_of("solid != shell").empty());
+    CHECK(hint_of("inside_out == true").empty()); // no property says it so
+    CHECK(hint_of("points > 10") == "write when: {vertices: {min: 11}}");
+    CHECK(hint_of("faces > 1000.5") == "write when: {faces: {min: ..., max: ...}}");
+    CHECK(hint_of("max_extent > large") == "write when: {max_extent: {min: ..., max: ...}}");
 }
 
 TEST_CASE("a file to write whose name has what other programs replace is warned of", "[pipeline]") {
