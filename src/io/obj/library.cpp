@@ -3,7 +3,6 @@
 
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
-#include "base/words.hpp"
 #include "io/encoding.hpp"
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
@@ -77,7 +76,9 @@ class LibraryReader {
         if (!current_ || !line.starts_with('#')) return;
         line.remove_prefix(std::min(line.find_first_not_of(' ', 1), line.size()));
         if (line.starts_with(double_sided_comment)) current_->double_sided = true;
-        if (line.starts_with(name_comment)) current_->name = trimmed(line.substr(name_comment.size()));
+        if (!line.starts_with(name_comment)) return;
+        line.remove_prefix(name_comment.size());
+        current_->name = line.starts_with(' ') ? line.substr(1) : line; // its other blanks are the name's
     }
 
     void statement(std::string_view word) {

@@ -154,7 +154,7 @@ TEST_CASE("a material whose both sides are seen stays so through an OBJ", "[io]"
 TEST_CASE("materials keep names that MTL does not spell, and that others have, too", "[io]") {
     Scene scene;
     scene.materials = {
-        {.name = "dark blue"}, {.name = "red"}, {.name = "red"}, {.name = ""}, {.name = "plain"}};
+        {.name = " dark blue "}, {.name = "red"}, {.name = "red"}, {.name = ""}, {.name = "plain"}};
     Part& part = scene.parts.emplace_back();
     part.name = "cube";
     part.mesh = shapes::cube();
@@ -168,7 +168,7 @@ TEST_CASE("materials keep names that MTL does not spell, and that others have, t
         {std::string(primitive_attribute), Domain::face, Role::index, 1, false, of_face});
     const io::Written obj = written(scene, "obj", {.title = "lamp"});
     const std::string mtl = text_of(obj, "lamp.mtl");
-    CHECK(mtl.find("newmtl dark_blue\n# glTF name: dark blue\n") != std::string::npos);
+    CHECK(mtl.find("newmtl _dark_blue_\n# glTF name:  dark blue \n") != std::string::npos);
     CHECK(mtl.find("newmtl red_2\n# glTF name: red\n") != std::string::npos);
     CHECK(mtl.find("newmtl plain\nKd") != std::string::npos);
     const TemporaryDirectory dir;
