@@ -10,6 +10,7 @@
 #include "io/not_finite.hpp"
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
+#include "io/stated.hpp"
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
@@ -231,22 +232,12 @@ namespace {
 /// but for formats with a unit and an axis of their own, which are those of the codec.
 void warn_of_override(const Input& input, const Codec& codec, const Scene& scene,
                       const ReadSettings& settings, ReadLog& log) {
-    const auto warn = [&](const char* what, std::string_view stated, std::string_view given) {
-        log.warnings.push_back({Severity::warning, "W-OVERRIDDEN",
-                                fmt::format("'{}' states {} {}, and is taken as {}: nothing is converted",
-                                            input.name(), what, stated, given),
-                                file_mark(input.name()),
-                                fmt::format("leave it out; transform: {{{}: {}}} converts", what, given),
-                                false});
-    };
     FileHeader header{codec.name, codec.unit, codec.up};
     if (codec.unit != Unit::unknown && settings.unit && codec.peek) codec.peek(input, header);
     if (codec.unit == Unit::unknown) header.unit = scene.unit;
     if (codec.up == UpAxis::unknown) header.up = scene.up;
-    if (settings.unit && header.unit != Unit::unknown && *settings.unit != header.unit)
-        warn("unit", to_string(header.unit), to_string(*settings.unit));
-    if (settings.up && header.up != UpAxis::unknown && *settings.up != header.up)
-        warn("up", to_string(header.up), to_string(*settings.up));
+    for (auto& warning : overridden(input.name(), {header.unit, header.up}, settings))
+        log.warnings.push_back(std::move(warning));
 }
 
 } // namespace

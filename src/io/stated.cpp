@@ -8,12 +8,6 @@ namespace facetmill::io {
 
 namespace {
 
-/// A line, without the CR at its end either.
-std::string_view trimmed_line(std::string_view text) {
-    text = trimmed(text);
-    return text.ends_with('\r') ? trimmed(text.substr(0, text.size() - 1)) : text;
-}
-
 template <class Owner>
 void take(Owner& owner, const Convention& stated) {
     if (stated.unit != Unit::unknown) owner.unit = stated.unit;
@@ -45,14 +39,16 @@ void take_comment(std::string_view comment, Convention& stated) {
 Convention stated_in_lines(std::string_view text, std::string_view keyword) {
     Convention stated;
     while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size() - 1);
-        const std::string_view line = trimmed_line(text.substr(0, end + (text[end] != '\n')));
-        text.remove_prefix(end + 1);
-        if (line.starts_with('#'))
-            take_comment(line.substr(1), stated);
-        else if (!keyword.empty() && line.ends_with(keyword))
+        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const std::size_t comment = std::min(line.find('#'), line.size());
+        const std::string_view words = trimmed(line.substr(0, comment));
+        if (words.empty())
+            take_comment(line.substr(std::min(comment + 1, line.size())), stated);
+        else if (!keyword.empty() && words.ends_with(keyword))
             keyword = {};
-        else if (!line.empty())
+        else
             break;
     }
     return stated;
@@ -60,5 +56,22 @@ Convention stated_in_lines(std::string_view text, std::string_view keyword) {
 
 void take_stated(Scene& scene, const Convention& stated) { take(scene, stated); }
 void take_stated(FileHeader& header, const Convention& stated) { take(header, stated); }
+
+std::vector<ReadWarning> overridden(const std::string& file, const Convention& stated,
+                                    const ReadSettings& settings) {
+    std::vector<ReadWarning> warnings;
+    const auto warn = [&](const char* what, std::string_view was, std::string_view given) {
+        warnings.push_back({Severity::warning, "W-OVERRIDDEN",
+                            fmt::format("'{}' states {} {}, and is taken as {}: nothing is converted", file,
+                                        what, was, given),
+                            file_mark(file),
+                            fmt::format("leave it out; transform: {{{}: {}}} converts", what, given), false});
+    };
+    if (settings.unit && stated.unit != Unit::unknown && *settings.unit != stated.unit)
+        warn("unit", to_string(stated.unit), to_string(*settings.unit));
+    if (settings.up && stated.up != UpAxis::unknown && *settings.up != stated.up)
+        warn("up", to_string(stated.up), to_string(*settings.up));
+    return warnings;
+}
 
 } // namespace facetmill::io

@@ -6,6 +6,7 @@
 #include "io/convert.hpp"
 
 #include <string_view>
+#include <vector>
 
 namespace facetmill::io {
 
@@ -17,11 +18,15 @@ std::string stated_comments(const Scene& scene, std::string_view before, std::st
 void take_comment(std::string_view comment, Convention& stated);
 
 /// What the comments (#) at the beginning of a text state, before its first line of anything else. keyword:
-/// what the first such line may end with, for comments to go on behind it.
+/// what the first such line may end with, but for a comment, for comments to go on behind it.
 Convention stated_in_lines(std::string_view text, std::string_view keyword = {});
 
 /// What the reader of a file takes for the scene's.
 void take_stated(Scene& scene, const Convention& stated);
 void take_stated(FileHeader& header, const Convention& stated);
+
+/// W-OVERRIDDEN for the unit and for the axis, where a file states another one than load is given.
+std::vector<ReadWarning> overridden(const std::string& file, const Convention& stated,
+                                    const ReadSettings& settings);
 
 } // namespace facetmill::io

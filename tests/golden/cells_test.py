@@ -126,6 +126,17 @@ class Cells(LargeCase):
             self.assertIn("2 parts, which become one", run.stderr)
         self.assertEqual(len(results), 1)
 
+    def test_a_unit_that_the_file_states_is_not_overridden_without_a_word(self):
+        for name in ("scan.ply", "scan.stl", "scan.obj", "scan.glb"):
+            self.mill("pipe", "load", SCAN, "--unit", "m", "--up", "y", "!", "write", name)
+            load = ("pipe", "--memory", "1M", "--partition", "always", "load", name)
+            told = self.mill(*load, "--unit", "mm", "--up", "z", "!", "write", "o.ply").stderr
+            self.assertIn(f"'{name}' states unit m, and is taken as mm: nothing is converted", told)
+            self.assertIn(f"'{name}' states up y, and is taken as z: nothing is converted", told)
+            self.assertIn(b"comment unit: mm\ncomment up: z\n", (self.dir / "o.ply").read_bytes()[:200])
+            self.assertNotIn("W-OVERRIDDEN", self.mill(*load, "--unit", "m", "!", "write", "o.ply").stderr)
+            self.assertIn(b"comment unit: m\ncomment up: y\n", (self.dir / "o.ply").read_bytes()[:200])
+
     def test_a_large_mesh_is_moved_checked_and_written_in_cells(self):
         self.large()
         chain = ("!", "transform", "--scale", 2, "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "--centre",

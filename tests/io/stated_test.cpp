@@ -74,5 +74,7 @@ TEST_CASE("only comments before the first line of anything else count", "[io]") 
                UpAxis::unknown));
     CHECK(says(stated_by(""), Unit::unknown, UpAxis::unknown));
     CHECK(says(stated_by("COFF\n# unit: m\n8 6 12\n# up: y\n", "OFF"), Unit::m, UpAxis::unknown));
+    CHECK(says(stated_by("OFF # unit: mm\n# unit: m\n8 6 12\n", "OFF"), Unit::m, UpAxis::unknown));
     CHECK(says(stated_by("OFF\nOFF\n# unit: m\n", "OFF"), Unit::unknown, UpAxis::unknown));
+    CHECK(says(stated_by("# unit: mm\r# up: z\rv 0 0 0\r# up: y\r"), Unit::mm, UpAxis::z));
 }

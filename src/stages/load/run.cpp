@@ -5,6 +5,7 @@
 #include "base/words.hpp"
 #include "cells/kept_partition.hpp"
 #include "io/convert.hpp"
+#include "io/stated.hpp"
 #include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
 #include "stage/read_recorded.hpp"
@@ -133,6 +134,19 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
     return {};
 }
 
+/// What reading them whole tells of files that state another unit or up axis than is given.
+void warn_of_overrides(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
+                       Context& context) {
+    if (!settings.unit && !settings.up) return;
+    constexpr std::size_t mapped_from = std::size_t{1} << 16; // so that only what is looked at takes memory
+    for (const auto& path : paths) {
+        const io::Input input = io::Input::open(path, mapped_from);
+        const io::FileHeader stated = io::file_header(input, {});
+        for (const auto& w : io::overridden(input.name(), {stated.unit, stated.up}, settings))
+            context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
+    }
+}
+
 /// As run, of files that do not fit into memory.
 void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     std::vector<std::filesystem::path> paths;
@@ -159,6 +173,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
         throw;
     }
     record_inputs();
+    warn_of_overrides(paths, read_settings(o, context.places()), context);
     flow.part = contents.name;
     flow.unit = contents.unit;
     flow.up = contents.up;
