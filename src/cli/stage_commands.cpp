@@ -32,7 +32,7 @@ class StageWords {
                 const bool alone =
                     !option || option->kind == OptionKind::boolean || word.find('=') != word.npos;
                 if (!alone && more && !words[i + 1].starts_with("--")) taken_ += " " + for_shell(words[++i]);
-            } else if (is_mesh(word) && !takes_files())
+            } else if (is_mesh(word) && !takes_file())
                 meshes_.push_back(word);
             else
                 taken_ += (is_result(word) ? " --path " : " ") + for_shell(word);
@@ -69,10 +69,11 @@ class StageWords {
         return stage_.options->find(name);
     }
 
-    /// Whether a bare value of the stage is a file that it adds to the scene, as that of load.
-    bool takes_files() const {
+    /// Whether the next file is a value of the stage itself: one that it loads, or that it writes after one
+    /// is loaded.
+    bool takes_file() const {
         const Option* primary = stage_.options->primary();
-        return stage_.loads && primary && primary->one == OptionKind::path;
+        return (stage_.loads || !meshes_.empty()) && primary && primary->one == OptionKind::path;
     }
 
     static bool is_mesh(const std::string& word) {

@@ -129,6 +129,7 @@ TEST_CASE("a stage typed as a command is answered with the same words for pipe",
     CHECK(meant({"simplify", "a.ply", "--reduction", "0.9"}) ==
           "load a.ply ! simplify --reduction 0.9 ! write OUT"); // pipe says what it is here
     CHECK(meant({"write"}) == "load IN ! write ...");
+    CHECK(meant({"write", "a.ply", "b.glb"}) == "load a.ply ! write b.glb");
     CHECK(meant({"load", "a.ply", "b.glb"}) == "load a.ply b.glb ! write OUT");
     CHECK(meant({"generate", "sphere", "a.glb"}) == "generate sphere ! write a.glb");
     CHECK(meant({"combine", "a.ply", "b.ply", "-o", "c.ply"}) ==
