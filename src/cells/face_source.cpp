@@ -92,21 +92,19 @@ std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSetti
     return gltf_rows(input, settings);
 }
 
-/// The way a file's numbers are meant, which must be the same for all.
+/// The way a file's numbers are meant, which must be the same for all that say it.
 void take_convention(const io::Input& input, const io::ReadSettings& settings,
                      FaceSource::Contents& contents) {
     const io::FileHeader header = io::file_header(input, settings);
-    const Unit unit = header.unit;
-    const UpAxis up = header.up;
-    if (contents.files.empty()) {
-        contents.unit = unit;
-        contents.up = up;
-    } else if (unit != contents.unit || up != contents.up) {
+    const auto differs = [](auto unknown, auto a, auto b) { return a != unknown && b != unknown && a != b; };
+    if (differs(Unit::unknown, header.unit, contents.unit) ||
+        differs(UpAxis::unknown, header.up, contents.up))
         throw Error(ErrorKind::usage, "E-CELLS",
                     fmt::format("'{}' and '{}' have different units or axes, and cells are of one",
                                 contents.files.front().input.name(), input.name()),
                     "give both: load: {path: ..., unit: m, up: z}");
-    }
+    if (contents.unit == Unit::unknown) contents.unit = header.unit;
+    if (contents.up == UpAxis::unknown) contents.up = header.up;
 }
 
 void add_once(std::vector<std::string>& all, const std::string& one) {

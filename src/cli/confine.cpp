@@ -66,7 +66,12 @@ void allow_deferred(AllowedFiles& allowed, const Value& value, const Places& pla
 
 void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Places& places) {
     for (const auto& step : steps) {
-        if (step.stage && step.stage->files) allow_deferred(allowed, step.given, places);
+        if (step.stage && step.stage->files) {
+            allow_deferred(allowed, step.given, places);
+            const auto evidence =
+                step.options ? step.stage->files(step.options.get()).evidence : std::nullopt;
+            if (evidence) allow_output(allowed, places.output(evidence->text));
+        }
         for (const auto& arm : step.arms) allow_steps(allowed, *arm.steps, places);
     }
 }

@@ -53,6 +53,8 @@ Conversion add_scene(Scene& scene, Scene more) {
         scene.unit = more.unit;
         scene.up = more.up;
     } else {
+        if (scene.unit == Unit::unknown) scene.unit = more.unit;
+        if (scene.up == UpAxis::unknown) scene.up = more.up;
         done = convert(more, {scene.unit, scene.up});
     }
     const auto materials = static_cast<Index>(scene.materials.size());

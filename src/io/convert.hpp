@@ -27,7 +27,7 @@ Transform turn_up(UpAxis from, UpAxis to);
 Conversion convert(Scene& scene, const Convention& target);
 
 /// Adds the parts, materials and documents of `more` to the scene, in the scene's convention (the first load
-/// decides). Names of parts become unique: "cube", "cube_2".
+/// that has a unit, or an up axis, decides). Names of parts become unique: "cube", "cube_2".
 Conversion add_scene(Scene& scene, Scene more);
 
 } // namespace facetmill::io

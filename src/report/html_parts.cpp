@@ -62,7 +62,7 @@ td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height
     text-align: left; white-space: normal; min-width: 0; width: auto; overflow-wrap: break-word; }
   .cards td::before { content: attr(data-head); position: absolute; left: 0; width: 7rem; color: var(--quiet);
     font-weight: 400; } .cards td:empty { display: none; } .digest code { min-width: 0; }
-  td:last-child { overflow-wrap: anywhere; } }
+  td.number { white-space: normal; } td:last-child { overflow-wrap: anywhere; } }
 @media print { body { max-width: none; padding: 0; } details { display: none; } .scroll { overflow: visible; } }
 )";
 

@@ -32,6 +32,7 @@ struct StageFiles {
     std::optional<PathText> materials{}; ///< also written when the scene has materials
     std::optional<PathText> images{};    ///< the output that images of the scene are copied beside
     std::function<bool(const io::NamedImage&)> copies{}; ///< which of them; empty: all
+    std::optional<PathText> evidence{}; ///< written at once where a check fails; no output of a plan
 };
 
 /// Options of a stage that the pipeline has to know of, by their names; empty: it has none such.

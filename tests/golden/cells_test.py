@@ -137,6 +137,17 @@ class Cells(LargeCase):
             self.assertNotIn("W-OVERRIDDEN", self.mill(*load, "--unit", "m", "!", "write", "o.ply").stderr)
             self.assertIn(b"comment unit: m\ncomment up: y\n", (self.dir / "o.ply").read_bytes()[:200])
 
+    def test_files_without_a_unit_are_joined_with_those_that_state_one(self):
+        self.mill("pipe", "load", SCAN, "!", "write", "none.ply")
+        self.mill("pipe", "load", SCAN, "--unit", "mm", "!", "write", "mm.ply")
+        self.mill("pipe", "load", SCAN, "--unit", "m", "!", "write", "m.ply")
+        for cells in ((), ("--memory", "1M", "--partition", "always")):
+            for files, said in ((("none.ply", "mm.ply"), " no unit: its numbers are taken as mm"),
+                                (("mm.ply", "none.ply"), "'none.ply' has no unit: its numbers are taken as mm")):
+                self.assertIn(said, self.mill("pipe", *cells, "load", *files, "!", "write", "o.ply").stderr)
+                self.assertIn(b"comment unit: mm\n", (self.dir / "o.ply").read_bytes()[:200])
+        self.assertIn("E-CELLS", self.mill("pipe", *cells, "load", "mm.ply", "m.ply", "!", "write", "o.ply", expect=2).stderr)
+
     def test_a_large_mesh_is_moved_checked_and_written_in_cells(self):
         self.large()
         chain = ("!", "transform", "--scale", 2, "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "--centre",

@@ -124,6 +124,14 @@ class Sandbox(Case):
         for name in ("new/out/t.ply", "new/out/r/t.html", "new/out/m/t.json", "d/t.d"):
             self.assertTrue((self.dir / name).exists(), name)
 
+    def test_the_copy_of_what_fails(self):
+        """It is no output of the plan, and nothing else is written there."""
+        self.write("p.yaml", "facetmill: 1\nstages:\n- load: in/t.obj\n- validate: {closed: true, mark: failed/a.ply}\n")
+        (self.dir / "failed").mkdir()
+        run = self.mill("run", "p.yaml", expect=1)
+        self.assertNotIn("E-WRITE", run.stderr)
+        self.assertTrue((self.dir / "failed/a.ply").is_file())
+
     def test_links(self):
         (self.dir / "link.off").symlink_to(self.dir / "far/t.off")
         self.write("far/t.off", OFF)

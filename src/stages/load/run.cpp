@@ -93,19 +93,23 @@ io::ReadSettings read_settings(const LoadOptions& o, const Places& places) {
     return settings;
 }
 
+void warn_of_guess(const std::string& what_has, Unit unit, Context& context) {
+    context.warn("W-UNITS", fmt::format("{} no unit: its numbers are taken as {}", what_has, to_string(unit)),
+                 "give the unit: load: {path: ..., unit: mm}");
+}
+
 void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
     ShareOfSteps steps({11, 1});
     auto [more, log] =
         read_recorded(path, read_settings(o, context.places()), io::codec_named(o.format), context);
     steps.next();
     if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
-    const bool first = scene.parts.empty();
+    const bool first = scene.parts.empty(), had_unit = scene.unit != Unit::unknown;
     const io::Conversion done = io::add_scene(scene, std::move(more));
     if (!first && done.unit_guessed)
-        context.warn("W-UNITS",
-                     fmt::format("'{}' has no unit: its numbers are taken as {}", path.string(),
-                                 to_string(scene.unit)),
-                     "give the unit: load: {path: ..., unit: mm}");
+        warn_of_guess(fmt::format("'{}' has", path.string()), scene.unit, context);
+    if (!first && !had_unit && scene.unit != Unit::unknown)
+        warn_of_guess("what was loaded before has", scene.unit, context);
 }
 
 Scene run(Scene scene, const LoadOptions& o, Context& context) {
@@ -134,16 +138,18 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
     return {};
 }
 
-/// What reading them whole tells of files that state another unit or up axis than is given.
-void warn_of_overrides(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
-                       Context& context) {
-    if (!settings.unit && !settings.up) return;
+/// What reading them whole tells of files that state another unit or up axis than is given, or no unit where
+/// others do.
+void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
+                         Unit unit, Context& context) {
     constexpr std::size_t mapped_from = std::size_t{1} << 16; // so that only what is looked at takes memory
     for (const auto& path : paths) {
         const io::Input input = io::Input::open(path, mapped_from);
         const io::FileHeader stated = io::file_header(input, {});
         for (const auto& w : io::overridden(input.name(), {stated.unit, stated.up}, settings))
             context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
+        if (unit != Unit::unknown && !settings.unit && stated.unit == Unit::unknown)
+            warn_of_guess(fmt::format("'{}' has", path.string()), unit, context);
     }
 }
 
@@ -173,7 +179,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
         throw;
     }
     record_inputs();
-    warn_of_overrides(paths, read_settings(o, context.places()), context);
+    warn_of_conventions(paths, read_settings(o, context.places()), contents.unit, context);
     flow.part = contents.name;
     flow.unit = contents.unit;
     flow.up = contents.up;

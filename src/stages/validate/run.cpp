@@ -106,6 +106,7 @@ void run_on_cells(const ValidateOptions& o, CellFlow& flow, Context& context) {
 StageFiles files(const ValidateOptions& o) {
     StageFiles files;
     if (o.baseline) (o.update_baseline ? files.outputs : files.inputs).push_back(*o.baseline);
+    files.evidence = o.mark;
     return files;
 }
 
