@@ -244,8 +244,11 @@ TEST_CASE("write refuses what it cannot mean", "[stages]") {
     Bench b;
     b.scene.parts.emplace_back().mesh = shapes::cube();
     CHECK(failure([&] {
-              b.run("write", Value::scalar("c.xyz"));
-          }).starts_with("usage [E-FORMAT] the suffix of 'c.xyz' names no format | give 'format', one of: "));
+              b.run("write", Value::scalar("c.qqq"));
+          }).starts_with("usage [E-FORMAT] the suffix of 'c.qqq' names no format | give 'format', one of: "));
+    CHECK(failure([&] { b.run("write", Value::scalar("c.xyz")); }) ==
+          "usage [E-FORMAT] the suffix of 'c.xyz' names no format | write .ply, which CloudCompare and "
+          "others convert");
     CHECK(failure([&] { b.run("write", Value::scalar("c.DXF")); }) ==
           "usage [E-FORMAT] the suffix of 'c.DXF' names no format | "
           "section: {path: c.DXF} draws what a plane cuts");
