@@ -47,11 +47,14 @@ std::string hint_for_no_pipeline(const std::string& name) {
 
 bool check_text(const SourceIndex& source, Problems& problems) {
     const std::string& text = source.text();
-    const std::string mesh = hint_for_no_pipeline(source.name());
+    const auto hint = [&](std::string of_text) {
+        std::string mesh = hint_for_no_pipeline(source.name());
+        return mesh.empty() ? std::move(of_text) : std::move(mesh);
+    };
     if (text.size() > max_text) {
-        problems.add(
-            source.mark(0), "E-YAML", fmt::format("a pipeline of {} bytes is too large", text.size()),
-            mesh.empty() ? fmt::format("the limit is {} bytes; is this a pipeline?", max_text) : mesh);
+        problems.add(source.mark(0), "E-YAML",
+                     fmt::format("a pipeline of {} bytes is too large", text.size()),
+                     hint(fmt::format("the limit is {} bytes; is this a pipeline?", max_text)));
         return false;
     }
     for (std::size_t i = 0; i < text.size();) {
@@ -62,7 +65,7 @@ bool check_text(const SourceIndex& source, Problems& problems) {
                          length == 0
                              ? fmt::format("the byte 0x{:02x} is not UTF-8", byte)
                              : fmt::format("the control character 0x{:02x} may not be in a pipeline", byte),
-                         mesh.empty() ? "a pipeline is a text in UTF-8" : mesh);
+                         hint("a pipeline is a text in UTF-8"));
             return false;
         }
         i += length;

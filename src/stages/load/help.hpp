@@ -9,7 +9,7 @@ inline constexpr const char* details =
     R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix;
 a .gz or .zst file is decompressed. Each mesh, solid or object in a file becomes a part, named as in the
 file or after the file; names are made unique. The scene takes its unit and up axis from the first
-file loaded, and later files are converted to them. Comments in the first lines of OBJ and OFF (`# unit: mm`,
+file that has them, and later files are converted to them. Comments in the first lines of OBJ and OFF (`# unit: mm`,
 `# up: z`) and in the headers of PLY and binary STL state them. Lines (l of OBJ, edges of PLY, line primitives of
 glTF) are parts of their own, which stages that work on faces leave as they are; lines beside triangles
 in one glTF mesh get a mesh and a node of their own. The option `lines` gives lines a thickness instead: consecutive
