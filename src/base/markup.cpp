@@ -29,6 +29,15 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
+std::string escaped_path(std::string_view path) {
+    std::string out;
+    for (const char c : escaped(path)) {
+        out += c;
+        if (c == '/' || c == '\\' || c == '_') out += "<wbr>";
+    }
+    return out;
+}
+
 std::string markdown_escaped(std::string_view text) {
     std::string out;
     for (const char c : escaped(text)) {

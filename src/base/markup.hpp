@@ -10,6 +10,10 @@ namespace facetmill {
 /// cannot hold, become U+FFFD, each.
 std::string escaped(std::string_view text);
 
+/// A name or a path as escaped() has it, which may be broken behind slashes and underscores, where browsers
+/// would rather break a word.
+std::string escaped_path(std::string_view path);
+
 /// The text in a paragraph or a cell of Markdown (GitHub's), where nothing of it is markup: in one line,
 /// characters of Markdown behind a backslash, those of HTML as escaped() has them.
 std::string markdown_escaped(std::string_view text);

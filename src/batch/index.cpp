@@ -2,6 +2,7 @@
 
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/short_names.hpp"
 #include "batch/words.hpp"
 #include "report/form.hpp"
 #include "report/html_parts.hpp"
@@ -60,11 +61,12 @@ std::string to_html(const Summary& summary) {
         rows += fmt::format(
             "<tr>{}{}{}{}{}{}{}<td class=\"notes\">{}</td></tr>\n", picture_cell(asset, out, bytes),
             cell(fmt::format("<span class=\"{}\">{}</span>", kind_of(out), verdict_word(out.verdict))),
-            cell(code(asset.name)), number_cell(code_text), number_cell(grouped(out.faces_in)),
+            cell(report::path_code(asset.name)), number_cell(code_text), number_cell(grouped(out.faces_in)),
             number_cell(grouped(out.faces_out)), number_cell(sized(out.bytes)), notes_of(out));
     }
     const bool good = count(summary, Outcome::Verdict::ok) == summary.assets.size();
-    std::string page = report::html_begin(summary.pipeline, fmt::format("{} assets", summary.assets.size()));
+    std::string page = report::html_begin(short_name(summary.pipeline),
+                                          fmt::format("{} assets", summary.assets.size()), summary.pipeline);
     page += fmt::format("<p class=\"verdict {}\">{}</p>\n", good ? "good" : "bad", verdict_line(summary));
     page += report::table("Assets",
                           report::heads({"picture", "outcome", "asset", "#exit code", "#faces in",

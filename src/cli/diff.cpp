@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 
 namespace facetmill::cli {
 
@@ -22,8 +23,9 @@ diagonal (0.5%); the default, 0.0001%, allows for the rounding of float32 coordi
 up axis (their own, or that of --unit and --up), B is first converted to A's. Attributes are compared element by
 element, in the order of the files.
 Exit code 0: the files agree. 1: they differ in a section that is not ignored. 3 or 6: a file cannot be read.
-Of two folders the mesh files below them are compared by their paths: a file that only one has differs. The worst
-come first; --html F.html is then an index, with a page for each pair in the folder F beside it.
+Of two folders the mesh files below them are compared by their paths, and what is left by paths without suffixes,
+where each folder has one file of that name (a.ply and a.glb). A file that only one has differs. The worst come
+first; --html F.html is then an index, with a page for each pair in the folder F beside it.
 What cannot be compared (lines, attributes of different sizes) is listed, and makes "complete" false in JSON.
 
 Examples
@@ -69,13 +71,16 @@ void check_reports(const DiffOptions& options, const CommandLine& line) {
 
 void write_reports(const DiffOptions& options, const ComparedFiles& files, const Console& console) {
     CommandSteps steps(console, options.reports.size());
+    std::optional<report::ComparisonPictures> pictures;
     for (const auto& path : options.reports) {
         steps.next(path);
-        const std::string text =
-            path.ends_with(".md")
-                ? report::to_markdown(files.comparison, options.a, options.b)
-                : report::to_html(files.comparison, options.a, options.b,
-                                  report::comparison_pictures(files.a, files.b, options.a, options.b));
+        const bool is_page = path.ends_with(".html");
+        if (is_page && !pictures) {
+            pictures = report::comparison_pictures(files.a, files.b, options.a, options.b);
+            tell_not_drawn(pictures->not_drawn, console);
+        }
+        const std::string text = is_page ? report::to_html(files.comparison, options.a, options.b, *pictures)
+                                         : report::to_markdown(files.comparison, options.a, options.b);
         io::write_now(path, std::as_bytes(std::span(text)));
     }
 }
@@ -100,6 +105,7 @@ bool is_folder(const std::string& path) {
 }
 
 int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
+    options.reports.insert(options.reports.end(), options.others.begin(), options.others.end());
     const bool folders = is_folder(options.a);
     if (folders != is_folder(options.b) && options.a != "-" && options.b != "-")
         throw Error(ErrorKind::usage, "E-ARGUMENT", "one of the two is a folder, the other is none",
@@ -187,7 +193,7 @@ Command diff_command() {
                     .add("--markdown", report_named(options, "--markdown", ".md"),
                          "Also writes F.md, for a pull request.")
                     .followed_by("F.md");
-                arguments.add("--report", &options->reports, "The same for either: F.html or F.md.");
+                arguments.add("--report", &options->others, "The same for either: F.html or F.md.");
                 arguments.add("--all", &options->all, "Also shows what is equal.");
                 arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
                 add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");

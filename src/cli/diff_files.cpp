@@ -109,4 +109,8 @@ ComparedFiles compared_files(const DiffOptions& options, const std::string& name
     return out;
 }
 
+void tell_not_drawn(const std::vector<Diagnostic>& not_drawn, const Console& console) {
+    for (const Diagnostic& warning : not_drawn) console.diagnostic(warning);
+}
+
 } // namespace facetmill::cli

@@ -16,6 +16,7 @@ struct DiffOptions {
     std::size_t samples = SIZE_MAX;      ///< of the deviation, which averages them all then; or not given
     std::vector<std::string> units, ups; ///< of files that state none: of both, or of A and of B
     std::vector<std::string> reports;    ///< pages and Markdown files to write
+    std::vector<std::string> others;     ///< those of --report, before they are among these
     std::vector<std::string> asset_roots;
     bool json = false, all = false;
     int threads = 0;
@@ -30,6 +31,9 @@ struct ComparedFiles {
 /// Throws as a file is read: missing, malformed, usage for a limit in a unit that the first file has not.
 ComparedFiles compared_files(const DiffOptions& options, const std::string& a, const std::string& b,
                              const CommandLine& line, const Console& console);
+
+/// Warns of textures that pictures do without, each once.
+void tell_not_drawn(const std::vector<Diagnostic>& not_drawn, const Console& console);
 
 /// Where the pages of the pairs are: "changes.html" -> "changes".
 std::filesystem::path folder_of_pages(const std::string& index);

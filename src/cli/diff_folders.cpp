@@ -36,7 +36,7 @@ void tell_one_side(const std::filesystem::path& file, bool is_a, bool with_pictu
     const Scene scene = io::read_scene(input, settings, log);
     (is_a ? pair.faces_a : pair.faces_b) = scene.face_count();
     (is_a ? pair.bytes_a : pair.bytes_b) = input.stored().size();
-    if (with_picture) (is_a ? pair.picture_a : pair.picture_b) = report::small_picture(scene);
+    if (with_picture) (is_a ? pair.picture_a : pair.picture_b) = report::small_picture(scene, pair.not_drawn);
 }
 
 class FolderDiff {
@@ -44,18 +44,16 @@ class FolderDiff {
     FolderDiff(const DiffOptions& options, const CommandLine& line, const Console& console)
         : options_(options), line_(line), console_(console), index_(index_of(options)) {}
 
-    FolderPair pair_of(const std::string& path) const {
-        namespace fs = std::filesystem;
+    FolderPair pair_of(const report::PairedPaths& paths) const {
         FolderPair pair;
-        pair.path = path;
-        const fs::path a = fs::path(options_.a) / path, b = fs::path(options_.b) / path;
-        std::error_code none_there;
-        const bool in_a = fs::exists(a, none_there), in_b = fs::exists(b, none_there);
+        pair.paths = paths;
+        const std::filesystem::path a = std::filesystem::path(options_.a) / paths.a,
+                                    b = std::filesystem::path(options_.b) / paths.b;
         try {
-            if (in_a && in_b)
+            if (!paths.a.empty() && !paths.b.empty())
                 compare(a.string(), b.string(), pair);
             else
-                only_one(in_a ? a : b, in_a, pair);
+                only_one(paths.a.empty() ? b : a, paths.b.empty(), pair);
         } catch (const Error& e) {
             if (e.kind() == ErrorKind::output || e.kind() == ErrorKind::usage) throw;
             console_.diagnostics(e);
@@ -72,13 +70,14 @@ class FolderDiff {
         report::tell(files.comparison, pair);
         pair.exit_code = files.comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
         if (index_.empty()) return;
-        pair.page = page_of(index_, pair.path);
-        const auto text =
-            report::to_html(files.comparison, a, b, report::comparison_pictures(files.a, files.b, a, b));
+        pair.page = page_of(index_, pair.paths.path());
+        const auto pictures = report::comparison_pictures(files.a, files.b, a, b);
+        const auto text = report::to_html(files.comparison, a, b, pictures);
         io::write_now(std::filesystem::path(index_).parent_path() / pair.page,
                       std::as_bytes(std::span(text)));
-        pair.picture_a = report::small_picture(files.a);
-        pair.picture_b = report::small_picture(files.b);
+        pair.picture_a = report::small_picture(files.a, pair.not_drawn);
+        pair.picture_b = report::small_picture(files.b, pair.not_drawn);
+        tell_not_drawn(pair.not_drawn, console_);
     }
 
     void only_one(const std::filesystem::path& file, bool in_a, FolderPair& pair) const {
@@ -86,6 +85,7 @@ class FolderDiff {
         pair.exit_code = static_cast<int>(ErrorKind::check);
         pair.verdict = in_a ? "only in the first folder" : "only in the second folder";
         tell_one_side(file, in_a, !index_.empty(), read_settings(options_.asset_roots), pair);
+        tell_not_drawn(pair.not_drawn, console_);
     }
 
     const DiffOptions& options_;
@@ -112,11 +112,11 @@ int diff_of_folders(const DiffOptions& options, const CommandLine& line, const C
     const FolderDiff diff(options, line, console);
     report::FolderComparison all;
     int code = 0;
-    const auto paths = report::paths_in(options.a, options.b);
-    CommandSteps steps(console, paths.size());
-    for (const auto& path : paths) {
-        steps.next(path);
-        all.pairs.push_back(diff.pair_of(path));
+    const auto pairs = report::pairs_in(options.a, options.b);
+    CommandSteps steps(console, pairs.size());
+    for (const auto& paths : pairs) {
+        steps.next(paths.path());
+        all.pairs.push_back(diff.pair_of(paths));
         code = batch::graver(code, all.pairs.back().exit_code);
     }
     steps.done();

@@ -80,16 +80,17 @@ Json to_json(const Comparison& comparison, const std::string& name_a, const std:
 /// A table; lines that are equal only with `all`.
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all);
-/// One self-contained page: the verdict, both scenes by one camera with a slider, distances as colours, both
-/// files beside each other, parts and materials that came, went or changed, and the lines that differ.
-std::string to_html(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
+/// One self-contained page: the verdict, both scenes by one camera with a slider, both files beside each
+/// other, parts and materials that came, went or changed, distances as colours, and the lines that differ.
+/// Files are called by the shortest names that tell them apart.
+std::string to_html(const Comparison& comparison, const std::string& path_a, const std::string& path_b,
                     const ComparisonPictures& pictures);
 /// "agree", "differ", "agree in everything that was compared".
 std::string verdict_of(const Comparison& comparison);
 /// "counts, geometry": the sections with a line that decides and differs.
 std::string differs_in(const Comparison& comparison);
-/// Tables for the description of a change.
-std::string to_markdown(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
+/// Tables for the description of a change, with names as to_html has them.
+std::string to_markdown(const Comparison& comparison, const std::string& path_a, const std::string& path_b);
 Json comparison_schema();
 
 } // namespace facetmill::report

@@ -2,7 +2,9 @@
 
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/short_names.hpp"
 #include "base/words.hpp"
+#include "diff/overview.hpp"
 #include "io/codec.hpp"
 #include "report/html_parts.hpp"
 #include "report/markdown_parts.hpp"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 namespace facetmill::report {
@@ -19,7 +22,8 @@ using FolderOutcome = FolderPair::Outcome;
 
 namespace {
 
-void add_paths(const fs::path& folder, std::set<std::string>& paths) {
+std::set<std::string> meshes_in(const fs::path& folder) {
+    std::set<std::string> paths;
     std::error_code error;
     fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
     for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
@@ -32,6 +36,34 @@ void add_paths(const fs::path& folder, std::set<std::string>& paths) {
         throw Error(ErrorKind::missing, "E-FILE",
                     fmt::format("cannot look into '{}': {}", folder.string(), error.message()),
                     "check its permissions");
+    return paths;
+}
+
+/// Files of either folder that have no file of their path in the other, and are called alike but for
+/// suffixes.
+struct Namesakes {
+    std::vector<std::string> a, b;
+};
+
+/// "a.obj, a.ply".
+std::string listed(const std::vector<std::string>& paths) {
+    std::string text;
+    for (const auto& path : paths) append_item(text, path);
+    return text;
+}
+
+void add_namesakes(const Namesakes& n, std::vector<PairedPaths>& pairs) {
+    if (n.a.size() == 1 && n.b.size() == 1) {
+        pairs.push_back({n.a.front(), n.b.front()});
+        return;
+    }
+    const auto why = [&](const std::vector<std::string>& others, const char* folder) {
+        return others.empty() ? std::string()
+                              : fmt::format("not paired, as several are called alike: the {} folder has {}",
+                                            folder, listed(others));
+    };
+    for (const auto& path : n.a) pairs.push_back({path, {}, why(n.b, "second")});
+    for (const auto& path : n.b) pairs.push_back({{}, path, why(n.a, "first")});
 }
 
 std::string tally(const FolderComparison& c) {
@@ -70,7 +102,8 @@ std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
         if (fits) bytes += picture->size();
         cells += cell(
             fits ? fmt::format("<img alt=\"{}: {}\" style=\"width:7rem\" src=\"data:image/png;base64,{}\">",
-                               escaped(pair.path), picture == &pair.picture_a ? "first" : "second", *picture)
+                               escaped(pair.paths.text()), picture == &pair.picture_a ? "first" : "second",
+                               *picture)
                  : "");
     }
     return cells;
@@ -88,8 +121,23 @@ std::string address(const std::string& path) {
 }
 
 std::string name_html(const FolderPair& pair) {
-    if (pair.page.empty()) return code(pair.path);
-    return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), code(pair.path));
+    if (pair.page.empty()) return path_code(pair.paths.text());
+    return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), path_code(pair.paths.text()));
+}
+
+/// "counts, geometry", or why there is nothing of the kind.
+std::string more_of(const FolderPair& pair) {
+    if (pair.outcome == FolderOutcome::failed) return pair.verdict;
+    return pair.paths.unpaired.empty() ? pair.differs_in : pair.paths.unpaired;
+}
+
+Json path_json(const std::string& path) { return path.empty() ? Json(nullptr) : Json(path); }
+
+std::vector<Diagnostic> not_drawn_in(const FolderComparison& c) {
+    std::vector<Diagnostic> all;
+    for (const FolderPair& pair : c.pairs)
+        all.insert(all.end(), pair.not_drawn.begin(), pair.not_drawn.end());
+    return all;
 }
 
 } // namespace
@@ -115,11 +163,27 @@ bool FolderComparison::differs() const {
                        [](const FolderPair& p) { return p.outcome != FolderOutcome::same; });
 }
 
-std::vector<std::string> paths_in(const fs::path& a, const fs::path& b) {
-    std::set<std::string> paths;
-    add_paths(a, paths);
-    add_paths(b, paths);
-    return {paths.begin(), paths.end()};
+std::string PairedPaths::text() const {
+    if (a.empty() || b.empty() || a == b) return path();
+    return fmt::format("{} and {}", a, fs::path(b).filename().string());
+}
+
+std::vector<PairedPaths> pairs_in(const fs::path& a, const fs::path& b) {
+    const auto in_a = meshes_in(a), in_b = meshes_in(b);
+    std::vector<PairedPaths> pairs;
+    std::map<std::string, Namesakes> rest; // by the path without its suffix
+    const auto stem = [](const std::string& path) { return fs::path(path).replace_extension().string(); };
+    for (const auto& path : in_a)
+        if (in_b.contains(path))
+            pairs.push_back({path, path});
+        else
+            rest[stem(path)].a.push_back(path);
+    for (const auto& path : in_b)
+        if (!in_a.contains(path)) rest[stem(path)].b.push_back(path);
+    for (const auto& [_, namesakes] : rest) add_namesakes(namesakes, pairs);
+    std::sort(pairs.begin(), pairs.end(),
+              [](const PairedPaths& x, const PairedPaths& y) { return x.path() < y.path(); });
+    return pairs;
 }
 
 void tell(const Comparison& comparison, FolderPair& pair) {
@@ -136,7 +200,10 @@ void tell(const Comparison& comparison, FolderPair& pair) {
 std::vector<std::size_t> worst_first(const FolderComparison& comparison) {
     std::vector<std::size_t> order(comparison.pairs.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    const auto far = [&](std::size_t i) { return comparison.pairs[i].percent.value_or(0); };
+    const auto far = [&](std::size_t i) {
+        const double percent = comparison.pairs[i].percent.value_or(0);
+        return std::isnan(percent) ? HUGE_VAL : percent; // none is worse than what cannot be compared
+    };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
         const auto x = comparison.pairs[i].outcome, y = comparison.pairs[k].outcome;
         return x != y ? x < y : far(i) > far(k);
@@ -151,10 +218,10 @@ std::string to_text(const FolderComparison& c, const std::string& name_a, const 
     for (const std::size_t i : worst_first(c)) {
         const FolderPair& pair = c.pairs[i];
         if (pair.outcome == FolderOutcome::same && !all) continue;
-        std::string more = pair.outcome == FolderOutcome::failed ? pair.verdict : pair.differs_in;
+        std::string more = more_of(pair);
         if (const std::string percent = percent_text(pair); !percent.empty())
             append_item(more, "deviation " + percent, "; ");
-        text += fmt::format("  {:<8} {:<40} {}\n", to_string(pair.outcome), pair.path, more);
+        text += fmt::format("  {:<8} {:<40} {}\n", to_string(pair.outcome), pair.paths.text(), more);
     }
     return text;
 }
@@ -164,7 +231,8 @@ Json to_json(const FolderComparison& c, const std::string& name_a, const std::st
     for (const std::size_t i : worst_first(c)) {
         const FolderPair& p = c.pairs[i];
         files.push_back(
-            {{"path", p.path},
+            {{"path", p.paths.path()},
+             {"paths", {{"a", path_json(p.paths.a)}, {"b", path_json(p.paths.b)}}},
              {"outcome", to_string(p.outcome)},
              {"exit_code", p.exit_code},
              {"verdict", p.verdict},
@@ -172,12 +240,12 @@ Json to_json(const FolderComparison& c, const std::string& name_a, const std::st
              {"deviation_percent", p.percent && std::isfinite(*p.percent) ? Json(*p.percent) : Json(nullptr)},
              {"faces", {{"a", p.faces_a}, {"b", p.faces_b}}},
              {"bytes", {{"a", p.bytes_a}, {"b", p.bytes_b}}},
-             {"page", p.page.empty() ? Json(nullptr) : Json(p.page)}});
+             {"page", path_json(p.page)}});
     }
     return {{"a", name_a}, {"b", name_b}, {"same", !c.differs()}, {"files", std::move(files)}};
 }
 
-std::string to_html(const FolderComparison& c, const std::string& name_a, const std::string& name_b) {
+std::string to_html(const FolderComparison& c, const std::string& path_a, const std::string& path_b) {
     std::string rows;
     std::size_t bytes = 0;
     for (const std::size_t i : worst_first(c)) {
@@ -187,11 +255,10 @@ std::string to_html(const FolderComparison& c, const std::string& name_a, const 
             cell(fmt::format("<span class=\"badge {}\">{}</span>", kind_of_pair(p), to_string(p.outcome))),
             cell(name_html(p)), picture_cells(p, bytes), number_cell(percent_text(p)),
             number_cell(change_text(p.faces_a, p.faces_b, grouped)),
-            number_cell(change_text(p.bytes_a, p.bytes_b, sized)),
-            cell(escaped(p.outcome == FolderOutcome::failed ? p.verdict : p.differs_in)));
+            number_cell(change_text(p.bytes_a, p.bytes_b, sized)), cell(escaped(more_of(p))));
     }
-    std::string out =
-        html_begin(fmt::format("{} and {}", name_a, name_b), "Compared by facetmill diff, the worst first.");
+    std::string out = comparison_begin(short_names(path_a, path_b), {path_a, path_b},
+                                       "Compared by facetmill diff, the worst first.");
     out += fmt::format("<p class=\"verdict {}\">{}: {}</p>\n", c.differs() ? "bad" : "good",
                        c.differs() ? "differ" : "agree", tally(c));
     return out +
@@ -199,10 +266,10 @@ std::string to_html(const FolderComparison& c, const std::string& name_a, const 
                "Files",
                heads({"outcome", "file", "first", "second", "#deviation", "#faces", "#bytes", "differs in"}),
                rows) +
-           html_end();
+           not_drawn_html(not_drawn_in(c)) + html_end();
 }
 
-std::string to_markdown(const FolderComparison& c, const std::string& name_a, const std::string& name_b) {
+std::string to_markdown(const FolderComparison& c, const std::string& path_a, const std::string& path_b) {
     std::vector<std::vector<std::string>> rows;
     std::size_t same = 0;
     for (const std::size_t i : worst_first(c)) {
@@ -211,15 +278,14 @@ std::string to_markdown(const FolderComparison& c, const std::string& name_a, co
             ++same;
             continue;
         }
-        const std::string name = p.page.empty()
-                                     ? markdown_escaped(p.path)
-                                     : fmt::format("[{}]({})", markdown_escaped(p.path), address(p.page));
+        const std::string text = markdown_escaped(p.paths.text());
+        const std::string name = p.page.empty() ? text : fmt::format("[{}]({})", text, address(p.page));
         rows.push_back({to_string(p.outcome), name, percent_text(p),
                         change_text(p.faces_a, p.faces_b, grouped), change_text(p.bytes_a, p.bytes_b, sized),
-                        markdown_escaped(p.outcome == FolderOutcome::failed ? p.verdict : p.differs_in)});
+                        markdown_escaped(more_of(p))});
     }
-    std::string out = fmt::format("## {} and {}\n\n**{}: {}**\n", markdown_escaped(name_a),
-                                  markdown_escaped(name_b), c.differs() ? "differ" : "agree", tally(c));
+    std::string out = comparison_heading(short_names(path_a, path_b), {path_a, path_b}) +
+                      fmt::format("\n**{}: {}**\n", c.differs() ? "differ" : "agree", tally(c));
     out += markdown_table("Files", {"outcome", "file", "deviation", "faces", "bytes", "differs in"}, rows);
     if (same > 0) out += fmt::format("\n{} the same.\n", counted(same, "file is", "files are"));
     return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
@@ -236,7 +302,9 @@ Json folder_comparison_schema() {
                     {"properties", properties}};
     };
     const Json both = closed({{"a", typed("integer")}, {"b", typed("integer")}});
+    const Json path = {{"type", {"string", "null"}}};
     const Json file = closed({{"path", typed("string")},
+                              {"paths", closed({{"a", path}, {"b", path}})},
                               {"outcome", {{"enum", {"failed", "differs", "removed", "added", "same"}}}},
                               {"exit_code", typed("integer")},
                               {"verdict", typed("string")},
@@ -244,7 +312,7 @@ Json folder_comparison_schema() {
                               {"deviation_percent", {{"type", {"number", "null"}}}},
                               {"faces", both},
                               {"bytes", both},
-                              {"page", {{"type", {"string", "null"}}}}});
+                              {"page", path}});
     Json schema = closed({{"a", typed("string")},
                           {"b", typed("string")},
                           {"same", typed("boolean")},

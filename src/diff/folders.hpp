@@ -7,19 +7,32 @@
 
 namespace facetmill::report {
 
-/// A file of either folder, by its path in them.
+/// The paths of two files in their folders, with slashes; empty: that folder has none.
+struct PairedPaths {
+    std::string a, b;
+    std::string unpaired =
+        {}; ///< why a file stands alone, though the other folder has one that is called alike
+
+    /// Of the first, or the only one.
+    const std::string& path() const { return a.empty() ? b : a; }
+    /// "sub/a.glb", "sub/a.ply and a.glb".
+    std::string text() const;
+};
+
+/// A file of either folder, or one of each.
 struct FolderPair {
     enum class Outcome { failed, differs, removed, added, same }; ///< the worst first
-    std::string path;                                             ///< with slashes
+    PairedPaths paths;
     Outcome outcome = Outcome::same;
     int exit_code = 0;   ///< as that of `facetmill diff` of the two
     std::string verdict; ///< "agree", or why it failed
     std::optional<double>
         percent; ///< the largest deviation, of the first file's diagonal; none: not measured
     std::uint64_t faces_a = 0, faces_b = 0, bytes_a = 0, bytes_b = 0;
-    std::string differs_in;           ///< "counts, geometry"
-    std::string page;                 ///< of this pair, from the index; empty: none
-    std::string picture_a, picture_b; ///< small PNGs in base64; empty: none
+    std::string differs_in;            ///< "counts, geometry"
+    std::string page;                  ///< of this pair, from the index; empty: none
+    std::string picture_a, picture_b;  ///< small PNGs in base64; empty: none
+    std::vector<Diagnostic> not_drawn; ///< textures that pictures do without
 };
 const char* to_string(FolderPair::Outcome outcome);
 
@@ -28,9 +41,10 @@ struct FolderComparison {
     bool differs() const;          ///< anything but the same files that agree
 };
 
-/// The mesh files below both folders, by their paths in them, in that order; what is there twice, once.
+/// The mesh files below both folders in the order of their paths: those of one path are a pair. Of the rest
+/// two of one path but for the suffix are a pair, too (a.ply, a.glb), where neither folder has another such.
 /// Links to folders are not followed. Throws missing (E-FILE) when a folder cannot be looked into.
-std::vector<std::string> paths_in(const std::filesystem::path& a, const std::filesystem::path& b);
+std::vector<PairedPaths> pairs_in(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Fills in what an index tells of a pair.
 void tell(const Comparison& comparison, FolderPair& pair);

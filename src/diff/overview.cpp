@@ -138,10 +138,10 @@ std::string soundness_text(const Properties& properties) {
 
 std::string overview_html(const Comparison& c) {
     std::string rows = fmt::format("<tr><th scope=\"row\">verdict</th>{}{}</tr>\n",
-                                   number_cell(escaped(soundness_text(c.properties_a))),
-                                   number_cell(escaped(soundness_text(c.properties_b))));
+                                   number_cell(escaped_path(soundness_text(c.properties_a))),
+                                   number_cell(escaped_path(soundness_text(c.properties_b))));
     for (const SideRow& row : rows_of(c))
-        rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(row.name),
+        rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped_path(row.name),
                             side_cell(row.a, row.good_a), side_cell(row.b, row.good_b));
     return table("Beside each other", heads({"", "#first", "#second"}), rows) + item_table(c, true) +
            item_table(c, false);

@@ -14,4 +14,12 @@ std::string overview_markdown(const Comparison& comparison);
 /// not.
 std::string soundness_text(const Properties& properties);
 
+/// The heading of a comparison of two files or folders under short names, with their paths below where these
+/// say more. about: of the page.
+std::string comparison_begin(const std::pair<std::string, std::string>& names,
+                             const std::pair<std::string, std::string>& paths, const std::string& about);
+/// The same in Markdown.
+std::string comparison_heading(const std::pair<std::string, std::string>& names,
+                               const std::pair<std::string, std::string>& paths);
+
 } // namespace facetmill::report

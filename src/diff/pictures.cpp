@@ -1,5 +1,6 @@
 #include "diff/pictures.hpp"
 
+#include "base/short_names.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/gltf/pose.hpp"
@@ -27,11 +28,6 @@ std::optional<DeviationView> distances_from(const FaceTree& tree, double diagona
     return any ? std::optional(std::move(view)) : std::nullopt;
 }
 
-std::shared_ptr<const MaterialLooks> looks_of(const Scene& scene) {
-    std::vector<Diagnostic> ignored; // a texture that cannot be drawn is none of a comparison's business
-    return io::LookReader().looks(scene, ignored);
-}
-
 } // namespace
 
 ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std::string& name_a,
@@ -46,8 +42,11 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     settings.camera = camera;
     camera.seen.add(camera_of(seen_b, settings).seen);
     settings.camera = camera;
-    const auto looks_a = looks_of(a), looks_b = looks_of(b);
-    ComparisonPictures out{png_of(seen_a, settings, looks_a), png_of(seen_b, settings, looks_b), {}, {}, {}};
+    ComparisonPictures out;
+    const auto looks_a = io::LookReader().looks(a, out.not_drawn);
+    const auto looks_b = io::LookReader().looks(b, out.not_drawn);
+    out.a = png_of(seen_a, settings, looks_a);
+    out.b = png_of(seen_b, settings, looks_b);
     const Surface surface_a = surface_or_points_of(seen_a, filled_surface),
                   surface_b = surface_or_points_of(seen_b, filled_surface);
     const Box box_a = surface_a.bounds(), box_b = surface_b.bounds();
@@ -60,8 +59,9 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     for (auto* view : {&out.backward, &out.forward})
         if (*view) (*view)->posed = posed_a || posed_b;
     ViewedScenes viewed(2);
-    viewed.add_before(a, name_a, looks_a);
-    viewed.add_after(b, name_b, looks_b, {&tree, name_a});
+    const auto [short_a, short_b] = short_names(name_a, name_b);
+    viewed.add_before(a, short_a, looks_a);
+    viewed.add_after(b, short_b, looks_b, {&tree, short_a});
     out.view = viewed.json();
     return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Two scenes seen by one camera, for the page of a comparison.
 
+#include "base/error.hpp"
 #include "base/json.hpp"
 #include "mesh/scene.hpp"
 #include "report/views.hpp"
@@ -13,10 +14,12 @@ struct ComparisonPictures {
     std::optional<DeviationView> forward;  ///< of the first scene from the second: what is gone
     std::optional<DeviationView> backward; ///< of the second from the first: what is new
     Json view;                             ///< both, to be turned (report/viewer.hpp)
+    std::vector<Diagnostic> not_drawn;     ///< textures that all of these do without, and why
 };
 
 /// Both by the camera of the first scene, unless the second goes beyond it; then by one that sees both. No
-/// distances where a scene is empty, or nothing is off the other. O((vertices + faces) log n).
+/// distances where a scene is empty, or nothing is off the other. Names: of the files, as they were given.
+/// O((vertices + faces) log n).
 ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std::string& name_a,
                                        const std::string& name_b);
 

@@ -1,5 +1,6 @@
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/short_names.hpp"
 #include "diff/lines.hpp"
 #include "diff/overview.hpp"
 #include "report/html_parts.hpp"
@@ -133,9 +134,28 @@ std::string difference_rows(const Comparison& comparison, const char* section) {
 
 } // namespace
 
-std::string to_html(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
+std::string comparison_begin(const std::pair<std::string, std::string>& names,
+                             const std::pair<std::string, std::string>& paths, const std::string& about) {
+    const auto& [name_a, name_b] = names;
+    std::string out = html_begin(fmt::format("{} and {}", name_a, name_b), about,
+                                 fmt::format("{} and {}", paths.first, paths.second));
+    if (names == paths) return out;
+    return out + fmt::format("<dl><dt>first</dt><dd>{}</dd><dt>second</dt><dd>{}</dd></dl>\n",
+                             path_code(paths.first), path_code(paths.second));
+}
+
+std::string comparison_heading(const std::pair<std::string, std::string>& names,
+                               const std::pair<std::string, std::string>& paths) {
+    std::string out =
+        fmt::format("## {} and {}\n", markdown_escaped(names.first), markdown_escaped(names.second));
+    if (names == paths) return out;
+    return out + fmt::format("\n{} and {}\n", markdown_escaped(paths.first), markdown_escaped(paths.second));
+}
+
+std::string to_html(const Comparison& comparison, const std::string& path_a, const std::string& path_b,
                     const ComparisonPictures& pictures) {
-    std::string out = html_begin(fmt::format("{} and {}", name_a, name_b), "Compared by facetmill diff.");
+    const auto [name_a, name_b] = short_names(path_a, path_b);
+    std::string out = comparison_begin({name_a, name_b}, {path_a, path_b}, "Compared by facetmill diff.");
     const char* kind = comparison.differs() ? "bad" : "good";
     for (const auto& line : head_lines(comparison, name_a, name_b)) {
         out += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, escaped(line));
@@ -144,7 +164,8 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
     out += "<div class=\"deviation\">" + figure(picture("first", name_a, pictures.a), name_a);
     out += compared_figure(picture("second", name_b, pictures.b), "first", name_b,
                            fmt::format("{}; left of the slider {}", name_b, name_a)) +
-           "</div>\n" + viewer_section(pictures.view);
+           "</div>\n" + not_drawn_html(pictures.not_drawn) + viewer_section(pictures.view) +
+           overview_html(comparison);
     if (pictures.backward || pictures.forward) out += "<h2>Signed distances</h2>\n";
     if (pictures.backward)
         out += "<h3>Distances of the second from the first</h3>\n" +
@@ -152,7 +173,6 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
     if (pictures.forward)
         out += "<h3>Distances of the first from the second</h3>\n" +
                deviation_html(*pictures.forward, "forward", "the first file");
-    out += overview_html(comparison);
     for (const char* section : comparison_sections)
         out +=
             table(section_title(comparison, section), heads({"outcome", "name", "first", "second", "note"}),
@@ -160,8 +180,9 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
     return out + html_end();
 }
 
-std::string to_markdown(const Comparison& comparison, const std::string& name_a, const std::string& name_b) {
-    std::string out = fmt::format("## {} and {}\n", markdown_escaped(name_a), markdown_escaped(name_b));
+std::string to_markdown(const Comparison& comparison, const std::string& path_a, const std::string& path_b) {
+    const auto [name_a, name_b] = short_names(path_a, path_b);
+    std::string out = comparison_heading({name_a, name_b}, {path_a, path_b});
     for (const auto& line : head_lines(comparison, name_a, name_b))
         out += fmt::format("\n**{}**\n", markdown_escaped(line));
     out += overview_markdown(comparison);

@@ -121,8 +121,9 @@ class Runner {
             });
         if (small && settings_.last_picture && !takes_pictures_ && !failures_.any() &&
             !record().stages.empty() && fetch({}, "a picture", flow))
-            failures_.guarded({}, "a picture",
-                              [&] { record().stages.back().picture = report::small_picture(flow.scene); });
+            failures_.guarded({}, "a picture", [&] {
+                record().stages.back().picture = report::small_picture(flow.scene, record().not_drawn);
+            });
         finish_outputs();
         record_cost(watch);
         write_reports();

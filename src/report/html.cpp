@@ -1,6 +1,7 @@
 // The page of a run: its sections, in order.
 
 #include "base/markup.hpp"
+#include "base/short_names.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"
@@ -30,7 +31,7 @@ std::string verdict(const RunRecord& record) {
 }
 
 std::string page(const RunRecord& record, const Json& view, bool with_times) {
-    std::string out = html_begin(record.pipeline, record.about);
+    std::string out = html_begin(short_name(record.pipeline), record.about, record.pipeline);
     out += verdict(record) + glance_section(record, with_times);
     out += table("Errors", heads({"id", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
     out += table("Warnings", heads({"id", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));

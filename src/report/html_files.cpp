@@ -40,7 +40,7 @@ std::string rows_of(const std::vector<FileRecord>& files) {
     std::string rows;
     for (const FileRecord& f : files)
         rows +=
-            fmt::format("<tr>{}{}{}{}</tr>\n", cell(code(f.path)), number_cell(sized(f.bytes)),
+            fmt::format("<tr>{}{}{}{}</tr>\n", cell(path_code(f.path)), number_cell(sized(f.bytes)),
                         kind_cells(f.kinds), cell("<span class=\"digest\">" + code(f.sha256) + "</span>"));
     if (files.size() < 2) return rows;
     const Sum sum = sum_of(files);
@@ -70,7 +70,7 @@ std::string read_back_tables(const std::vector<FileRecord>& outputs) {
             out +=
                 fmt::format("<details><summary>{} read back: {} faces, {} vertices, positions within {}"
                             "</summary>{}</details>\n",
-                            code(f.path), grouped(f.read_back.value("faces", std::uint64_t{0})),
+                            path_code(f.path), grouped(f.read_back.value("faces", std::uint64_t{0})),
                             grouped(f.read_back.value("vertices", std::uint64_t{0})),
                             readable(f.read_back.value("position_error", 0.0)),
                             subtable("Read back", heads({"name", "value"}), value_rows(f.read_back), "h3"));

@@ -72,7 +72,7 @@ std::string shape_html(const OutputView& view, std::size_t number) {
 
 std::string one_output(const OutputView& view, std::size_t number) {
     std::string out = fmt::format(
-        "<section class=\"stage\">\n<h3>{}</h3>\n<p>{} faces{}</p>\n", escaped(view.name),
+        "<section class=\"stage\">\n<h3>{}</h3>\n<p>{} faces{}</p>\n", escaped_path(view.name),
         grouped(view.faces), view.input_faces > 0 ? fmt::format(" of {}", grouped(view.input_faces)) : "");
     if (view.deviation)
         out += deviation_html(*view.deviation, fmt::format("output-{}", number), view.name);

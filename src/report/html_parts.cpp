@@ -55,14 +55,14 @@ td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height
 @media (min-width: 800px) { .stage.pictured { grid-template-columns: minmax(0, 26rem) minmax(0, 1fr); }
   .stage.pictured > .shown { grid-column: 1; } .stage.pictured > .told { grid-column: 2; } }
 @media (max-width: 480px) { body { padding: 1.2rem 1rem 3rem; } dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
-  dd { margin-bottom: .5rem; } tr > th[scope=row] { white-space: normal; width: auto; } td.said { min-width: 15rem; } }
+  th, td { padding-right: .7rem; } dd { margin-bottom: .5rem; } tr > th[scope=row] { white-space: normal; width: auto; } td.said { min-width: 15rem; } }
 @media (max-width: 640px) { table.cards, .cards tbody, .cards tr { display: block; }
   .cards tr { border-bottom: 1px solid var(--line); padding: .45rem 0; } .cards tr:first-child { display: none; }
   .cards td, .cards td.number { display: block; border: 0; padding: .12rem 0 .12rem 7.5rem; position: relative;
     text-align: left; white-space: normal; min-width: 0; width: auto; overflow-wrap: break-word; }
   .cards td::before { content: attr(data-head); position: absolute; left: 0; width: 7rem; color: var(--quiet);
     font-weight: 400; } .cards td:empty { display: none; } .digest code { min-width: 0; }
-  td.number { white-space: normal; } td:last-child { overflow-wrap: anywhere; } }
+  td:last-child { overflow-wrap: anywhere; } td.number { white-space: normal; overflow-wrap: break-word; } }
 @media print { body { max-width: none; padding: 0; } details { display: none; } .scroll { overflow: visible; } }
 )";
 
@@ -91,6 +91,7 @@ for (const table of document.querySelectorAll("table")) {
 } // namespace
 
 std::string code(const std::string& text) { return fmt::format("<code>{}</code>", escaped(text)); }
+std::string path_code(const std::string& path) { return fmt::format("<code>{}</code>", escaped_path(path)); }
 std::string cell(const std::string& html) { return fmt::format("<td>{}</td>", html); }
 std::string number_cell(const std::string& html) { return fmt::format("<td class=\"number\">{}</td>", html); }
 
@@ -138,6 +139,14 @@ std::string compared_figure(const std::string& picture, const std::string& befor
         caption, false);
 }
 
+std::string not_drawn_html(const std::vector<Diagnostic>& not_drawn) {
+    std::string out;
+    for (const Diagnostic& d : not_drawn)
+        out += fmt::format("<p class=\"warn\">{}: {}; {}</p>\n", path_code(to_string(d.where)),
+                           escaped(d.message), escaped(d.hint));
+    return out;
+}
+
 std::string heads(std::initializer_list<const char*> titles) {
     std::string out;
     for (const std::string title : titles)                         // a leading # marks a column of numbers
@@ -147,16 +156,18 @@ std::string heads(std::initializer_list<const char*> titles) {
     return out;
 }
 
-std::string html_begin(const std::string& title, const std::string& about) {
+std::string html_begin(const std::string& title, const std::string& about, const std::string& whole) {
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
         "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, "
         "initial-scale=1\">\n<title>{0}: facetmill "
-        "report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p "
+        "report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1{3}>{4}</h1>\n<p "
         "class=\"soft\">{2}</p>\n",
-        escaped(title), style, escaped(about));
+        escaped(title), style, escaped(about),
+        whole.empty() || whole == title ? "" : fmt::format(" title=\"{}\"", escaped(whole)),
+        escaped_path(title));
 }
 
 std::string html_end() {

@@ -1,17 +1,23 @@
 #pragma once
 // What the pages of reports are made of. Texts that are not HTML yet go through escaped() or code().
 
+#include "base/error.hpp"
+
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace facetmill::report {
 
-/// From the doctype to the title; title and about are plain text.
-std::string html_begin(const std::string& title, const std::string& about);
+/// From the doctype to the title; title and about are plain text. whole: what the title is short for, a path;
+/// empty: it is not.
+std::string html_begin(const std::string& title, const std::string& about, const std::string& whole = {});
 /// The version, and the end of the page.
 std::string html_end();
 
 std::string code(const std::string& text);
+/// The same of a path.
+std::string path_code(const std::string& path);
 std::string cell(const std::string& html);
 std::string number_cell(const std::string& html);
 /// An image (a PNG in base64); no other of the page may have the id.
@@ -22,6 +28,8 @@ std::string figure(const std::string& picture, const std::string& caption, bool 
 /// same camera, which is shown on the left. name: of the later one.
 std::string compared_figure(const std::string& picture, const std::string& before_id, const std::string& name,
                             const std::string& caption);
+/// What pictures do without, and why, a paragraph each; nothing of nothing.
+std::string not_drawn_html(const std::vector<Diagnostic>& not_drawn);
 /// A row of headings; a leading # marks a column of numbers.
 std::string heads(std::initializer_list<const char*> titles);
 /// A table under a smaller heading; nothing when there are no rows.

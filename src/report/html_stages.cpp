@@ -189,9 +189,7 @@ std::string stage_sections(const RunRecord& record) {
     std::size_t last = record.stages.size(); // the stage with the last picture
     for (std::size_t i = 0; i < record.stages.size(); ++i) out += section(record, i, last);
     if (out.empty()) return out;
-    for (const Diagnostic& d : record.not_drawn)
-        out += fmt::format("<p class=\"warn\">{}: {}; {}</p>\n", code(to_string(d.where)), escaped(d.message),
-                           escaped(d.hint));
+    out += not_drawn_html(record.not_drawn);
     return fmt::format(
         "<h2>Stages</h2>\n{}<p class=\"soft\">Each stage that changed what is seen has a picture. "
         "The inner side of a surface is orange. Distances of a single stage are shown of scenes of up to "

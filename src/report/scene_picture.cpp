@@ -21,12 +21,13 @@ std::string scene_picture(const Scene& scene, PictureSettings settings, io::Look
     return page_text(picture_of(posed ? *posed : scene, settings));
 }
 
-std::string small_picture(const Scene& scene) {
+std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn) {
     PictureSettings small = page_settings();
     small.width = 160;
     small.height = 120;
     small.point = 2;
     io::LookReader looks;
+    looks.looks(scene, not_drawn); // once for each texture
     return scene_picture(scene, small, looks);
 }
 

@@ -18,7 +18,7 @@ std::string page_text(const Picture& picture);
 /// word, which is for who calls (io::LookReader).
 std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks);
 
-/// One of many in an index.
-std::string small_picture(const Scene& scene);
+/// One of many in an index. Textures that it does without are added to not_drawn.
+std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn);
 
 } // namespace facetmill::report

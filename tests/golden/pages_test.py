@@ -167,7 +167,7 @@ class Pages(Case):
             self.assertEqual(said in (self.dir / "d.html").read_text(), weight == 1)
         self.assertGreater(farthest[1] / farthest[0], 1.5)
 
-    def test_a_texture_that_is_not_drawn_is_told(self):
+    def ball_of_broken_texture(self):
         self.mill("pipe", "generate", "icosphere", "!", "write", "ball.gltf")
         scene = json.loads((self.dir / "ball.gltf").read_text())
         scene.update(images=[{"uri": "broken.png"}], textures=[{"source": 0}],
@@ -175,9 +175,57 @@ class Pages(Case):
         scene["meshes"][0]["primitives"][0]["material"] = 0
         self.write("ball.gltf", json.dumps(scene))
         self.write("broken.png", "no picture")
+
+    def test_a_texture_that_is_not_drawn_is_told(self):
+        self.ball_of_broken_texture()
         page, _ = self.report("load", "ball.gltf", "!", "relax", "1", "!", "write", "o.glb", expect=None)
         self.assertEqual(page.count("not drawn: it is broken"), 1)
         self.assertIn("the plain colour is drawn in its place", page)
+
+    def test_a_comparison_tells_what_it_does_not_draw(self):
+        self.ball_of_broken_texture()
+        self.mill("pipe", "generate", "icosphere", "!", "write", "plain.glb")
+        for files in (("ball.gltf", "plain.glb"), ("plain.glb", "ball.gltf")):
+            run = self.mill("diff", *files, "--html", "d.html", "--report", "again.html", expect=1)
+            self.assertEqual(run.stderr.count("ball.gltf: warning[W-TEXTURE]: images[0]: not drawn: it is broken"), 1, run.stderr)
+            page = (self.dir / "d.html").read_text()
+            self.assertEqual(page.count("not drawn: it is broken"), 1)
+            self.assertIn("the plain colour is drawn in its place", page)
+        self.assertNotIn("not drawn", self.mill("diff", *files, expect=1).stderr)  # there are no pictures
+        for folder in ("x", "y"):
+            (self.dir / folder).mkdir()
+        for name in ("ball.gltf", "broken.png", "ball.bin"):
+            (self.dir / "x" / name).write_bytes((self.dir / name).read_bytes())
+        for other in (None, "plain.glb"):  # a file alone, and one of a pair
+            if other:
+                (self.dir / "y/ball.glb").write_bytes((self.dir / other).read_bytes())
+            run = self.mill("diff", "x", "y", "--html", "i.html", expect=1)
+            self.assertEqual(run.stderr.count("x/ball.gltf: warning[W-TEXTURE]"), 1, run.stderr)
+            self.assertEqual((self.dir / "i.html").read_text().count("not drawn: it is broken"), 1)
+
+    def test_headings_have_short_names(self):
+        for folder in ("old/assets/props", "new/assets/props"):
+            self.write(f"{folder}/part_with_a_name.off", OPEN)
+        files = [f"{folder}/assets/props/part_with_a_name.off" for folder in ("old", "new")]
+        self.mill("diff", *files, "--html", "d.html", "--markdown", "d.md")
+        page = (self.dir / "d.html").read_text()
+        heading = re.search(r"<h1 title=\"(.*?)\">(.*?)</h1>", page)
+        self.assertEqual(heading[1], " and ".join(files))
+        self.assertEqual(heading[2].replace("<wbr>", ""), "old/.../part_with_a_name.off and new/.../part_with_a_name.off")
+        self.assertIn("old/<wbr>", heading[2])
+        for path in files:  # in full below it
+            self.assertIn(path, page.replace("<wbr>", "").split("</dl>")[0])
+        self.assertIn("<figcaption>old/.../part_with_a_name.off</figcaption>", page)
+        lines = (self.dir / "d.md").read_text().splitlines()
+        self.assertEqual(lines[0].replace("\\", ""), "## old/.../part_with_a_name.off and new/.../part_with_a_name.off")
+        self.assertEqual(lines[2].replace("\\", ""), " and ".join(files))
+        self.mill("diff", "old/assets/", "new/assets/", "--html", "i.html", "--markdown", "i.md")
+        self.assertIn("old/<wbr>assets and new/<wbr>assets</h1>", (self.dir / "i.html").read_text())
+        self.assertTrue((self.dir / "i.md").read_text().startswith("## old/assets and new/assets\n\nold/assets/ and new/assets/\n"))
+        self.write("some/folder/of_pipelines/p.yaml",
+                   "facetmill: 1\nstages:\n  - generate: cube\n  - write: x.ply\nreport: r.html\n")
+        self.mill("run", "some/folder/of_pipelines/p.yaml")
+        self.assertIn('<h1 title="some/folder/of_pipelines/p.yaml">p.yaml</h1>', (self.dir / "r.html").read_text())
 
     def test_headings_go_down_one_by_one(self):
         self.write("o.off", OPEN)
@@ -376,6 +424,34 @@ class Pages(Case):
         self.mill("diff", "a", "b", "--report", "out/i.html", "--report", "out/i.md", "-j", "1", expect=1)
         self.assertEqual(first, self.files(self.dir / "out"))
 
+    def test_files_of_folders_are_paired_without_suffixes(self):
+        def put(*names):
+            for name in names:
+                (self.dir / name).parent.mkdir(parents=True, exist_ok=True)
+                self.mill("pipe", "-q", "generate", "cube", "!", "write", name)
+        put("a/cube.ply", "b/cube.glb", "a/sub/same.ply", "b/sub/same.ply", "b/sub/same.obj", "a/two.ply", "a/two.obj", "b/two.glb",
+            "a/one/x.ply", "b/other/x.ply", "a/gone.ply")
+        run = self.mill("diff", "a", "b", "--ignore", "attributes,topology,counts,document,materials", "--all", "--html", "i.html",
+                        "--markdown", "i.md", expect=1)
+        lines = [" ".join(line.split()) for line in run.stdout.splitlines()]
+        self.assertEqual(lines[0], "a and b differ: 4 removed, 3 added, 2 same")
+        self.assertEqual(sorted(lines[1:]), sorted([
+            "removed gone.ply", "removed one/x.ply", "added other/x.ply", "added sub/same.obj",
+            "removed two.obj not paired, as several are called alike: the second folder has two.glb",
+            "removed two.ply not paired, as several are called alike: the second folder has two.glb",
+            "added two.glb not paired, as several are called alike: the first folder has two.obj, two.ply",
+            "same cube.ply and cube.glb deviation 0 %", "same sub/same.ply deviation 0 %"]))
+        index = (self.dir / "i.html").read_text()
+        self.assertIn('<a href="i/cube.ply.html"><code>cube.ply and cube.glb</code></a>', index)
+        self.assertIn("the first folder has two.obj, two.ply", index)
+        self.assertIn("<h1>cube.ply and cube.glb</h1>", re.sub(r'<h1 title=".*?">', "<h1>", (self.dir / "i/cube.ply.html").read_text()))
+        self.assertIn("not paired, as several", (self.dir / "i.md").read_text())
+        files = json.loads(self.mill("diff", "a", "b", "--json", expect=1).stdout)["files"]
+        paths = {f["path"]: f["paths"] for f in files}
+        self.assertEqual(paths["cube.ply"], {"a": "cube.ply", "b": "cube.glb"})
+        self.assertEqual(paths["gone.ply"], {"a": "gone.ply", "b": None})
+        self.assertEqual(paths["two.glb"], {"a": None, "b": "two.glb"})
+
     def test_exit_codes_of_folders(self):
         self.folders()
         self.mill("diff", "a", "a")
@@ -421,6 +497,8 @@ class Pages(Case):
         self.mill("diff", "--html", "h.html", "--markdown", "h.md", "a.off", "b.off")
         for kind in ("html", "md"):
             self.assertEqual((self.dir / f"h.{kind}").read_text(), (self.dir / f"r.{kind}").read_text())
+        self.mill("diff", "--html", "i.html", "--markdown", "i.md", "--report", "j.html", "a.off", "b.off")
+        self.assertTrue(all((self.dir / name).exists() for name in ("i.html", "i.md", "j.html")))
         # What follows the option is never taken for the page: a mesh would be overwritten.
         for words in (("--html", "a.off", "b.off"), ("--html", "a.off", "b.off", "b.off"), ("--markdown", "a.off", "b.off")):
             run = self.mill("diff", *words, expect=2)
