@@ -31,20 +31,20 @@ struct CombineResult {
     Mesh mesh;
     std::vector<Index> mesh_of_face; ///< [faces] which of the meshes each is part of
     AttributeChanges changes;
-    std::size_t cut_faces = 0;     ///< that met others
-    std::size_t covered_faces = 0; ///< that met none and went
+    std::size_t cut_faces = 0;     ///< that met others, elsewhere than deep in a third solid
+    std::size_t covered_faces = 0; ///< that were not cut and went
     std::optional<CombineFailure> failure;
     bool short_of_memory = false; ///< the reason for the failure: with more, the result would be another
 };
 
 /// Combines closed, consistently oriented meshes, whose solid is what they wind around at least once: they
 /// may pass through themselves, and hold cavities. Faces without area are taken out first. All faces that
-/// meet are cut along each other, exactly (Q. Zhou et al., "Mesh arrangements for solid geometry", 2016), and
-/// each piece, or face that was not cut, stays where it has the solid on one side only. Coordinates are
-/// rounded then, and what intersects by that is united again, up to eight times. So the result is closed and
-/// edge-manifold (what touches at an edge or a vertex comes apart there), and intersects nowhere but where
-/// faces touch at equal positions; or there is a failure. It is empty where the solids have nothing in
-/// common.
+/// meet are cut along each other, exactly (Q. Zhou et al., "Mesh arrangements for solid geometry", 2016), but
+/// for what lies deep in a union or in what is taken away (geometry/clean/buried.hpp), and each piece, or
+/// face that was not cut, stays where it has the solid on one side only. Coordinates are rounded then, and
+/// what intersects by that is united again, up to eight times. So the result is closed and edge-manifold
+/// (what touches at an edge or a vertex comes apart there), and intersects nowhere but where faces touch at
+/// equal positions; or there is a failure. It is empty where the solids have nothing in common.
 ///
 /// Faces that are not cut stay polygons; first those of the first mesh, in order; pieces are triangles and
 /// come last. Where faces of several meshes coincide, the first mesh's stays. Faces of the second operand

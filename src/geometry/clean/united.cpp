@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "geometry/clean/buried.hpp"
 #include "geometry/clean/united_mesh.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
@@ -75,9 +76,9 @@ class Uniting {
         : mesh_(mesh), solids_(solids), found_(found), rounding_(rounding), operands_(operands) {}
 
     United run() {
+        gather();
         mark_cut_faces();
         merge_where_cut();
-        gather();
         TriangleSoup soup = triangle_soup();
         if (refuse_for_memory(soup)) return std::move(result_);
         Arrangement arrangement(std::move(soup));
@@ -121,9 +122,20 @@ class Uniting {
     }
 
     void mark_cut_faces() {
+        const Buried& buried = buried_.emplace(mesh_, solids_, found_, triangles_, first_, operands_);
+        std::vector<std::uint8_t> counts(found_.pairs.size());
+        parallel_for(
+            counts.size(),
+            [&](std::size_t i) {
+                const auto& [f, g] = found_.pairs[i];
+                counts[i] = solids_.cluster_of_face(f) != none && solids_.cluster_of_face(g) != none &&
+                            (buried.empty() || !buried.holds_meeting(f, g));
+            },
+            256);
         cut_.assign(mesh_.face_count(), 0);
-        for (const auto& [f, g] : found_.pairs) {
-            if (solids_.cluster_of_face(f) == none || solids_.cluster_of_face(g) == none) continue;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            if (!counts[i]) continue;
+            const auto& [f, g] = found_.pairs[i];
             pairs_.emplace_back(f, g);
             cut_[f] = cut_[g] = 1;
         }
@@ -353,6 +365,16 @@ class Uniting {
         return std::min(sign * front[operand].outward, sign * back[operand].outward);
     }
 
+    /// Whether the centre of a leaf is surely where nothing stays.
+    bool is_buried(const Arrangement& arrangement, Index i) const {
+        const Leaf l = leaf(i);
+        std::array<Vec3, 3> at{};
+        for (std::size_t k = 0; k < 3; ++k) at[k] = arrangement.position(l.nodes[k]);
+        const Vec3 centre = (at[0] + at[1] + at[2]) / 3;
+        const double largest = std::max({length(at[0]), length(at[1]), length(at[2])});
+        return buried_->holds_point({centre, 0x1p-49 * largest}, l.cluster);
+    }
+
     void judge_patches(const Arrangement& arrangement) {
         has_cavity_.assign(solids_.clusters(), 0);
         for (Index p = 0; p < solids_.components.count; ++p)
@@ -360,7 +382,7 @@ class Uniting {
         std::vector<Index> firsts; // the lowest leaf of each patch
         std::vector<Arrangement::Look> looks;
         for (Index i = 0; i < leaf_count(); ++i) {
-            if (patch_[i] != i) continue;
+            if (patch_[i] != i || is_buried(arrangement, i)) continue;
             firsts.push_back(i);
             looks.push_back({leaf(i).nodes, sources_of(arrangement, i)});
         }
@@ -446,6 +468,7 @@ class Uniting {
     const SelfIntersections& found_;
     Rounding rounding_;
     const Operands* operands_;                   ///< or nothing
+    std::optional<Buried> buried_;               ///< once triangles are gathered
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
     TriangleFaces triangles_;                    ///< of closed components

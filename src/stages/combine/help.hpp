@@ -15,7 +15,8 @@ keep is on. Without `with`, union takes all parts (or those selected by the key 
 Each part must be closed and consistently oriented (E-COMBINE names the first that is not; clean
 and orient repair). It may pass through itself, consist of several components, and have cavities:
 its solid is what its surface winds around at least once. Faces are cut along each other exactly,
-also where they lie in one plane, and a piece stays where it has the result on one side only. New
+also where they lie in one plane, and a piece stays where it has the result on one side only; what
+lies deep in other solids, where no piece can stay, is left out before. New
 vertices are rounded to floating-point coordinates; where that makes faces intersect again, they
 are united again, up to eight times. The result is closed, edge-manifold and without
 self-intersections, or the stage fails: solids that touch at an edge or a vertex are separate

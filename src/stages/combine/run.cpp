@@ -58,8 +58,10 @@ void declare_part(DeclareFields<CombinedPart>& d) {
     d.field("with", &CombinedPart::with, "The parts that it was combined with.");
     d.field("faces", &CombinedPart::faces, "The number of its faces now.");
     d.field("cut_faces", &CombinedPart::cut_faces,
-            "Faces cut where they met others, once in each repetition.");
-    d.field("removed_faces", &CombinedPart::removed_faces, "Faces that met no others and were removed.");
+            "Faces cut where they met others, once in each repetition; not those that meet only where a "
+            "third solid "
+            "covers them.");
+    d.field("removed_faces", &CombinedPart::removed_faces, "Faces that were removed without being cut.");
     d.field("faces_of_with", &CombinedPart::faces_of_with,
             "Faces of the result that come from the parts it was combined with.");
 }
