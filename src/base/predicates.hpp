@@ -22,6 +22,11 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
 /// do.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// True when the three points have one coordinate along axis k: all of their plane is there.
+constexpr bool is_level(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t k) {
+    return a[k] == b[k] && b[k] == c[k];
+}
+
 /// On which side of the plane through a, b, c the point d lies: 1 when on the side that (b - a) x (c - a)
 /// points to, -1 on the other, 0 on the plane. Exact for finite coordinates of any size, decided like
 /// orientation_2d.

@@ -23,9 +23,6 @@ enum class Format { none, ply, stl, obj, off, gltf };
 
 constexpr std::size_t mapped_from = std::size_t{1} << 16; ///< bytes
 
-/// Mapped, so that only what is looked at takes memory. The file must be none that is_packed.
-io::Input open_mapped(const std::filesystem::path& path) { return io::Input::open(path, mapped_from); }
-
 [[noreturn]] void changed_while_read(const io::Input& input) {
     throw Error(ErrorKind::malformed, "E-CHANGED",
                 fmt::format("'{}' changed while it was read", input.name()),
@@ -176,6 +173,8 @@ void FaceSource::restore(const Box& bounds, std::uint64_t skipped_faces) {
     contents_.bounds = bounds;
     contents_.skipped_faces = skipped_faces;
 }
+
+io::Input open_mapped(const std::filesystem::path& path) { return io::Input::open(path, mapped_from); }
 
 FaceSource::File open_again(const io::Input& input) {
     FaceSource::File file{input, {}, std::make_shared<const ReadFile>(input.path())};

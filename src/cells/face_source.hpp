@@ -78,6 +78,9 @@ class FaceSource {
     Contents contents_;
 };
 
+/// Mapped unless it is small, so that only what is looked at takes memory. The file must not be compressed.
+io::Input open_mapped(const std::filesystem::path& path);
+
 /// Opens a file that was looked at once more, to be read. Throws missing; malformed (E-CHANGED) where its
 /// path names another file by now, or its contents are others.
 FaceSource::File open_again(const io::Input& input);

@@ -197,7 +197,8 @@ class GltfReader final : public RowReader {
             if (!is_finite(at))
                 throw Error(ErrorKind::malformed, "E-NAN",
                             fmt::format("vertex {} of {} is ({}, {}, {}), expected finite numbers", v,
-                                        reference.path(), p[0], p[1], p[2]));
+                                        reference.path(), p[0], p[1], p[2]),
+                            not_finite_hint);
             out.vertex(world.identity() ? at : world.point(at), {});
         }
         add_faces(primitive, positions.count, base, world.determinant() < 0, out);

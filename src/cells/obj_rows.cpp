@@ -23,7 +23,7 @@ struct Statement {
     std::array<double, 8> numbers{};
     std::size_t count = 0;             ///< of numbers
     std::vector<std::int64_t> corners; ///< as written: from 1, negative: back from here
-    int line = 0;
+    std::int64_t line = 0;
 };
 
 class ObjReader final : public RowReader {
@@ -150,7 +150,7 @@ class ObjReader final : public RowReader {
     }
 
     /// The line of the first face that names a vertex beyond the last.
-    int first_bad(const ReadFile& file, std::int64_t all) const {
+    std::int64_t first_bad(const ReadFile& file, std::int64_t all) const {
         TextWindow window(file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', nullptr);
         Statement s;
         while (window.left() > 0) {
@@ -162,7 +162,7 @@ class ObjReader final : public RowReader {
         return 0;
     }
 
-    [[noreturn]] void refuse(int line, std::int64_t all) const {
+    [[noreturn]] void refuse(std::int64_t line, std::int64_t all) const {
         io::malformed(input_.name(), line, "E-OBJ",
                       fmt::format("a face names a vertex that is not there: the file has {}", all));
     }

@@ -192,7 +192,8 @@ class PlyReader final : public RowReader {
         if (!is_finite(p))
             io::malformed(input_.name(), 0, "E-NAN",
                           fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers",
-                                      out.vertices() - base_, p.x, p.y, p.z));
+                                      out.vertices() - base_, p.x, p.y, p.z),
+                          not_finite_hint);
         out.vertex(p, more_);
     }
 

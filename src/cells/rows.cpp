@@ -96,7 +96,8 @@ Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uin
     if (!is_finite(p))
         io::malformed(
             file, 0, "E-NAN",
-            fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers", number, p.x, p.y, p.z));
+            fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers", number, p.x, p.y, p.z),
+            not_finite_hint);
     return p;
 }
 

@@ -27,10 +27,10 @@ struct Rows {
     std::shared_ptr<const ReadFile> vertices, faces;
     std::uint64_t vertices_at = 0, vertex_count = 0;
     std::uint64_t faces_at = 0, faces_end = 0, face_count = 0;
-    std::vector<io::ply::Property> vertex; ///< what a row holds, x, y and z among it; no lists
-    std::vector<io::ply::Property> face;   ///< one list, the corners
-    int vertex_line = 0, face_line = 0;    ///< of the PLY file, for messages
-    bool swap = false;                     ///< whether numbers have the other order of bytes
+    std::vector<io::ply::Property> vertex;       ///< what a row holds, x, y and z among it; no lists
+    std::vector<io::ply::Property> face;         ///< one list, the corners
+    std::int64_t vertex_line = 0, face_line = 0; ///< of the PLY file, for messages
+    bool swap = false;                           ///< whether numbers have the other order of bytes
     /// Faces are as RowWriter packs them, in this folder; none: as `face` says.
     std::optional<std::filesystem::path> packed{};
     std::vector<Group> groups; ///< ascending; empty: one, Identity::number
@@ -51,6 +51,10 @@ class Coordinates {
     std::array<io::ply::Type, 3> type_{};
     bool swap_;
 };
+
+/// The hint of E-NAN: cells leave out nothing.
+inline constexpr const char* not_finite_hint =
+    "load: {not_finite: drop} leaves out such vertices and the faces at them; the file is read whole then";
 
 /// The position of a vertex of a file; its number is for messages. Throws malformed (E-NAN) when it is not
 /// finite.

@@ -58,7 +58,8 @@ std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& t
                 io::malformed(input.name(), 0, "E-NAN",
                               fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected "
                                           "finite numbers",
-                                          f, stl_head + f * stl_record, p[0], p[1], p[2]));
+                                          f, stl_head + f * stl_record, p[0], p[1], p[2]),
+                              not_finite_hint);
         if (!take(corners, attribute_of(record))) return {};
     }
     all.skip(all.left());

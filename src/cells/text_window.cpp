@@ -6,7 +6,7 @@
 namespace facetmill::cells {
 
 TextWindow::TextWindow(const ReadFile& file, std::uint64_t begin, std::uint64_t end, const std::string& name,
-                       const char* id, char comment, Sha256* sum, int line)
+                       const char* id, char comment, Sha256* sum, std::int64_t line)
     : name_(name), id_(id), comment_(comment), stream_(file, begin, end, sum), left_(end - begin),
       text_({}, name, id, comment, line) {
     move(usual);

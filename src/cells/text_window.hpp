@@ -11,7 +11,7 @@ class TextWindow {
     /// From byte `begin`, which is in line `line`, to the end of the file. id, comment: see io::Text. sum:
     /// gets all bytes from `begin` on; may be null. name must outlive the window.
     TextWindow(const ReadFile& file, std::uint64_t begin, std::uint64_t end, const std::string& name,
-               const char* id, char comment, Sha256* sum, int line = 1);
+               const char* id, char comment, Sha256* sum, std::int64_t line = 1);
 
     /// Calls parse(io::Text&) where the last item ended. Items that the window does not hold whole are
     /// parsed again, so parse has no effects but on what it sets anew. Throws as parse; limit (E-SIZE) for

@@ -4,14 +4,20 @@
 
 #include <algorithm>
 #include <charconv>
+#include <climits>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::io {
 
-void malformed(const std::string& name, int line, const char* id, std::string message, std::string hint) {
+void malformed(const std::string& name, std::int64_t line, const char* id, std::string message,
+               std::string hint) {
+    if (line > INT_MAX) { // more than a mark holds
+        message += fmt::format(", in line {}", line);
+        line = 0;
+    }
     throw Error(ErrorKind::malformed, id, std::move(message), std::move(hint),
-                line > 0 ? line_mark(name, line) : file_mark(name));
+                line > 0 ? line_mark(name, static_cast<int>(line)) : file_mark(name));
 }
 
 void beyond_limit(const std::string& name, std::string message) {
@@ -191,7 +197,7 @@ std::int64_t Text::integer(const char* what) {
 }
 
 void Text::expected(const char* what) {
-    const int line = line_;
+    const std::int64_t line = line_;
     const std::string_view found = word();
     if (!found.empty()) fail(fmt::format("expected {}, found {}", what, in_quotes(found)));
     line_ = line;

@@ -13,7 +13,7 @@
 namespace facetmill::io {
 
 /// Throws malformed with the file and line (0: the file as a whole).
-[[noreturn]] void malformed(const std::string& name, int line, const char* id, std::string message,
+[[noreturn]] void malformed(const std::string& name, std::int64_t line, const char* id, std::string message,
                             std::string hint = {});
 /// Throws limit with the file.
 [[noreturn]] void beyond_limit(const std::string& name, std::string message);
@@ -64,7 +64,8 @@ class Text {
   public:
     /// id: of the errors it throws, "E-PLY". comment: the character that starts a comment, or 0. line: the
     /// number of the first line.
-    Text(std::string_view text, const std::string& name, const char* id, char comment = 0, int line = 1)
+    Text(std::string_view text, const std::string& name, const char* id, char comment = 0,
+         std::int64_t line = 1)
         : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(&name), id_(id),
           comment_(comment), line_(line) {}
 
@@ -118,7 +119,7 @@ class Text {
     }
     bool at_word_end() const { return ends_word(); }
 
-    int line() const { return line_; }
+    std::int64_t line() const { return line_; }
     std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
     std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
     const std::string& name() const { return *name_; }
@@ -152,7 +153,7 @@ class Text {
     const std::string* name_;
     const char* id_;
     char comment_;
-    int line_;
+    std::int64_t line_;
 };
 
 /// A word for a message: in quotes, cut when long, control characters as dots.

@@ -197,6 +197,12 @@ TEST_CASE("a malformed file is refused as elsewhere", "[cells]") {
     const float nan = NAN;
     std::memcpy(bad.data() + whole.find("end_header\n") + 11, &nan, sizeof nan);
     CHECK(failure(bad) == "E-NAN");
+    try {
+        partition_of(folder / "bad.ply", 100);
+    } catch (const Error& error) {
+        CHECK(error.diagnostics().front().hint.find("load: {not_finite: drop}") != std::string::npos);
+        CHECK(error.diagnostics().front().hint.find("the file is read whole then") != std::string::npos);
+    }
     bad = whole;
     std::memset(bad.data() + whole.size() - 4, 0x7f, 4); // a vertex that is not there
     CHECK(failure(bad) == "E-PLY");

@@ -90,3 +90,16 @@ TEST_CASE("Reals are the nearest doubles, as from_chars has them", "[text][io]")
         REQUIRE(at == stop);
     }
 }
+
+TEST_CASE("lines are counted beyond what 32 bits hold", "[text][io]") {
+    const std::string name = "long.obj";
+    io::Text text("\nx\n", name, "E-OBJ", '#', INT32_MAX);
+    text.word();
+    try {
+        text.fail("no");
+    } catch (const Error& error) {
+        CHECK(error.diagnostics().front().message == "no, in line 2147483648");
+        CHECK(to_string(error.diagnostics().front().where) == "long.obj");
+    }
+    CHECK(text.line() == std::int64_t{INT32_MAX} + 1);
+}

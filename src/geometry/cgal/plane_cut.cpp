@@ -191,9 +191,9 @@ class Cutter {
     Frame frame_of(Index t) const {
         const auto& [a, b, c] = soup_.triangles[t];
         const Vec3 &p = soup_.points[a], &q = soup_.points[b], &r = soup_.points[c];
-        std::array<bool, 3> is_level{};
-        for (std::size_t k = 0; k < 3; ++k) is_level[k] = p[k] == q[k] && q[k] == r[k];
-        return {nodes_.at(a), nodes_.at(b), nodes_.at(c), cross(q - p, r - p), is_level};
+        std::array<bool, 3> across{};
+        for (std::size_t k = 0; k < 3; ++k) across[k] = is_level(p, q, r, k);
+        return {nodes_.at(a), nodes_.at(b), nodes_.at(c), cross(q - p, r - p), across};
     }
 
     Vertex vertex_of(Index node) {

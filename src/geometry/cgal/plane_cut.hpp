@@ -1,6 +1,7 @@
 #pragma once
 // Triangles of one plane cut along segments and along each other. Only for the files in this folder.
 
+#include "base/predicates.hpp"
 #include "geometry/cgal/arrangement.hpp"
 #include "mesh/mesh.hpp"
 
@@ -101,7 +102,7 @@ class ExactNodes {
         const auto& [a, b, c] = soup_.triangles[crossing.triangle];
         std::array<double, 3> place{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const bool level = points_[a][k] == points_[b][k] && points_[b][k] == points_[c][k];
+            const bool level = is_level(points_[a], points_[b], points_[c], k);
             if (p[k] != q[k] && !level) return {};
             place[k] = level ? points_[a][k] : p[k];
         }

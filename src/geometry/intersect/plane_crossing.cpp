@@ -2,6 +2,8 @@
 // 1971), with bounds of the error beside them.
 #include "geometry/intersect/plane_crossing.hpp"
 
+#include "base/predicates.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -94,7 +96,7 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     const double error_of_part = 4 * error / std::abs(whole.high) + 0x1p-98;
     Vec3 place;
     for (std::size_t k = 0; k < 3; ++k) {
-        const bool level = a[k] == b[k] && b[k] == c[k]; // all of the plane is there
+        const bool level = is_level(a, b, c, k);
         if (p[k] == q[k] || level) {
             place[k] = (level ? a[k] : p[k]) + 0.0; // of zero the positive one
             continue;

@@ -82,8 +82,8 @@ struct Builder {
     Colours vertex_colours, face_colours;
 
     /// Refuses counts that the bytes left cannot fill. line: 0 for a binary file.
-    void check(std::int64_t vertices, std::int64_t faces, int line, std::size_t left, std::size_t per_vertex,
-               std::size_t per_face) const {
+    void check(std::int64_t vertices, std::int64_t faces, std::int64_t line, std::size_t left,
+               std::size_t per_vertex, std::size_t per_face) const {
         if (vertices < 0 || faces < 0)
             malformed(input.name(), line, "E-OFF",
                       fmt::format("expected counts, found {} vertices and {} faces", vertices, faces));

@@ -225,7 +225,7 @@ Body::Body(const Input& input, const Header& header)
                          (header.encoding == Encoding::big_endian) ==
                              (std::endian::native == std::endian::little),
                          Text(as_text(input.bytes()), input.name(), "E-PLY")}) {
-    for (int line = 0; line < header.lines; ++line) reader_->text.next_line();
+    for (std::int64_t line = 0; line < header.lines; ++line) reader_->text.next_line();
 }
 
 Body::~Body() = default;

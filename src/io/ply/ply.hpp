@@ -26,7 +26,7 @@ struct Element {
     std::string name;
     std::size_t count = 0;
     std::vector<Property> properties;
-    int line = 0; ///< where the header declares it
+    std::int64_t line = 0; ///< where the header declares it
 };
 
 enum class Encoding { ascii, little_endian, big_endian };
@@ -35,7 +35,7 @@ struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
     std::size_t size = 0;              ///< bytes up to the first element
-    int lines = 0;                     ///< lines it takes
+    std::int64_t lines = 0;            ///< lines it takes
     std::vector<std::string> textures; ///< what comments 'TextureFile' name, as some programs write them
     Convention stated{};               ///< what comments state of the unit and of what is up
 };

@@ -143,9 +143,8 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
 void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
                          Unit unit, Context& context) {
     if (paths.size() < 2 && !settings.unit && !settings.up) return; // one file is taken as it says
-    constexpr std::size_t mapped_from = std::size_t{1} << 16; // so that only what is looked at takes memory
     for (const auto& path : paths) {
-        const io::Input input = io::Input::open(path, mapped_from);
+        const io::Input input = cells::open_mapped(path);
         const io::FileHeader stated = io::file_header(input, {});
         for (const auto& w : io::overridden(input.name(), {stated.unit, stated.up}, settings))
             context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
