@@ -629,6 +629,12 @@ std::span<const MessageId> message_ids() {
          "Put the library beside the OBJ file, or name a folder that holds both: `--asset-root DIR`; the "
          "message "
          "names the statements that are not kept."},
+        {"W-NAME",
+         {},
+         "A name of a part or a material has control characters, such as a line end, that the format cannot "
+         "have "
+         "in a name; they become blanks, or the sign for what is unknown.",
+         "Write glTF to keep them, or rename it."},
         {"W-NAN",
          {},
          "Values of an attribute are not finite numbers and are set to 0.",
@@ -686,6 +692,10 @@ std::span<const MessageId> message_ids() {
          "optimize made no palette of more than 512 different looks, which the bits of a texture coordinate "
          "would not tell apart.",
          "Optimize some of the parts at a time, with `only`."},
+        {"W-PARTS",
+         {},
+         "Several parts become one mesh without their names, because the format holds one mesh.",
+         "Write glTF, OBJ or 3MF to keep them; `foreach: {part: \"*\"}` writes a file for each."},
         {"W-PLACEHOLDER",
          {},
          "The name of a file to write has what other programs replace, such as `{input.stem}`; facetmill "

@@ -96,6 +96,13 @@ std::set<Index> materials_in_use(const Scene& scene) {
 
 } // namespace
 
+namespace {
+/// Of a material without a name: its number.
+std::string shown_name(const Material& material, std::size_t number) {
+    return material.name.empty() ? std::to_string(number) : material.name;
+}
+} // namespace
+
 std::string some_of(const std::vector<std::string>& names) {
     constexpr std::size_t most = 8;
     if (names.size() <= most) return join_texts(names);
@@ -108,8 +115,7 @@ void warn_of_colours(Written& written, const Scene& scene, const char* format) {
     for (const Index m : materials_in_use(scene)) {
         const Material& material = scene.materials[m];
         const auto& c = material.base_colour;
-        if (c[0] != 1 || c[1] != 1 || c[2] != 1)
-            coloured.push_back(material.name.empty() ? fmt::format("{}", m) : material.name);
+        if (c[0] != 1 || c[1] != 1 || c[2] != 1) coloured.push_back(shown_name(material, m));
     }
     if (!coloured.empty())
         written.warnings.push_back(
@@ -135,7 +141,7 @@ void warn_of_textures(Written& written, const Scene& scene, const char* format) 
         if (at->second.is_object() && at->second.contains(place) &&
             at->second[place].dump(-1, ' ', false, Json::error_handler_t::replace).find("Texture\":") !=
                 std::string::npos)
-            textured.push_back(material.name.empty() ? fmt::format("{}", material.index) : material.name);
+            textured.push_back(shown_name(material, static_cast<std::size_t>(material.index)));
     }
     if (!textured.empty())
         written.warnings.push_back(
@@ -161,6 +167,66 @@ void warn_of_point_materials(Written& written, const Scene& scene, const char* f
                                                 lines ? "and lines " : "", format, fmt::join(names, ", ")),
                                     {},
                                     "glTF keeps it: write .glb"});
+}
+
+void warn_of_parts(Written& written, const Scene& scene, const char* format) {
+    std::vector<std::string> names, lines; // which are apart from faces when the file is read again
+    for (const auto& part : scene.parts)
+        if (part.mesh.vertex_count() > 0)
+            (part.mesh.line_count() > 0 ? lines : names).push_back(one_line(part.name));
+    if (names.size() < 2 && lines.size() < 2) return;
+    names.insert(names.end(), lines.begin(), lines.end());
+    std::string named;
+    if (std::any_of(names.begin(), names.end(), [](const auto& name) { return !name.empty(); }))
+        named = fmt::format(", without their names: {}", some_of(names));
+    written.warnings.push_back(
+        {Severity::warning,
+         "W-PARTS",
+         fmt::format("{} become one mesh in {}{}", counted(names.size(), "part"), format, named),
+         {},
+         "glTF, OBJ and 3MF keep them: write .glb"});
+}
+
+namespace {
+bool is_control(unsigned char c) { return c < ' '; }
+} // namespace
+
+std::string one_line(std::string name) {
+    std::replace_if(name.begin(), name.end(), is_control, ' ');
+    return name;
+}
+
+void warn_of_names(Written& written, const Scene& scene, const char* format, bool materials) {
+    std::vector<std::string> names;
+    const auto look_at = [&](const std::string& name) {
+        if (std::any_of(name.begin(), name.end(), is_control)) names.push_back(one_line(name));
+    };
+    for (const auto& part : scene.parts) look_at(part.name);
+    if (materials)
+        for (const Index m : materials_in_use(scene)) look_at(scene.materials[m].name);
+    if (!names.empty())
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-NAME",
+             fmt::format("{} control characters, which are not written to {}: {}",
+                         names.size() == 1 ? "a name has" : "names have", format, some_of(names)),
+             {},
+             "glTF keeps them: write .glb"});
+}
+
+bool is_missed(const Attribute& attribute) {
+    return attribute.role == Role::uv || attribute.role == Role::colour ||
+           attribute.role == Role::morph_vector ||
+           (attribute.role == Role::generic && attribute.domain != Domain::face);
+}
+
+void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format) {
+    if (!names.empty())
+        written.warnings.push_back({Severity::warning,
+                                    "W-ATTRIBUTE",
+                                    fmt::format("{} has no place for attributes: {}", format, some_of(names)),
+                                    {},
+                                    "glTF keeps them: write .glb"});
 }
 
 void dropped(Written& written, const Attribute& attribute, std::string why) {

@@ -46,6 +46,23 @@ void warn_of_colours(Written& written, const Scene& scene, const char* format);
 /// Warns (W-MATERIAL) of materials that points have, by a format that gives them none; lines, too.
 void warn_of_point_materials(Written& written, const Scene& scene, const char* format, bool lines = true);
 
+/// Warns (W-PARTS) that several parts become one mesh without their names, by a format that holds one.
+void warn_of_parts(Written& written, const Scene& scene, const char* format);
+
+/// Warns (W-NAME) of names of parts and materials with control characters, by a format that has none in
+/// names.
+void warn_of_names(Written& written, const Scene& scene, const char* format, bool materials = true);
+
+/// Whether people may miss the attribute where a format has no place for it: not tangents and normals, which
+/// follow from the rest, nor skins, which W-ANIMATION tells of, nor numbers of groups that a reader or a
+/// stage made.
+bool is_missed(const Attribute& attribute);
+/// Warns (W-ATTRIBUTE) of attributes by these names, when there are any.
+void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format);
+
+/// A name that fits on a line: control characters are blanks.
+std::string one_line(std::string name);
+
 /// Some of the names, and how many more there are.
 std::string some_of(const std::vector<std::string>& names);
 

@@ -1,8 +1,11 @@
 #include "io/stated.hpp"
 
+#include "base/spelling.hpp"
 #include "base/words.hpp"
 
 #include <fmt/format.h>
+#include <optional>
+#include <utility>
 
 namespace facetmill::io {
 
@@ -24,16 +27,43 @@ std::string stated_comments(const Scene& scene, std::string_view before, std::st
     return text;
 }
 
-void take_comment(std::string_view comment, Convention& stated) {
-    const std::string_view text = trimmed(comment);
-    constexpr std::string_view unit = "unit:", up = "up:";
-    if (text.starts_with(unit)) {
-        if (const auto known = unit_named(trimmed(text.substr(unit.size())))) stated.unit = *known;
-    } else if (text.starts_with(up)) {
-        const std::string_view axis = trimmed(text.substr(up.size()));
-        for (const UpAxis known : {UpAxis::y, UpAxis::z})
-            if (axis == to_string(known)) stated.up = known;
+namespace {
+
+/// As people spell units that are a word of their own: "Millimeters".
+std::optional<Unit> unit_spelled(std::string_view text) {
+    const std::string word = lower_case(std::string(text));
+    if (const auto known = unit_named(word)) return known;
+    constexpr std::pair<std::string_view, Unit> roots[] = {
+        {"micromet", Unit::um}, {"micron", Unit::um},  {"millimet", Unit::mm},
+        {"centimet", Unit::cm}, {"kilomet", Unit::km}, {"met", Unit::m},
+        {"inch", Unit::inch},   {"feet", Unit::foot},  {"foot", Unit::foot}};
+    for (const auto& [root, unit] : roots) {
+        if (!word.starts_with(root)) continue;
+        const std::string_view rest = std::string_view(word).substr(root.size());
+        const bool metre = root.ends_with("met");
+        for (const std::string_view end : {"er", "re", "ers", "res"})
+            if (metre && rest == end) return unit;
+        if (!metre && (rest.empty() || rest == "s" || rest == "es")) return unit;
     }
+    return {};
+}
+
+/// What stands behind the word and a colon (or =) in a comment; none where it begins otherwise.
+std::optional<std::string_view> value_of(std::string_view comment, std::string_view word) {
+    const auto sign = comment.find_first_of(":=");
+    if (sign == comment.npos || !same_word(trimmed(comment.substr(0, sign)), word)) return {};
+    return trimmed(comment.substr(sign + 1));
+}
+
+} // namespace
+
+void take_comment(std::string_view comment, Convention& stated) {
+    for (const std::string_view word : {"unit", "units"})
+        if (const auto value = value_of(comment, word))
+            if (const auto known = unit_spelled(*value)) stated.unit = *known;
+    if (const auto axis = value_of(comment, "up"))
+        for (const UpAxis known : {UpAxis::y, UpAxis::z})
+            if (same_word(*axis, to_string(known))) stated.up = known;
 }
 
 Convention stated_in_lines(std::string_view text, std::string_view keyword) {

@@ -78,3 +78,17 @@ TEST_CASE("only comments before the first line of anything else count", "[io]") 
     CHECK(says(stated_by("OFF\nOFF\n# unit: m\n", "OFF"), Unit::unknown, UpAxis::unknown));
     CHECK(says(stated_by("# unit: mm\r# up: z\rv 0 0 0\r# up: y\r"), Unit::mm, UpAxis::z));
 }
+
+TEST_CASE("units in comments are read as people spell them", "[io]") {
+    for (const auto& [text, unit] :
+         {std::pair{"# Unit: mm\n", Unit::mm}, std::pair{"#UNITS = Millimeters\n", Unit::mm},
+          std::pair{"# units: metres", Unit::m}, std::pair{"# Units: inches", Unit::inch},
+          std::pair{"# unit: Feet", Unit::foot}, std::pair{"# unit:MICRONS", Unit::um},
+          std::pair{"# unit: meteor", Unit::unknown}, std::pair{"# unit: inchworm", Unit::unknown},
+          std::pair{"# my unit: mm", Unit::unknown}, std::pair{"# units: 3 mm", Unit::unknown}}) {
+        INFO(text);
+        CHECK(stated_by(text).unit == unit);
+    }
+    CHECK(stated_by("# Up: Z\n").up == UpAxis::z);
+    CHECK(stated_by("# up axis: z\n").up == UpAxis::unknown);
+}

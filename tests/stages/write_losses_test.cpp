@@ -116,3 +116,43 @@ TEST_CASE("instances that stages do not see are said, and points without faces",
     CHECK(points.parts[0].mesh.vertex_count() == 3);
     CHECK(points.face_count() == 0);
 }
+
+TEST_CASE("parts that become one mesh, and names that a format does not get, are said", "[stages]") {
+    const TemporaryDirectory dir;
+    Scene two = test::scene_in_metres(shapes::cube(), "left");
+    const std::string one_part = warnings_of(two, (dir / "one.ply").string());
+    CHECK(one_part.empty()); // who converts a single part sees nothing
+    two.parts.push_back({.name = "right", .mesh = shapes::cube()});
+    two.parts[1].transform.m[0][3] = 5;
+    for (const auto& [name, format] :
+         {std::pair{"b.ply", "PLY"}, std::pair{"b.off", "OFF"}, std::pair{"b.stl", "STL"}}) {
+        INFO(name);
+        CHECK(warnings_of(two, (dir / name).string()) ==
+              fmt::format(
+                  "W-PARTS 2 parts become one mesh in {}, without their names: left, right (glTF, OBJ and "
+                  "3MF keep them: write .glb)\n",
+                  format));
+    }
+    for (const char* options : {"{}/b.obj", "{}/b.3mf", "{}/b.glb", "{{path: {}/c.stl, ascii: true}}"})
+        CHECK(warnings_of(two, fmt::format(fmt::runtime(options), dir.path().string())).empty());
+    two.parts[0].name = "left\nhand";
+    for (const char* options : {"{}/b.obj", "{}/b.3mf", "{{path: {}/c.stl, ascii: true}}"}) {
+        INFO(options);
+        CHECK(warnings_of(two, fmt::format(fmt::runtime(options), dir.path().string()))
+                  .find("W-NAME a name has control characters, which are not written to ") == 0);
+    }
+    CHECK(warnings_of(two, (dir / "b.glb").string()).empty());
+}
+
+TEST_CASE("attributes that 3MF has no place for are said", "[stages]") {
+    const TemporaryDirectory dir;
+    Scene scene = test::scene_in_metres(shapes::cube());
+    Mesh& mesh = scene.parts[0].mesh;
+    mesh.attributes.push_back({"NORMAL", Domain::vertex, Role::normal, 3, false,
+                               std::vector<float>(3 * mesh.vertex_count(), 0.5F)});
+    CHECK(warnings_of(scene, (dir / "a.3mf").string()).empty()); // they follow from the faces
+    mesh.attributes.push_back(
+        {"_heat", Domain::vertex, Role::generic, 1, false, std::vector<float>(mesh.vertex_count(), 1.0F)});
+    CHECK(warnings_of(scene, (dir / "a.3mf").string()) ==
+          "W-ATTRIBUTE 3MF has no place for attributes: _heat (glTF keeps them: write .glb)\n");
+}

@@ -18,7 +18,7 @@ struct Event {
 /// All statements of a file, indices resolved: from 0, in range, `none` where a corner has no such index.
 struct Statements {
     std::vector<Vec3> positions;
-    std::vector<float> colours;             ///< three a position, or empty; white where the file gives none
+    std::vector<float> colours;             ///< three a position, or empty; nan where the file gives none
     std::vector<float> uvs;                 ///< two each, as in the file: from the bottom
     std::vector<float> normals;             ///< three each
     std::vector<Index> corners;             ///< -> position

@@ -17,6 +17,7 @@ namespace facetmill::io::obj {
 namespace {
 
 constexpr std::int32_t absent = std::numeric_limits<std::int32_t>::min();
+constexpr float not_given = std::numeric_limits<float>::quiet_NaN(); ///< a colour
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 /// A corner as written: an index from 0, or one relative to the first element of the chunk.
@@ -62,7 +63,7 @@ struct Chunk {
     Corners corners;
     std::vector<std::int32_t> line_corners;
     std::vector<std::uint8_t> line_relative; ///< whether the position's index counts from the chunk
-    int lines = 0;
+    std::int64_t lines = 0;
     std::optional<Error> error;
 };
 
@@ -108,10 +109,10 @@ class ChunkParser {
         out_.positions.push_back({n[0], n[1], n[2]});
         if (count == 4 && n[3] != 1) ++out_.skipped["w of v"];
         if (count < 6) {
-            if (!out_.colours.empty()) out_.colours.insert(out_.colours.end(), 3, 1.0F);
+            if (!out_.colours.empty()) out_.colours.insert(out_.colours.end(), 3, not_given);
             return;
         }
-        out_.colours.resize((out_.positions.size() - 1) * 3, 1.0F);
+        out_.colours.resize((out_.positions.size() - 1) * 3, not_given);
         for (int c = 3; c < 6; ++c) out_.colours.push_back(static_cast<float>(n[c]));
     }
 
@@ -218,7 +219,7 @@ std::vector<std::string_view> pieces(std::string_view text) {
 
 /// The first error of the file, its line counted from the beginning.
 void rethrow_first(const std::vector<Chunk>& chunks, const std::string& name) {
-    int before = 0;
+    std::int64_t before = 0;
     for (const auto& chunk : chunks) {
         if (chunk.error) {
             Diagnostic d = chunk.error->diagnostics().front();
@@ -230,13 +231,13 @@ void rethrow_first(const std::vector<Chunk>& chunks, const std::string& name) {
 
 /// The line of the file with the statement of that number among those of these words with so many corners or
 /// more.
-int line_of(const Input& input, std::initializer_list<std::string_view> words, int least,
-            std::size_t number) {
+std::int64_t line_of(const Input& input, std::initializer_list<std::string_view> words, int least,
+                     std::size_t number) {
     Text text(as_text(input.bytes()), input.name(), "E-OBJ", '#');
     std::size_t met = 0;
     do {
         const std::string_view word = text.word_on_line();
-        const int line = text.line();
+        const std::int64_t line = text.line();
         if (std::find(words.begin(), words.end(), word) == words.end()) continue;
         int corners = 0;
         while (!text.word_on_line().empty()) ++corners;
@@ -280,7 +281,7 @@ class Joiner {
         out_.positions.resize(all.element[0]);
         out_.uvs.resize(all.element[1] * 2);
         out_.normals.resize(all.element[2] * 3);
-        out_.colours.assign(coloured ? all.element[0] * 3 : 0, 1.0F);
+        out_.colours.assign(coloured ? all.element[0] * 3 : 0, not_given);
         out_.corners.resize(all.corners);
         out_.corner_keys.resize(keyed ? all.corners : 0);
         out_.face_offsets.resize(all.faces + 1);
@@ -377,7 +378,7 @@ class Joiner {
         refuse("a face", line_of(input_, {"f", "fo"}, 3, face));
     }
 
-    [[noreturn]] void refuse(const char* what, int line) {
+    [[noreturn]] void refuse(const char* what, std::int64_t line) {
         malformed(input_.name(), line, "E-OBJ",
                   fmt::format("{} names a vertex that is not there: the file has {}", what,
                               before_.back().element[0]));

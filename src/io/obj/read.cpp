@@ -10,6 +10,7 @@
 #include "io/text.hpp"
 #include "mesh/face.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 
@@ -417,6 +418,21 @@ std::vector<Part> parts_of_lines(Scene& scene, const Statements& s, const Mesh& 
     return parts;
 }
 
+/// White for the vertices of a coloured part that the file gives no colour; a part of nothing else has none.
+void settle_colours(Mesh& mesh) {
+    Attribute* const colours = mesh.find("COLOR_0", Domain::wedge);
+    if (!colours) return;
+    auto& values = std::get<std::vector<float>>(colours->data);
+    const auto is_given = [](float value) { return !std::isnan(value); };
+    if (std::any_of(values.begin(), values.end(), is_given)) {
+        for (float& value : values)
+            if (!is_given(value)) value = 1;
+        return;
+    }
+    mesh.drop("COLOR_0", Domain::wedge);
+    for (Primitive& primitive : mesh.primitives) std::erase(primitive.attributes, "COLOR_0");
+}
+
 constexpr std::string_view ends_of_lines = "line"; ///< an attribute of vertices, while parts are made
 
 Attribute marked_ends(const Statements& s) {
@@ -482,6 +498,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     add_parts(scene, std::move(mesh), division);
     if (any_lines) drop_ends(scene);
     for (Part& part : lines) scene.parts.push_back(std::move(part));
+    for (Part& part : scene.parts) settle_colours(part.mesh);
     return scene;
 }
 

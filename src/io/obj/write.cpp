@@ -214,12 +214,9 @@ class PartWriter {
     bool uvs_ = true;
 };
 
-/// What people may miss: not tangents, which follow from the rest, nor skins, which W-ANIMATION tells of, nor
-/// numbers of groups that a reader or a stage made.
-bool is_missed(const Attribute& a) {
-    if (a.domain == Domain::wedge && (a.name == "TEXCOORD_0" || a.name == "COLOR_0")) return false;
-    return a.role == Role::uv || a.role == Role::colour || a.role == Role::morph_vector ||
-           (a.role == Role::generic && a.domain != Domain::face);
+/// Whether OBJ has a place for it.
+bool has_place(const Attribute& a) {
+    return a.domain == Domain::wedge && (a.name == "TEXCOORD_0" || a.name == "COLOR_0");
 }
 
 bool has_alpha(const Attribute& colour) {
@@ -241,21 +238,16 @@ bool has_seams(const Mesh& mesh, const Attribute& a) {
     return false;
 }
 
-void warn_of_attributes(const Scene& scene, Written& written) {
+void warn_of_lost_attributes(const Scene& scene, Written& written) {
     OnceEach<std::string> lost;
     for (const Part& part : scene.parts)
         for (const Attribute& a : part.mesh.attributes) {
             const bool colour = a.name == "COLOR_0" && a.domain == Domain::wedge;
             if (colour && a.components == 4 && has_alpha(a)) lost.add("alpha of COLOR_0");
             if (colour && has_seams(part.mesh, a)) lost.add("COLOR_0 that differs between faces at a vertex");
-            if (is_missed(a)) lost.add(a.name);
+            if (is_missed(a) && !has_place(a)) lost.add(a.name);
         }
-    if (!lost.all().empty())
-        written.warnings.push_back({Severity::warning,
-                                    "W-ATTRIBUTE",
-                                    fmt::format("OBJ has no place for attributes: {}", some_of(lost.all())),
-                                    {},
-                                    "glTF keeps them: write .glb"});
+    warn_of_attributes(written, lost.all(), "OBJ");
 }
 
 void tell_what_is_lost(const Mesh& mesh, Written& written) {
@@ -274,12 +266,6 @@ void tell_what_is_lost(const Mesh& mesh, Written& written) {
             }) == written.changes.end())
             dropped(written, a, "OBJ cannot represent it");
     }
-}
-
-std::string one_line(std::string name) {
-    for (char& c : name)
-        if (static_cast<unsigned char>(c) < ' ') c = ' ';
-    return name;
 }
 
 } // namespace
@@ -328,7 +314,8 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     leave_documents(written, scene, "OBJ", kept);
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
-    warn_of_attributes(scene, written);
+    warn_of_lost_attributes(scene, written);
+    warn_of_names(written, scene, "OBJ");
     library.add_to(written);
     return written;
 }

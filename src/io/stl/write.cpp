@@ -103,13 +103,6 @@ void write_binary(Bytes& bytes, const Mesh& mesh, const Scene& scene) {
     });
 }
 
-/// A name that fits on a line.
-std::string one_line(std::string name) {
-    for (char& c : name)
-        if (static_cast<unsigned char>(c) < ' ') c = ' ';
-    return name;
-}
-
 void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Written& written) {
     std::set<std::pair<std::string, Domain>> told;
     for (const auto& part : scene.parts) {
@@ -124,6 +117,10 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
                                        "STL holds triangles: cut into them"});
     }
     leave_documents(written, scene, "STL");
+    if (settings.ascii)
+        warn_of_names(written, scene, "STL", false);
+    else
+        warn_of_parts(written, scene, "STL");
     if (!scene.materials.empty())
         written.changes.push_back(
             {"materials", Domain::face, AttributeChange::Kind::dropped, "STL has no materials"});

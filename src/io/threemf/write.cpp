@@ -1,5 +1,6 @@
 #include "io/threemf/threemf.hpp"
 
+#include "base/once_each.hpp"
 #include "base/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -285,18 +286,26 @@ class ModelWriter {
 
     void tell_what_is_lost() {
         std::set<std::pair<std::string, Domain>> told;
+        OnceEach<std::string> missed;
         for (const Part& part : scene_.parts)
-            for (const Attribute& a : part.mesh.attributes)
-                if (a.name != "COLOR_0" && a.name != primitive_attribute &&
-                    told.insert({a.name, a.domain}).second)
-                    dropped(written_, a, "3MF cannot represent it");
+            for (const Attribute& a : part.mesh.attributes) {
+                const bool kept =
+                    a.name == primitive_attribute || (a.name == "COLOR_0" && a.domain == Domain::wedge);
+                if (kept || !told.insert({a.name, a.domain}).second) continue;
+                dropped(written_, a, "3MF cannot represent it");
+                if (is_missed(a)) missed.add(a.name);
+            }
+        warn_of_attributes(written_, missed.all(), "3MF");
+        warn_of_names(written_, scene_, "3MF");
         if (polygons_)
             written_.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,
                                         "3MF holds triangles: cut into them"});
-        if (hides_materials_)
+        if (hides_materials_) {
+            warn("W-MATERIAL", "triangles with colours have no material in 3MF");
             written_.changes.push_back(
                 {"materials", Domain::face, AttributeChange::Kind::dropped,
                  "a triangle of 3MF has colours or a material: those with colours lose it"});
+        }
         if (written_.dropped_faces > 0)
             warn("W-FACES", fmt::format("{} with the same vertex twice not written, since 3MF forbids them",
                                         counted(written_.dropped_faces, "face")));

@@ -48,6 +48,27 @@ TEST_CASE("groups of an OBJ without objects are parts, as objects are", "[io][ob
     }
 }
 
+TEST_CASE("a part without colours gets none because another one has some", "[io][obj]") {
+    const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", red = "v 5 0 0 1 0 0\nv 6 0 0 1 0 0\nv 5 1 0\n";
+    const auto colours = [](const Part& part) { return part.mesh.find("COLOR_0", Domain::wedge); };
+    for (const bool red_first : {true, false}) {
+        INFO(red_first);
+        const Loaded two("usemtl m\n" + (red_first ? "o b\n" + red + "f 1 2 3\no a\n" + plain + "f 4 5 6\n"
+                                                   : "o a\n" + plain + "f 1 2 3\no b\n" + red + "f 4 5 6\n"));
+        REQUIRE(two.scene.parts.size() == 2);
+        const Part &a = two.scene.parts[red_first], &b = two.scene.parts[!red_first];
+        CHECK(a.name == "a");
+        CHECK(colours(a) == nullptr);
+        REQUIRE(colours(b) != nullptr);
+        const std::vector<float> wanted{1, 0, 0, 1, 0, 0, 1, 1, 1}; // white where a coloured part has none
+        CHECK(std::get<std::vector<float>>(colours(b)->data) == wanted);
+    }
+    const Loaded lines("o a\n" + plain + "l 1 2\no b\n" + red + "f 4 5 6\n");
+    REQUIRE(lines.scene.parts.size() == 2);
+    for (const Part& part : lines.scene.parts)
+        CHECK((colours(part) != nullptr) == (part.mesh.face_count() > 0));
+}
+
 TEST_CASE("groups that share vertices, and those within an object, are numbers of faces", "[io][obj]") {
     for (const std::string& text :
          {points + "g a\nf 1 2 3\ng b\nf 3 2 4\n", points + "o one\ng a\nf 1 2 3\ng b\nf 4 5 6\n"}) {

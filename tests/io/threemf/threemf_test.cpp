@@ -158,6 +158,18 @@ TEST_CASE("3MF writes instances once, triangles only, and says what it leaves ou
     CHECK(mirrored.scene.parts[1].transform.identity());
     CHECK(mirrored.scene.parts[1].mesh.bounds().max.x <= 11);
 
+    Scene both; // a triangle has colours or a material
+    both.unit = Unit::mm;
+    both.materials.push_back({.name = "red"});
+    Mesh& coloured = both.parts.emplace_back().mesh;
+    coloured = shapes::cube();
+    coloured.primitives.push_back({.material = 0});
+    coloured.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 3, false,
+                                   std::vector<float>(3 * coloured.wedge_count(), 0.25F)});
+    const Loaded hidden = trip(both);
+    REQUIRE(hidden.log.warnings.size() == 1);
+    CHECK(hidden.log.warnings[0].id == "W-MATERIAL");
+
     Scene quads;
     quads.parts.emplace_back().mesh = shapes::quad_cube();
     CHECK(trip(quads).scene.parts[0].mesh.face_count() == 12);
