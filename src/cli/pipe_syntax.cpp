@@ -1,6 +1,7 @@
 #include "cli/pipe_syntax.hpp"
 
 #include "base/numbers.hpp"
+#include "cli/stage_commands.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "options/lists.hpp"
 #include "pipeline/document.hpp"
@@ -300,6 +301,15 @@ class Parser {
                find_dotted(*stage.options, with_underscores(name));
     }
 
+    /// What a second bare value may be where one is taken.
+    static std::string hint_of_second(const StageInfo& stage, const std::string& word) {
+        if (is_foreign_truth(word)) return "an option is switched by true and false: --draco, --draco=false";
+        if (takes(stage, word)) return fmt::format("did you mean '--{}'?", word);
+        if (names_result(stage, word))
+            return fmt::format("a file that it writes is given by --path {}", word);
+        return "stages are separated by ! or +";
+    }
+
     /// Gives a stage its bare values: alone, or as the primary option beside the others.
     void set_bare(Value& value, std::vector<Value> bare, const StageInfo* stage, const Mark& where) {
         const Option* primary = stage ? stage->options->primary() : nullptr;
@@ -308,11 +318,7 @@ class Parser {
             if (primary && !primary->repeatable && primary->kind != OptionKind::vector)
                 problems_.add(bare[1].mark, "E-PIPE",
                               fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
-                              is_foreign_truth(bare[1].text)
-                                  ? "an option is switched by true and false: --draco, --draco=false"
-                              : takes(*stage, bare[1].text)
-                                  ? fmt::format("did you mean '--{}'?", bare[1].text)
-                                  : "stages are separated by ! or +");
+                              hint_of_second(*stage, bare[1].text));
             Value list = Value::list({}, bare[0].mark);
             for (auto& b : bare)
                 if (b.is_list())

@@ -128,6 +128,17 @@ std::string option_hint(const Command& command, const Arguments& arguments, cons
                         : fmt::format("did you mean '--{}'?", near);
 }
 
+/// For a command that takes a pipeline and was given stages as pipe takes them: batch a.obj ! simplify 50%.
+std::string hint_for(const Command& command, const CommandLine& line) {
+    const auto& words = line.arguments();
+    if (std::find(words.begin(), words.end(), "!") == words.end())
+        return fmt::format("see facetmill {} --help", command.name);
+    return fmt::format(
+        "{} takes a pipeline file, which facetmill new FILE.yaml begins; stages separated by ! are "
+        "for facetmill pipe, which runs them for one input",
+        command.name);
+}
+
 /// What belongs to no argument. What begins with a dash is an unknown option; anything else is one value too
 /// many.
 void refuse_extras(const Command& command, const Arguments& arguments, const std::vector<std::string>& extras,
@@ -142,7 +153,8 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
         } else
             problems.add(line.find(extra), "E-ARGUMENT",
                          fmt::format("'{}' does not take '{}'", command.name, extra),
-                         fmt::format("see facetmill {} --help", command.name));
+                         hint_for(command, line));
+        if (extra == "!") break; // what follows is of it
     }
     problems.throw_if_any(ErrorKind::usage);
 }
@@ -196,7 +208,7 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
         parsed = arguments.parse(command.name, command.about, std::move(words), command.the_rest);
     } catch (const std::invalid_argument& e) {
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
-                    fmt::format("see facetmill {} --help", command.name), line.mark(0));
+                    hint_for(command, line), line.mark(0));
     } catch (Error& e) {
         throw e.at(line.mark(0));
     }

@@ -3,7 +3,6 @@
 #include "base/markup.hpp"
 #include "io/codec.hpp"
 #include "options/other_names.hpp"
-#include "stage/stage.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -27,6 +26,8 @@ class StageWords {
                 if (more) out_ = words[++i];
             } else if (word == "-h" || word == "--help" || word == "--") {
                 continue;
+            } else if (more && word.starts_with("--") && means_report(word.substr(2))) {
+                own_ += " --report " + for_shell(words[++i]);
             } else if (word.starts_with("--")) {
                 const Option* option = add_option(word);
                 const bool alone =
@@ -35,7 +36,7 @@ class StageWords {
             } else if (is_mesh(word) && !takes_file())
                 meshes_.push_back(word);
             else
-                taken_ += (is_result(word) ? " --path " : " ") + for_shell(word);
+                taken_ += (names_result(stage_, word) ? " --path " : " ") + for_shell(word);
         }
         // Without -o the last of several files is the one to write; a shape has no other.
         const std::size_t to_load = stage_.loads ? 0 : 1;
@@ -46,7 +47,7 @@ class StageWords {
     }
 
     std::string line() const {
-        std::string text = "facetmill pipe";
+        std::string text = "facetmill pipe" + own_;
         if (!stage_.loads) {
             text += meshes_.empty() ? " load IN" : " load";
             for (const std::string& mesh : meshes_) text += " " + for_shell(mesh);
@@ -63,7 +64,7 @@ class StageWords {
     const Option* add_option(const std::string& word) {
         const auto end = std::min(word.find('='), word.size());
         std::string name = word.substr(2, end - 2);
-        const auto called = options_alike(name, stage_.options->names());
+        const auto called = options_of_same_value(name, stage_.options->names());
         if (!stage_.options->find(name) && !called.empty()) name = called.front();
         taken_ += " " + for_shell("--" + name + word.substr(end));
         return stage_.options->find(name);
@@ -82,20 +83,19 @@ class StageWords {
                (io::codec_for(word) || std::filesystem::is_regular_file(word, ignored));
     }
 
-    /// A file such as outline.svg, for a stage whose bare value is something else and that writes one.
-    bool is_result(const std::string& word) const {
-        const Option* path = stage_.options->find("path");
-        const std::string suffix = std::filesystem::path(word).extension().string();
-        return path && !path->primary && suffix.size() > 1 &&
-               std::all_of(suffix.begin() + 1, suffix.end(), [](unsigned char c) { return std::isalpha(c); });
-    }
-
     const StageInfo& stage_;
     std::vector<std::string> meshes_; ///< to load
-    std::string out_, taken_;
+    std::string out_, taken_, own_;   ///< own_: options of pipe itself
 };
 
 } // namespace
+
+bool names_result(const StageInfo& stage, const std::string& word) {
+    const Option* path = stage.options->find("path");
+    const std::string suffix = std::filesystem::path(word).extension().string();
+    return path && !path->primary && suffix.size() > 1 &&
+           std::all_of(suffix.begin() + 1, suffix.end(), [](unsigned char c) { return std::isalpha(c); });
+}
 
 std::string as_pipe(std::string_view stage, const std::vector<std::string>& words) {
     StageWords read(*stage_named(stage));

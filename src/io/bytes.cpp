@@ -39,7 +39,9 @@ struct Descriptor {
                     sandbox_hint(name, error));
     if (error == EISDIR)
         throw Error(ErrorKind::missing, "E-DIRECTORY",
-                    fmt::format("'{}' is a directory, expected a file", name));
+                    fmt::format("'{}' is a directory, expected a file", name),
+                    fmt::format("name a file in it; load takes patterns, too: load: '{}'",
+                                (std::filesystem::path(name) / "*.ply").string()));
     throw Error(ErrorKind::missing, "E-FILE",
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));
 }

@@ -110,17 +110,30 @@ std::vector<const OtherNames*> rows_of(std::string_view other_name, const std::v
 
 } // namespace
 
-std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known) {
+namespace {
+std::vector<std::string> options_in(const std::vector<const OtherNames*>& rows) {
     std::vector<std::string> names;
-    for (const OtherNames* row : rows_of(other_name, known)) names.emplace_back(row->option);
+    names.reserve(rows.size());
+    for (const OtherNames* row : rows) names.emplace_back(row->option);
     return names;
 }
+} // namespace
 
-std::vector<std::string> options_alike(std::string_view other_name, const std::vector<std::string>& known) {
-    std::vector<std::string> names;
-    for (const OtherNames* row : rows_of(other_name, known))
-        if (row->how.empty()) names.emplace_back(row->option);
-    return names;
+std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known) {
+    return options_in(rows_of(other_name, known));
+}
+
+std::vector<std::string> options_of_same_value(std::string_view other_name,
+                                               const std::vector<std::string>& known) {
+    auto rows = rows_of(other_name, known);
+    std::erase_if(rows, [](const OtherNames* row) { return !row->how.empty(); });
+    return options_in(rows);
+}
+
+bool means_report(std::string_view option) {
+    constexpr std::string_view words[] = {"report",   "reports", "junit",       "junit_xml",
+                                          "junitxml", "xunit",   "html_report", "sarif"};
+    return std::find(std::begin(words), std::end(words), as_in_table(option)) != std::end(words);
 }
 
 std::string hint_for_option(std::string_view word, const std::vector<std::string>& known,
@@ -131,6 +144,10 @@ std::string hint_for_option(std::string_view word, const std::vector<std::string
         names += fmt::format("{}'{}'", names.empty() ? "" : " or ", row->option);
     }
     if (!names.empty()) return fmt::format("'{}' is called {} here", word, names);
+    if (means_report(word))
+        return "a report is written by the command: --report FILE.xml (JUnit), .json, .html, .md or .txt "
+               "before "
+               "the first stage, or report: FILE.xml in a pipeline file";
     return otherwise.empty() ? suggestion(word, known) : did_you_mean(word, known, std::move(otherwise));
 }
 

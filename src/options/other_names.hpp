@@ -8,11 +8,16 @@
 
 namespace facetmill {
 
-/// The names among those known that other programs call so; none when there is none.
+/// The names among those known that other programs call so, whatever value they take; none when there is
+/// none.
 std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known);
 
-/// Of these the ones that take the same value: not ratio, the share that stays, for reduction.
-std::vector<std::string> options_alike(std::string_view other_name, const std::vector<std::string>& known);
+/// The same without those whose value means something else: not ratio, the share that stays, for reduction.
+std::vector<std::string> options_of_same_value(std::string_view other_name,
+                                               const std::vector<std::string>& known);
+
+/// Whether other programs call a report so, which here is an option of the command and not of a stage.
+bool means_report(std::string_view option);
 
 /// What to say about a word that is none of the known names: what it is called here, the nearest of them, or
 /// otherwise. Empty: the list of all known.

@@ -9,20 +9,6 @@ namespace facetmill::pipeline {
 
 namespace {
 
-/// The comparison operator outside of ${...}: where it begins, and itself.
-std::optional<std::pair<std::size_t, std::string>> find_operator(const std::string& text) {
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        if (text.compare(at, 2, "${") == 0) {
-            at = std::min(text.size(), text.find('}', at));
-            continue;
-        }
-        for (const char* op : {"==", "!=", "<=", ">=", "<", ">"})
-            if (text.compare(at, std::char_traits<char>::length(op), op) == 0)
-                return std::pair{at, std::string(op)};
-    }
-    return {};
-}
-
 /// A number or a percentage, for texts whose type is not known.
 std::optional<Comparable> untyped(const std::string& text) {
     if (text.ends_with('%'))
@@ -80,6 +66,10 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
         return condition;
     }
     condition.known = true; // so that a condition with a problem hides nothing of what follows
+    if (auto meant = value.is_scalar() ? meant_conditions(value.text) : std::nullopt) {
+        problems.add(value.mark, "E-WHEN", std::move(meant->message), std::move(meant->hint));
+        return condition;
+    }
     const auto found = value.is_scalar() ? find_operator(value.text) : std::nullopt;
     if (!found) {
         const Value is = resolved(value, scope, problems);

@@ -5,7 +5,11 @@
 #include "geometry/inspect/inspect.hpp"
 #include "options/other_names.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <initializer_list>
+#include <utility>
+#include <vector>
 
 namespace facetmill::pipeline {
 
@@ -16,7 +20,7 @@ const Property* property_meant(std::string_view word) {
     if (const Property* property = property_named(word)) return property;
     std::vector<std::string> names;
     for (const Property& property : property_table()) names.emplace_back(property.name);
-    const auto called = options_alike(word, names);
+    const auto called = options_of_same_value(word, names);
     return called.empty() ? nullptr : property_named(called.front());
 }
 
@@ -47,25 +51,107 @@ std::string bound_text(PropertyKind kind, std::string_view op, std::string_view 
     return op == "<" || op == "<=" ? fmt::format("{{max: {}}}", end) : "";
 }
 
+struct MeantBound {
+    const Property* property = nullptr;
+    std::string bound; ///< "{min: 1001}"; empty when there is none like that
+};
+
 /// None for a word that only other programs call the property by and that is compared with another word:
 /// texts may well be points and solid.
-std::optional<MeantCondition> of_property(std::string_view name, std::string_view op,
-                                          std::string_view value) {
+std::optional<MeantBound> bound_of(std::string_view name, std::string_view op, std::string_view value) {
     const Property* meant = property_meant(name);
     if (!meant) return {};
-    const Property& property = *meant;
-    std::string bound = bound_text(property.kind, op, value);
-    if (bound.empty() && property.name != name && (op == "==" || op == "!=")) return {};
-    if (bound.empty())
-        bound = property.kind == PropertyKind::truth || property.kind == PropertyKind::word
-                    ? "..."
-                    : "{min: ..., max: ...}";
-    return MeantCondition{
-        fmt::format("'{}' is a property of the scene, which is not compared by an operator", property.name),
-        fmt::format("write when: {{{}: {}}}", property.name, bound)};
+    std::string bound = bound_text(meant->kind, op, value);
+    if (bound.empty() && meant->name != name && (op == "==" || op == "!=")) return {};
+    return MeantBound{meant, std::move(bound)};
+}
+
+/// A property by itself: "closed", "not closed".
+std::optional<MeantBound> property_alone(std::string_view text) {
+    bool is = true;
+    for (const std::string_view no : {"not ", "!"})
+        if (text.starts_with(no)) {
+            text = trimmed(text.substr(no.size()));
+            is = false;
+        }
+    const Property* property = property_meant(text);
+    if (!property) return {};
+    return MeantBound{property, !property->truth() ? "" : is ? "true" : "false"};
+}
+
+std::string shown(const MeantBound& meant) {
+    const PropertyKind kind = meant.property->kind;
+    const bool one = kind == PropertyKind::truth || kind == PropertyKind::word;
+    return !meant.bound.empty() ? meant.bound : one ? "..." : "{min: ..., max: ...}";
+}
+
+std::optional<MeantCondition> of_property(std::string_view name, std::string_view op,
+                                          std::string_view value) {
+    const auto meant = bound_of(name, op, value);
+    if (!meant) return {};
+    return MeantCondition{fmt::format("'{}' is a property of the scene, which is not compared by an operator",
+                                      meant->property->name),
+                          fmt::format("write when: {{{}: {}}}", meant->property->name, shown(*meant))};
+}
+
+/// One of several conditions: a comparison, with the property on either side, or a property alone.
+std::optional<MeantBound> one_bound(std::string_view text) {
+    const auto found = find_operator(text);
+    if (!found) return property_alone(text);
+    const auto& [at, op] = *found;
+    const std::string_view left = trimmed(text.substr(0, at)), right = trimmed(text.substr(at + op.size()));
+    auto meant = bound_of(left, op, right);
+    return meant ? meant : bound_of(right, exchanged(op), left);
+}
+
+/// Splits at the words, outside of which nothing is looked at.
+std::vector<std::string_view> split_at(std::string_view text, std::initializer_list<std::string_view> words) {
+    std::vector<std::string_view> parts;
+    std::size_t begin = 0;
+    for (std::size_t at = 0; at < text.size(); ++at)
+        for (const std::string_view word : words)
+            if (text.substr(at).starts_with(word)) {
+                parts.push_back(trimmed(text.substr(begin, at - begin)));
+                begin = at + word.size();
+                at = begin - 1;
+                break;
+            }
+    parts.push_back(trimmed(text.substr(begin)));
+    return parts;
+}
+
+/// "faces: {min: 1001}, closed: true"; both bounds of a property in one pair of braces.
+std::string as_map(const std::vector<MeantBound>& all) {
+    std::vector<std::pair<std::string_view, std::string>> entries;
+    for (const MeantBound& one : all) {
+        const auto same = std::find_if(entries.begin(), entries.end(),
+                                       [&](const auto& e) { return e.first == one.property->name; });
+        std::string bound = shown(one);
+        if (same == entries.end())
+            entries.emplace_back(one.property->name, std::move(bound));
+        else if (same->second.ends_with('}') && bound.starts_with('{'))
+            same->second = same->second.substr(0, same->second.size() - 1) + ", " + bound.substr(1);
+    }
+    std::vector<std::string> texts;
+    texts.reserve(entries.size());
+    for (const auto& [name, bound] : entries) texts.push_back(fmt::format("{}: {}", name, bound));
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 } // namespace
+
+std::optional<std::pair<std::size_t, std::string>> find_operator(std::string_view text) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text.compare(at, 2, "${") == 0) {
+            at = std::min(text.size(), text.find('}', at));
+            continue;
+        }
+        for (const char* op : {"==", "!=", "<=", ">=", "<", ">"})
+            if (text.compare(at, std::char_traits<char>::length(op), op) == 0)
+                return std::pair{at, std::string(op)};
+    }
+    return {};
+}
 
 std::optional<MeantCondition> meant_comparison(std::string_view left, std::string_view op,
                                                std::string_view right, const Scope& scope) {
@@ -82,20 +168,25 @@ std::optional<MeantCondition> meant_comparison(std::string_view left, std::strin
     return of_property(right, exchanged(op), left);
 }
 
+std::optional<MeantCondition> meant_conditions(std::string_view text) {
+    const auto parts = split_at(text, {"&&", " and ", " AND ", "||", " or ", " OR "});
+    if (parts.size() < 2) return {};
+    std::vector<MeantBound> all;
+    for (const std::string_view part : parts) {
+        const auto meant = one_bound(part);
+        if (!meant) return {};
+        all.push_back(*meant);
+    }
+    const bool any = split_at(text, {"||", " or ", " OR "}).size() > 1;
+    return MeantCondition{
+        "several conditions in one text, which are the entries of a map here",
+        any ? fmt::format("write when: {{{}}} where all must hold; there is no 'or'", as_map(all))
+            : fmt::format("write when: {{{}}}, all of which must hold", as_map(all))};
+}
+
 std::string hint_of_property_alone(std::string_view text) {
-    std::string_view word = text;
-    bool is = true;
-    for (const std::string_view no : {"not ", "!"})
-        if (word.starts_with(no)) {
-            word = trimmed(word.substr(no.size()));
-            is = false;
-        }
-    const Property* property = property_meant(word);
-    if (!property) return {};
-    return fmt::format("write when: {{{}: {}}}", property->name,
-                       !property->truth() ? "{min: ..., max: ...}"
-                       : is               ? "true"
-                                          : "false");
+    const auto meant = property_alone(text);
+    return meant ? fmt::format("write when: {{{}: {}}}", meant->property->name, shown(*meant)) : "";
 }
 
 } // namespace facetmill::pipeline

@@ -1,6 +1,8 @@
 #include "base/glob.hpp"
 #include "base/once_each.hpp"
 #include "base/spelling.hpp"
+#include "io/codec.hpp"
+#include "io/other_formats.hpp"
 #include "io/output_files.hpp"
 #include "pipeline/placeholders.hpp"
 #include "pipeline/plan.hpp"
@@ -49,17 +51,24 @@ void add_files(const Step& step, const Places& places, std::vector<PlannedFile>&
         if (!output.text.empty()) files.push_back({places.output(output.text), where(output), true});
 }
 
+/// The nearest name of a file in the folder: for a mesh that of a mesh, for a format that is not read that of
+/// the same name in one that is.
 std::string nearest_file(const fs::path& path) {
+    const std::string suffix = path.extension().string(), foreign = io::hint_for_reading(path);
+    const bool mesh = io::codec_for(path) != nullptr || !foreign.empty();
     std::vector<std::string> names;
     std::error_code ignored;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-        names.push_back(entry.path().filename().string());
+        const fs::path name = entry.path().filename();
+        if (mesh && name.extension() != suffix && !io::codec_for(name)) continue;
+        if (!foreign.empty() && name.stem() != path.stem()) continue;
+        names.push_back(name.string());
         if (names.size() > 1000) break;
     }
     if (ignored) return fmt::format("there is no folder '{}' either", folder.string());
     std::sort(names.begin(), names.end());
-    return did_you_mean(path.filename().string(), names);
+    return did_you_mean(path.filename().string(), names, foreign);
 }
 
 OnceEach<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {

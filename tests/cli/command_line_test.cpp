@@ -135,7 +135,23 @@ TEST_CASE("a stage typed as a command is answered with the same words for pipe",
     CHECK(meant({"combine", "a.ply", "b.ply", "-o", "c.ply"}) ==
           "load a.ply b.ply ! combine ... ! write c.ply");
     CHECK(meant({"validate", "a.ply", "b.ply", "--closed"}) == "load a.ply b.ply ! validate --closed");
+    CHECK(meant({"validate", "--junit", "r.xml", "a.ply", "--closed"}) ==
+          "--report r.xml load a.ply ! validate --closed");
     CHECK(meant({"smooth", "a.ply", "--help"}) == "load a.ply ! relax ... ! write OUT");
+}
+
+TEST_CASE("stages behind a command that takes a pipeline are answered with what makes a file of them",
+          "[cli]") {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"batch", "a.obj", "!", "simplify"},
+          std::vector<std::string>{"batch", "a.obj", "-o", "out", "!", "simplify", "50%"}}) {
+        const std::string said = message(words);
+        CHECK(said.find("hint: batch takes a pipeline file, which facetmill new FILE.yaml begins; stages") !=
+              std::string::npos);
+        CHECK(said.find("'batch' does not take '50%'") == std::string::npos); // once is enough
+    }
+    CHECK(message({"batch", "a.yaml", "b.yaml", "-o", "out"}).find("hint: see facetmill batch --help") !=
+          std::string::npos);
 }
 
 TEST_CASE("help of a word is that of docs", "[cli]") {

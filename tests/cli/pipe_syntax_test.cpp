@@ -121,6 +121,9 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
               .starts_with("command line:1:33: error[E-PIPE]: '--lambda' is given twice\n"));
     CHECK(
         same("clean --self_intersections ! orient", "[{clean: {self_intersections: true}}, {orient: null}]"));
+    CHECK(yaml("section z=1 outline.svg")
+              .find("hint: a file that it writes is given by --path outline.svg\n") != std::string::npos);
+    CHECK(yaml("section z=1 z=2").find("hint: stages are separated by ! or +\n") != std::string::npos);
     CHECK(yaml("relax --lambda").starts_with("command line:1:22: error[E-PIPE]: '--lambda' needs a value\n"));
 }
 

@@ -143,3 +143,15 @@ TEST_CASE("a device, and gzip that inflates as no mesh does, end at a limit", "[
               "is one all the same, inflate it first: gzip -d",
               (dir / "bomb.gz").string(), bomb.size()));
 }
+
+TEST_CASE("a directory in the place of a file leads to the files in it", "[io]") {
+    const test::TemporaryDirectory folder;
+    try {
+        Input::open(folder.path());
+        FAIL("it was opened");
+    } catch (const Error& error) {
+        CHECK(error.diagnostics().front().id == "E-DIRECTORY");
+        CHECK(error.diagnostics().front().hint == "name a file in it; load takes patterns, too: load: '" +
+                                                      (folder.path() / "*.ply").string() + "'");
+    }
+}

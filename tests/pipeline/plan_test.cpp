@@ -3,6 +3,7 @@
 #include "pipeline/expressions.hpp"
 #include "pipeline/planner.hpp"
 #include "support/planning.hpp"
+#include "support/temporary.hpp"
 
 #include <fmt/format.h>
 
@@ -377,6 +378,22 @@ TEST_CASE("what a parameter is compared with is read by its type", "[pipeline]")
     CHECK(when("r: {type: ratio, default: 50%}", "${r} >= 0.5") == "true");
 }
 
+TEST_CASE("a mesh that is missing is not taken for a file of another kind", "[pipeline]") {
+    const test::TemporaryDirectory folder;
+    const auto hint_of = [&](const std::string& name) {
+        const auto missing =
+            missing_inputs(planned_stages("  - test-load: " + (folder / name).string() + "\n").plan);
+        return missing.at(0).hint;
+    };
+    test::put(folder / "part.html", "");
+    CHECK(hint_of("part.stl").empty());
+    CHECK(hint_of("part.step").find("export a mesh") != std::string::npos);
+    test::put(folder / "part.stl", "");
+    CHECK(hint_of("part.ply") == "did you mean 'part.stl'?");
+    CHECK(hint_of("part.step") == "did you mean 'part.stl'?");
+    CHECK(hint_of("part.hml") == "did you mean 'part.html'?");
+}
+
 TEST_CASE("a condition on a property or a variable as other languages have it says what to write",
           "[pipeline]") {
     const auto hint_of = [](const std::string& condition) {
@@ -401,6 +418,12 @@ TEST_CASE("a condition on a property or a variable as other languages have it sa
     CHECK(hint_of("unit == mm") == "write when: {unit: mm}");
     CHECK(hint_of("not closed") == "write when: {closed: false}");
     CHECK(hint_of("closed") == "write when: {closed: true}");
+    CHECK(hint_of("faces>1000 && closed==true") ==
+          "write when: {faces: {min: 1001}, closed: true}, all of which must hold");
+    CHECK(hint_of("faces > 10 and 100 > faces and not closed") ==
+          "write when: {faces: {min: 11, max: 99}, closed: false}, all of which must hold");
+    CHECK(hint_of("faces > 10 || closed") ==
+          "write when: {faces: {min: 11}, closed: true} where all must hold; there is no 'or'");
     CHECK(hint_of("q == high") == "write ${q} == high");
     CHECK(hint_of("${q} == faces").find("E-CHOICE") != std::string::npos); // it is compared as it was
     CHECK(hint_of("1 == 1").empty());
