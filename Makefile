@@ -52,7 +52,7 @@ demo: build
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
 
 test: tests
-	@tests/conformance/setup.sh $(BUILD)/conformance || echo "The tests go on without the glTF validator." >&2
+	@tests/conformance/setup.sh $(BUILD)/conformance || echo "The tests go on without the glTF validator and axe-core." >&2
 	@ctest --preset $(PRESET)
 
 asan:

@@ -1,9 +1,10 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench] [--site] [--fuzz]
+# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
-# shells and Meson, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use, --site what
-# the manual is made with, --fuzz what libFuzzer needs.
+# shells and Meson, a second Draco reader, node for the glTF validator and axe-core, and clang for the style; --bench adds
+# what the benchmarks use, --site what the manual is made with, --browser the browser that tests open pages in, --fuzz what
+# libFuzzer needs.
 set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
@@ -13,6 +14,7 @@ test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"
 site="mkdocs mkdocs-material python3-yaml"
+browser="chromium"
 optional="ccache python3-yaml zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
 
 list=no wanted="$build $test"
@@ -22,8 +24,9 @@ for argument in "$@"; do
     --all) wanted="$wanted $optional" ;;
     --bench) wanted="$wanted $bench" ;;
     --site) wanted="$wanted $site" ;;
+    --browser) wanted="$wanted $browser" ;;
     --fuzz) wanted="$wanted $fuzz" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--fuzz]" >&2; exit 2 ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz]" >&2; exit 2 ;;
     esac
 done
 

@@ -10,6 +10,7 @@ import struct
 import subprocess
 import unittest
 
+import browser
 from support import SCAN, SLOW, Case, main, png
 
 try:
@@ -59,7 +60,7 @@ class Pages(Case):
 
     def in_browser(self, name):
         """[width, scrollable width, dark, slider, what sticks out] of each frame, light and dark."""
-        chromium = self.need("chromium", in_ci=False)
+        browser.require(self)
         page = (self.dir / name).read_text()
         self.write("framed.html", page.replace("</body>", TELL))
         self.write("frames.html", FRAMES.format("".join(
@@ -67,7 +68,7 @@ class Pages(Case):
         told = []
         for dark in (0, 1):
             run = subprocess.run(
-                [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--enable-logging=stderr",
+                [browser.CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--enable-logging=stderr",
                  "--virtual-time-budget=10000", "--window-size=1500,1000", f"--user-data-dir={self.dir / 'profile'}",
                  f"--blink-settings=preferredColorScheme={1 - dark}", "--dump-dom", f"file://{self.dir}/frames.html"],
                 capture_output=True, text=True, timeout=300)

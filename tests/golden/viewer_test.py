@@ -7,7 +7,7 @@ import json
 import struct
 import unittest
 
-from browser import CHROMIUM, Browser
+from browser import Browser, require
 from support import SCAN, Case, png
 
 # What the canvas shows, drawn again: how many pixels are covered, the sum of their colours, and a hash.
@@ -33,8 +33,11 @@ SHOWN = """new Promise((done) => {
 })"""
 
 
-@unittest.skipUnless(CHROMIUM, "there is no Chromium")
 class Viewer(Case):
+    def setUp(self):
+        super().setUp()
+        require(self)
+
     def page(self, browser, path):
         browser.open(path)
         browser.wait("!document.querySelector('.viewer').hidden")
