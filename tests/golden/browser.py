@@ -10,7 +10,9 @@ import sys
 import tempfile
 import time
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+# FACETMILL_BROWSER=none: without one, though there may be one.
+NAMES = () if os.environ.get("FACETMILL_BROWSER") == "none" else ("chromium", "chromium-browser", "google-chrome")
+CHROMIUM = next(filter(None, map(shutil.which, NAMES)), None)
 PATIENCE = 60  # seconds
 # CI sets it where it could install a browser: nothing that needs one may be skipped then.
 STRICT = os.environ.get("FACETMILL_REQUIRE_BROWSER") == "1"
