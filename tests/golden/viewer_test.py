@@ -8,7 +8,7 @@ import struct
 import unittest
 
 from browser import Browser, require
-from support import SCAN, Case, png
+from support import SCAN, SLOW, Case, png
 
 # What the canvas shows, drawn again: how many pixels are covered, the sum of their colours, and a hash.
 SHOWN = """new Promise((done) => {
@@ -33,6 +33,7 @@ SHOWN = """new Promise((done) => {
 })"""
 
 
+@unittest.skipIf(SLOW, "a browser waits for the release build")
 class Viewer(Case):
     def setUp(self):
         super().setUp()

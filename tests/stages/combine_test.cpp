@@ -1,4 +1,6 @@
 #include "support/catch.hpp"
+
+#include "geometry/cut/cap_paint.hpp"
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 #include "support/run_stage.hpp"
@@ -60,6 +62,41 @@ TEST_CASE("combine takes parts away, and removes them from the scene", "[stages]
     std::set<double> numbers;
     for (Index f = 0; f < twice.mesh().face_count(); ++f) numbers.insert(both->value(f, 0));
     CHECK(numbers == std::set<double>{0, 1, 2});
+}
+
+TEST_CASE("combine takes groups of its tools for those of caps alone", "[stages]") {
+    Scene scene = cube_and_drills();
+    const auto numbered = [](Mesh& mesh, const char* name, auto&& number) {
+        std::vector<std::uint32_t> numbers(mesh.face_count());
+        for (Index f = 0; f < numbers.size(); ++f) numbers[f] = number(f);
+        mesh.attributes.push_back({name, Domain::face, Role::index, 1, false, AttributeData(numbers)});
+    };
+    const auto change_of_group = [](const test::StageRun& run) {
+        for (const auto& entry : run.record.attribute_changes)
+            if (entry.change.attribute == "group") return entry.change.kind;
+        return AttributeChange::Kind::kept;
+    };
+    Mesh& drill = scene.parts[1].mesh;
+    numbered(drill, "group", [](Index f) { return 7 + f; });
+    const auto without = run_stage("combine", "{operation: difference, with: \"*drill\"}", scene);
+    CHECK_FALSE(without.mesh().find("group", Domain::face));
+    CHECK(later_caps(without.mesh(), 0).empty());
+    CHECK(change_of_group(without) == AttributeChange::Kind::dropped);
+    // The block keeps its own, and of the drill only what closes a cut.
+    numbered(scene.parts[0].mesh, "group", [](Index) { return 3U; });
+    numbered(drill, "cut_id", [](Index f) { return f < 2 ? 5U : 0U; });
+    const auto run = run_stage("combine", "{operation: intersection, with: \"*drill\"}", scene);
+    const Mesh& mesh = run.mesh();
+    const Attribute *group = mesh.find("group", Domain::face), *cut = mesh.find("cut_id", Domain::face);
+    REQUIRE(group);
+    REQUIRE(cut);
+    std::set<double> of_block, of_drill;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        (cut->value(f, 0) > 0 ? of_drill : of_block).insert(group->value(f, 0));
+    CHECK(of_block == std::set<double>{3});
+    CHECK(of_drill.contains(0));
+    for (const double number : of_drill) CHECK((number == 0 || number == 7 || number == 8));
+    CHECK(change_of_group(run) == AttributeChange::Kind::recomputed);
 }
 
 TEST_CASE("combine works on each part in its own space", "[stages]") {

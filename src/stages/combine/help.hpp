@@ -29,7 +29,8 @@ difference are turned round, with their normals. Where an attribute exists only 
 others get white (colours), the normal of the face, or zero. After union, the face attribute group
 numbers the original parts; after the others, cut_id numbers the faces that come from a part of
 `with`, beginning after the numbers that are there, 0 elsewhere, so that relax and crumple can hold
-them as they hold caps. Parts are combined in the space of the part that stays, which keeps its
+them as they hold caps. Their group is 0 then, unless it is that of a cap: numbers of their own part
+would be taken for those of the other. Parts are combined in the space of the part that stays, which keeps its
 node; skins are dropped (W-SKIN).
 
 After Q. Zhou, E. Grinspun, D. Zorin and A. Jacobson, "Mesh arrangements for solid geometry"

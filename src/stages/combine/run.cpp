@@ -140,6 +140,27 @@ Mesh in_space_of(const Part& space, const Part& part) {
            "clean: {self_intersections: union} for each part first, or move one of them by a little");
 }
 
+/// Takes the numbers of its groups from an operand that the first one is cut by, but for those of caps: they
+/// number other things than those of the first, and by group and cut_id together caps are known (later_caps).
+/// Whether there were any.
+bool forget_groups(Mesh& mesh) {
+    Attribute* group = mesh.find(group_attribute, Domain::face);
+    if (!group) return false;
+    const Attribute* cut = mesh.find(cut_id_attribute, Domain::face);
+    bool forgotten = false, any_left = false;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        if (!(group->value(f, 0) > 0)) continue;
+        if (cut && cut->value(f, 0) > 0) {
+            any_left = true;
+            continue;
+        }
+        forgotten = true;
+        group->set_value(f, 0, 0);
+    }
+    if (!any_left) mesh.drop(group_attribute, Domain::face);
+    return forgotten;
+}
+
 void number_faces(Mesh& mesh, std::string_view name, std::vector<std::uint32_t> numbers) {
     mesh.drop(name, Domain::face);
     mesh.attributes.push_back(
@@ -168,6 +189,8 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     meshes.reserve(all.size());
     for (const Part* p : all) meshes.push_back(in_space_of(part, *p));
     const bool unites = operation == Operation::unite;
+    bool forgot_groups = false;
+    for (std::size_t i = 1; i < meshes.size() && !unites; ++i) forgot_groups |= forget_groups(meshes[i]);
     const Index first_cut = unites ? 0 : largest_number(part.mesh, cut_id_attribute);
     CombineResult r = facetmill::combine(std::move(meshes), {operation, unites ? none : Index{1}});
     if (r.short_of_memory) context.tell_unrepeatable();
@@ -177,6 +200,12 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     for (const Part* p : others) report.with.push_back(p->name);
     for (const Index mesh : r.mesh_of_face) report.faces_of_with += mesh > 0;
     context.attribute_changes(part, drop_skin(part.mesh, no_skin));
+    if (forgot_groups)
+        merge_changes(r.changes,
+                      {{std::string(group_attribute), Domain::face,
+                        r.mesh.find(group_attribute, Domain::face) ? AttributeChange::Kind::recomputed
+                                                                   : AttributeChange::Kind::dropped,
+                        "0 on faces of the parts of 'with': theirs number other groups"}});
     context.attribute_changes(part, r.changes);
     part.skinned = false;
     part.mesh = std::move(r.mesh);
