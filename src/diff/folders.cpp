@@ -89,7 +89,10 @@ const char* kind_of_pair(const FolderPair& pair) {
     return pair.outcome == FolderOutcome::added ? "warn" : "bad";
 }
 
-std::string change_text(std::uint64_t a, std::uint64_t b, std::string (*tell)(std::uint64_t)) {
+/// Of a pair that failed nothing is known.
+std::string change_text(const FolderPair& pair, std::uint64_t a, std::uint64_t b,
+                        std::string (*tell)(std::uint64_t)) {
+    if (pair.outcome == FolderOutcome::failed) return {};
     return a == b ? tell(a) : fmt::format("{} → {}", a > 0 ? tell(a) : "-", b > 0 ? tell(b) : "-");
 }
 
@@ -254,8 +257,8 @@ std::string to_html(const FolderComparison& c, const std::string& path_a, const 
             "<tr>{}{}{}{}{}{}{}</tr>\n",
             cell(fmt::format("<span class=\"badge {}\">{}</span>", kind_of_pair(p), to_string(p.outcome))),
             cell(name_html(p)), picture_cells(p, bytes), number_cell(percent_text(p)),
-            number_cell(change_text(p.faces_a, p.faces_b, grouped)),
-            number_cell(change_text(p.bytes_a, p.bytes_b, sized)), cell(escaped(more_of(p))));
+            number_cell(change_text(p, p.faces_a, p.faces_b, grouped)),
+            number_cell(change_text(p, p.bytes_a, p.bytes_b, sized)), cell(escaped(more_of(p))));
     }
     std::string out = comparison_begin(short_names(path_a, path_b), {path_a, path_b},
                                        "Compared by facetmill diff, the worst first.");
@@ -281,8 +284,8 @@ std::string to_markdown(const FolderComparison& c, const std::string& path_a, co
         const std::string text = markdown_escaped(p.paths.text());
         const std::string name = p.page.empty() ? text : fmt::format("[{}]({})", text, address(p.page));
         rows.push_back({to_string(p.outcome), name, percent_text(p),
-                        change_text(p.faces_a, p.faces_b, grouped), change_text(p.bytes_a, p.bytes_b, sized),
-                        markdown_escaped(more_of(p))});
+                        change_text(p, p.faces_a, p.faces_b, grouped),
+                        change_text(p, p.bytes_a, p.bytes_b, sized), markdown_escaped(more_of(p))});
     }
     std::string out = comparison_heading(short_names(path_a, path_b), {path_a, path_b}) +
                       fmt::format("\n**{}: {}**\n", c.differs() ? "differ" : "agree", tally(c));

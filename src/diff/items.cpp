@@ -50,6 +50,25 @@ Json contents_or_null(io::MaterialContents& contents, const Material& material) 
     }
 }
 
+/// "other emissiveTexture, roughnessFactor": what of two materials of glTF is not the same; empty: nothing.
+std::string look_note(const Json& a, const Json& b) {
+    if (a == b) return {};
+    if (!a.is_object() || !b.is_object()) return "another look";
+    std::string keys;
+    const auto add = [&](const Json& x, const Json& y) {
+        for (const auto& [key, value] : x.items())
+            if (!value.is_object() || key != "pbrMetallicRoughness")
+                if (!y.contains(key) || y[key] != value) append_item(keys, key);
+        for (const auto& [key, value] : y.items())
+            if (key != "pbrMetallicRoughness" && !x.contains(key)) append_item(keys, key);
+    };
+    const Json none_told = Json::object();
+    const auto pbr = [&](const Json& m) { return m.value("pbrMetallicRoughness", none_told); };
+    add(a, b);
+    add(pbr(a), pbr(b));
+    return keys.empty() ? "another look" : "other " + keys;
+}
+
 /// Finds for each item of the first list the one of the second with its name that has no other yet.
 class Pairing {
   public:
@@ -118,7 +137,7 @@ std::vector<ItemChange> item_changes(const Scene& a, const Scene& b, double most
         if (!std::equal(std::begin(x.base_colour), std::end(x.base_colour), std::begin(y.base_colour)))
             return "another colour";
         if (x.double_sided != y.double_sided) return "other sides";
-        return contents_or_null(of_a, x) == contents_or_null(of_b, y) ? "" : "another look";
+        return look_note(contents_or_null(of_a, x), contents_or_null(of_b, y));
     };
     add_changes(a.materials, b.materials, false, colour_text, note, out);
     return out;

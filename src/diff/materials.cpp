@@ -113,6 +113,15 @@ double farthest_allowed(const Comparing& with, const Box& bounds) {
                             : limit->amount;
 }
 
+/// "the faces of 'paint'".
+std::string elements_of(const Comparing& with, const char* elements, Index material) {
+    if (material == none) return fmt::format("the {} without a material", elements);
+    const auto& materials = material < with.a.materials.size() ? with.a.materials : with.b.materials;
+    const std::string name = material < materials.size() ? materials[material].name : "";
+    return name.empty() ? fmt::format("the {} of material {}", elements, material)
+                        : fmt::format("the {} of '{}'", elements, name);
+}
+
 /// Which faces each material is on: by number where the faces are the same ones, else by where they are.
 void compare_places(const Comparing& with) {
     const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
@@ -126,9 +135,10 @@ void compare_places(const Comparing& with) {
     ShareOfSteps steps(std::vector<double>(all.size(), 1));
     for (const Index material : all) {
         const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
-        with.add("materials", material == none ? "faces of none" : fmt::format("{} faces", material),
-                 finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
-                 "how far its faces are from those of the other file");
+        with.add(
+            "materials", material == none ? "faces of none" : fmt::format("{} faces", material),
+            finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
+            fmt::format("how far {} are from those of the other file", elements_of(with, "faces", material)));
         steps.next();
     }
 }
@@ -152,9 +162,10 @@ void compare_places_of_lines(const Comparing& with) {
     for (const Index material : all) {
         const LineShape &x = of_a[material], &y = of_b[material];
         const double forward = x.distance_to(y), backward = y.distance_to(x);
-        with.add("materials", material == none ? "lines of none" : fmt::format("{} lines", material),
-                 finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
-                 "how far its lines are from those of the other file");
+        with.add(
+            "materials", material == none ? "lines of none" : fmt::format("{} lines", material),
+            finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
+            fmt::format("how far {} are from those of the other file", elements_of(with, "lines", material)));
     }
 }
 

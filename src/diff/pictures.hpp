@@ -11,7 +11,8 @@ namespace facetmill::report {
 /// PNG images in base64, and distances there and back.
 struct ComparisonPictures {
     std::string a, b;
-    std::optional<DeviationView> forward;  ///< of the first scene from the second: what is gone
+    /// Of the first scene from the second: what is gone. Its diagonal is that of the first, as backward's.
+    std::optional<DeviationView> forward;
     std::optional<DeviationView> backward; ///< of the second from the first: what is new
     Json view;                             ///< both, to be turned (report/viewer.hpp)
     std::vector<Diagnostic> not_drawn;     ///< textures that all of these do without, and why

@@ -30,35 +30,54 @@ Outcome outcome_of(const Difference& d) {
     return {"same", "good"};
 }
 
+/// A text; of a SHA-256 as much as tells it from others.
+std::string short_digest(const std::string& text) {
+    constexpr std::size_t digits = 64, enough = 12;
+    const bool is_digest =
+        text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+    return is_digest ? text.substr(0, enough) + "..." : text;
+}
+
 std::string text_of(const Json& value) {
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_integer() && value >= 0) return grouped(value.get<std::uint64_t>());
+    if (value.is_string()) return short_digest(value.get<std::string>());
     if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
     return value.dump();
 }
 
-/// "maximum 0.2 (0.05 % of the diagonal) from [1, 2, 3] of the first surface".
-std::string place_text(const DeviationResult& d) {
+/// What is told of a distance below its numbers: where it is, and how it was measured.
+std::vector<std::string> measured_lines(const Comparison& comparison) {
+    const DeviationResult& d = *comparison.deviation;
+    std::vector<std::string> lines;
     const bool forward = d.forward.maximum >= d.backward.maximum;
     const auto& way = forward ? d.forward : d.backward;
-    if (!(way.maximum > 0) || !std::isfinite(way.maximum)) return {};
-    const Vec3 &p = way.from, &q = way.to;
-    return fmt::format("    farthest: {:.6g} {:.6g} {:.6g} of {}, nearest there {:.6g} {:.6g} {:.6g}\n", p.x,
-                       p.y, p.z, forward ? "the first" : "the second", q.x, q.y, q.z);
-}
-
-std::string measured_text(const Comparison& comparison) {
-    const DeviationResult& d = *comparison.deviation;
-    std::string text =
-        fmt::format("    {} and {} samples ({} and {} averaged), seed {}, and all {} and {} vertices; "
-                    "percentages of {:.6g}\n",
+    if (way.maximum > 0 && std::isfinite(way.maximum)) {
+        const Vec3 &p = way.from, &q = way.to;
+        lines.push_back(
+            fmt::format("farthest: {:.6g} {:.6g} {:.6g} of {}, nearest there {:.6g} {:.6g} {:.6g}", p.x, p.y,
+                        p.z, forward ? "the first" : "the second", q.x, q.y, q.z));
+    }
+    lines.push_back(
+        fmt::format("{} and {} samples ({} and {} averaged), seed {}, and all {} and {} vertices; "
+                    "percentages of {:.6g}",
                     d.forward.samples, d.backward.samples, d.forward.averaged, d.backward.averaged, d.seed,
-                    d.forward.vertices, d.backward.vertices, d.diagonal);
+                    d.forward.vertices, d.backward.vertices, d.diagonal));
     const std::string a = comparison.geometry_a, b = comparison.geometry_b;
     if (a != "surface" || b != "surface")
-        text += fmt::format("    of {} and {}; mean and rms of points are over all of them\n", a, b);
-    return text;
+        lines.push_back(fmt::format("of {} and {}; mean and rms of points are over all of them", a, b));
+    return lines;
+}
+
+/// These of a section; none but of geometry.
+std::vector<std::string> lines_below(const Comparison& comparison, const char* section) {
+    if (section != std::string_view("geometry") || !comparison.deviation) return {};
+    return measured_lines(comparison);
+}
+
+std::ptrdiff_t count_different(const std::vector<const Difference*>& lines) {
+    return std::count_if(lines.begin(), lines.end(), [](const auto* d) { return !d->same; });
 }
 
 /// "not compared: A: the lines".
@@ -85,7 +104,7 @@ std::string to_text(const Comparison& comparison, const std::string& name_a, con
     for (const char* section : comparison_sections) {
         const auto lines = of_section(comparison, section);
         if (lines.empty()) continue;
-        const auto different = std::count_if(lines.begin(), lines.end(), [](auto* d) { return !d->same; });
+        const auto different = count_different(lines);
         text += fmt::format("  {}: {}{}\n", section,
                             different == 0 ? "same" : fmt::format("{} different", different),
                             comparison.ignored.contains(section) ? " (ignored)" : "");
@@ -93,14 +112,19 @@ std::string to_text(const Comparison& comparison, const std::string& name_a, con
             if (all || is_told(*d))
                 text += fmt::format("    {:<23} {:<15} {:<15} {}{}\n", d->name, text_of(d->a), text_of(d->b),
                                     d->same ? "" : "differs ", d->note);
-        if (section == std::string_view("geometry") && comparison.deviation)
-            text += place_text(*comparison.deviation) + measured_text(comparison);
+        for (const auto& line : lines_below(comparison, section)) text += "    " + line + "\n";
     }
     if (!comparison.hint.empty()) text += fmt::format("  hint: {}\n", comparison.hint);
     return text;
 }
 
 namespace {
+
+/// "surfaces", "points".
+const char* geometry_text(const Comparison& comparison) {
+    const std::string a = comparison.geometry_a, b = comparison.geometry_b;
+    return a != b ? "files" : a == "points" ? "points" : "surfaces";
+}
 
 /// "differ in counts", with what was not compared.
 std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
@@ -110,14 +134,18 @@ std::vector<std::string> head_lines(const Comparison& comparison, const std::str
     if (!in.empty()) verdict += " in " + in;
     const auto& d = comparison.deviation;
     if (const auto percent = d ? d->percent(d->maximum()) : 0; percent > 0)
-        verdict += fmt::format("; the surfaces are up to {} of the diagonal apart", percentage(percent));
+        verdict += fmt::format("; the {} are up to {} of the diagonal apart", geometry_text(comparison),
+                               percentage(percent));
     lines.insert(lines.begin(), std::move(verdict));
     if (!comparison.hint.empty()) lines.push_back("hint: " + comparison.hint);
     return lines;
 }
 
+/// "counts: 5 different (ignored)".
 std::string section_title(const Comparison& comparison, const char* section) {
-    return std::string(section) + (comparison.ignored.contains(section) ? " (ignored)" : "");
+    const auto different = count_different(of_section(comparison, section));
+    return std::string(section) + (different == 0 ? "" : fmt::format(": {} different", different)) +
+           (comparison.ignored.contains(section) ? " (ignored)" : "");
 }
 
 std::string difference_rows(const Comparison& comparison, const char* section) {
@@ -172,11 +200,15 @@ std::string to_html(const Comparison& comparison, const std::string& path_a, con
                deviation_html(*pictures.backward, "backward", "the second file");
     if (pictures.forward)
         out += "<h3>Distances of the first from the second</h3>\n" +
-               deviation_html(*pictures.forward, "forward", "the first file");
-    for (const char* section : comparison_sections)
-        out +=
-            table(section_title(comparison, section), heads({"outcome", "name", "first", "second", "note"}),
-                  difference_rows(comparison, section));
+               deviation_html(*pictures.forward, "forward", "the first file", "the first file");
+    for (const char* section : comparison_sections) {
+        const std::string rows = difference_rows(comparison, section);
+        out += table(section_title(comparison, section),
+                     heads({"outcome", "name", "first", "second", "note"}), rows);
+        if (rows.empty()) continue;
+        for (const auto& line : lines_below(comparison, section))
+            out += fmt::format("<p class=\"soft\">{}</p>\n", escaped(line));
+    }
     return out + html_end();
 }
 
@@ -186,6 +218,7 @@ std::string to_markdown(const Comparison& comparison, const std::string& path_a,
     for (const auto& line : head_lines(comparison, name_a, name_b))
         out += fmt::format("\n**{}**\n", markdown_escaped(line));
     out += overview_markdown(comparison);
+    std::string sections;
     for (const char* section : comparison_sections) {
         std::vector<std::vector<std::string>> rows;
         for (const auto* d : of_section(comparison, section))
@@ -193,9 +226,13 @@ std::string to_markdown(const Comparison& comparison, const std::string& path_a,
                 rows.push_back({outcome_of(*d).text, markdown_escaped(d->name),
                                 markdown_escaped(text_of(d->a)), markdown_escaped(text_of(d->b)),
                                 markdown_escaped(d->note)});
-        out += markdown_table(section_title(comparison, section),
-                              {"outcome", "name", "first", "second", "note"}, rows);
+        sections += markdown_table(section_title(comparison, section),
+                                   {"outcome", "name", "first", "second", "note"}, rows);
+        for (const auto& line : lines_below(comparison, section))
+            sections += fmt::format("\n{}\n", markdown_escaped(line));
     }
+    if (!sections.empty())
+        out += fmt::format("\n<details><summary>Line by line</summary>\n{}\n</details>\n", sections);
     return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
 }
 

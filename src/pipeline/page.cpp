@@ -28,6 +28,8 @@ std::size_t vertices_in(const Scene& scene) {
     return count;
 }
 
+bool is_mesh(const report::FileRecord& file) { return !file.read_back.is_null(); }
+
 bool measures(const Step& step) {
     return step.stage->measures_deviation || (step.ensure && step.ensure->deviation);
 }
@@ -117,10 +119,9 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
 report::DeviationView Page::distances(const Scene& scene, Reference& from) {
     const auto posed = io::posed(scene);
     const Scene& seen = posed ? *posed : scene;
-    std::optional<PictureSettings> settings;
-    if (is_full())
-        record_.pictures_left_out += 3;
-    else {
+    std::optional<PictureSettings> settings; // none: numbers alone
+    if (with_pictures_ && is_full()) record_.pictures_left_out += 3;
+    if (with_pictures_ && !is_full()) {
         settings = sized_for_page(0.75); // three beside each other
         settings->camera = camera_for(seen);
     }
@@ -141,16 +142,11 @@ void Page::before(const Step& step, const Scene& scene) {
 }
 
 void Page::after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output) {
-    const auto is_mesh = [](const report::FileRecord& file) { return !file.read_back.is_null(); };
     const bool only_looks =
         step.stage->checks || std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
                                           record_.outputs.end(), is_mesh);
     if (!only_looks) add_picture(scene, stage);
-    if (step.stage->loads || step.stage->moves) {
-        loaded_ = reference_to(scene, step.stage->loads ? std::string("the scene as loaded")
-                                                        : fmt::format("the scene after '{}'", step.name));
-        loaded_->shape = shape_histograms(scene);
-    }
+    set_loaded(step, scene);
     if (entering_) {
         auto now = std::make_shared<const Shown>(scene);
         const Surface& earlier = entering_->shown->surface();
@@ -164,8 +160,30 @@ void Page::after(const Step& step, const Scene& scene, report::StageRecord& stag
         }
         entering_.reset();
     }
+    add_results(first_output, scene);
+}
+
+void Page::set_loaded(const Step& step, const Scene& scene) {
+    if (!step.stage->loads && !step.stage->moves) return;
+    loaded_ = reference_to(scene, step.stage->loads ? std::string("the scene as loaded")
+                                                    : fmt::format("the scene after '{}'", step.name));
+    if (with_pictures_) loaded_->shape = shape_histograms(scene);
+}
+
+void Page::add_results(std::size_t first_output, const Scene& scene) {
     for (std::size_t i = first_output; i < record_.outputs.size(); ++i)
-        if (!record_.outputs[i].read_back.is_null()) add_result(record_.outputs[i].path, scene);
+        if (is_mesh(record_.outputs[i])) add_result(record_.outputs[i].path, scene);
+}
+
+bool Page::is_measured(const Step& step, std::size_t first_output) const {
+    return step.stage->loads || step.stage->moves ||
+           std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
+                       record_.outputs.end(), is_mesh);
+}
+
+void Page::measure(const Step& step, const Scene& scene, std::size_t first_output) {
+    set_loaded(step, scene);
+    add_results(first_output, scene);
 }
 
 void Page::add_result(const std::string& name, const Scene& scene) {
@@ -174,7 +192,7 @@ void Page::add_result(const std::string& name, const Scene& scene) {
     view.name = name;
     view.unit = scene.unit == Unit::unknown ? "" : to_string(scene.unit);
     view.faces = scene.face_count();
-    view.shape = shape_histograms(scene);
+    if (with_pictures_) view.shape = shape_histograms(scene);
     if (loaded_) {
         view.input_shape = loaded_->shape;
         view.input_faces = loaded_->faces;

@@ -17,6 +17,9 @@ class Page {
   public:
     explicit Page(report::RunRecord& record) : record_(record) {}
 
+    /// Before all else: collects no pictures and no histograms, but how far results are off, for Markdown.
+    void leave_out_pictures() { with_pictures_ = false; }
+
     /// What a scene shows, in the pose that pictures show, and its tree, made when it is first needed.
     class Shown {
       public:
@@ -58,6 +61,10 @@ class Page {
     /// After it: its picture, distances where it measured such, and the results that it wrote, which are the
     /// outputs from that number on.
     void after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output);
+    /// Whether measure() looks at the scene.
+    bool is_measured(const Step& step, std::size_t first_output) const;
+    /// In the place of after(), where pictures are left out.
+    void measure(const Step& step, const Scene& scene, std::size_t first_output);
     /// Pictures of the checks from that number on that did not hold; a run that ends there shows its scene.
     /// Whether it ends there.
     bool failures(const std::string& step, const Scene& scene, std::size_t first_check);
@@ -71,11 +78,14 @@ class Page {
     PictureSettings sized_for_page(double part) const;
     const Camera& camera_for(const Scene& scene);
     void add_picture(const Scene& scene, report::StageRecord& stage);
+    void set_loaded(const Step& step, const Scene& scene);
+    void add_results(std::size_t first_output, const Scene& scene);
     void add_result(const std::string& name, const Scene& scene);
     report::DeviationView distances(const Scene& scene, Reference& from);
     std::string picture_of_failure(const Scene& scene, const report::Check& check);
 
     report::RunRecord& record_;
+    bool with_pictures_ = true;
     std::shared_ptr<Reference> loaded_, entering_;
     std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances, and of what they were from
     std::string shown_at_, shown_stage_; ///< where these stand, and the name of the stage if it is one

@@ -96,6 +96,10 @@ class Runner {
         const auto is_page = [](const std::string& path) { return path.ends_with(".html"); };
         takes_pictures_ =
             settings_.on_view || std::any_of(plan_.reports.begin(), plan_.reports.end(), is_page);
+        measures_ =
+            !takes_pictures_ && std::any_of(plan_.reports.begin(), plan_.reports.end(),
+                                            [](const std::string& path) { return path.ends_with(".md"); });
+        if (measures_) page_.leave_out_pictures();
         for (const auto& warning : plan_.warnings) {
             failures_.warn(warning);
             record().warnings.push_back(warning);
@@ -116,7 +120,7 @@ class Runner {
             failures_.guarded({}, "the inspection at the end", [&] {
                 const Share share = beside_stages("inspection at the end");
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
-                if (takes_pictures_) page_.at_end(flow.scene);
+                if (takes_pictures_ || measures_) page_.at_end(flow.scene);
                 if (takes_pictures_) view_.at_end(flow.scene);
             });
         if (small && settings_.last_picture && !takes_pictures_ && !failures_.any() &&
@@ -361,6 +365,11 @@ class Runner {
                 const Share share = beside_stages(fmt::format("picture after {}", step.name));
                 page_.after(step, flow.scene, stage, outputs);
                 show_failures(step, flow.scene, checks);
+            });
+        if (done && measures_ && page_.is_measured(step, outputs) && fetch(step.where, "the deviation", flow))
+            failures_.guarded({}, "the deviation", [&] {
+                const Share share = beside_stages(fmt::format("deviation after {}", step.name));
+                page_.measure(step, flow.scene, outputs);
             });
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
@@ -645,6 +654,7 @@ class Runner {
     CellPlan on_cells_;
     io::EarlyFolders output_folder_;
     bool keeps_loaded_ = false, takes_pictures_ = false;
+    bool measures_ = false; ///< how far results are off, for Markdown without a page
     Page page_{state_.record};
     PageView view_{plan_.steps, page_};
     int number_ = 0, stages_ = 0;

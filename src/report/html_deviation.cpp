@@ -72,7 +72,8 @@ std::string caps_text(const DeviationView& view) {
 
 } // namespace
 
-std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name) {
+std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name,
+                           const std::string& whole) {
     const std::string caption =
         fmt::format("{}: signed distance from {}; red is outside, blue inside", name, view.from);
     std::string out = "<div class=\"deviation\">\n";
@@ -91,8 +92,8 @@ std::string deviation_html(const DeviationView& view, const std::string& id, con
                "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
                "diagonal of {}.{}{}{} What {} has and {} lost is not seen here. Stages and verdicts look at "
                "more points, and may find one that is farther.</p>\n",
-               view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(view.from), beyond_text(view),
-               caps_text(view),
+               view.unit.empty() ? "" : " in " + escaped(view.unit),
+               escaped(whole.empty() ? view.from : whole), beyond_text(view), caps_text(view),
                view.posed ? " Both are in the pose that the pictures show; what stages and checks measure is "
                             "in bind pose."
                           : "",

@@ -3,6 +3,7 @@
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
+#include "report/glance.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"
 #include "report/html_stages.hpp"
@@ -19,23 +20,6 @@ std::string kind_cells(const std::optional<io::ByteKinds>& kinds) {
            number_cell(sized(kinds->json));
 }
 
-struct Sum {
-    std::uint64_t bytes = 0;
-    io::ByteKinds kinds;
-};
-
-Sum sum_of(const std::vector<FileRecord>& files) {
-    Sum sum;
-    for (const FileRecord& file : files) {
-        sum.bytes += file.bytes;
-        if (!file.kinds) continue;
-        sum.kinds.geometry += file.kinds->geometry;
-        sum.kinds.textures += file.kinds->textures;
-        sum.kinds.json += file.kinds->json;
-    }
-    return sum;
-}
-
 std::string rows_of(const std::vector<FileRecord>& files) {
     std::string rows;
     for (const FileRecord& f : files)
@@ -43,19 +27,17 @@ std::string rows_of(const std::vector<FileRecord>& files) {
             fmt::format("<tr>{}{}{}{}</tr>\n", cell(path_code(f.path)), number_cell(sized(f.bytes)),
                         kind_cells(f.kinds), cell("<span class=\"digest\">" + code(f.sha256) + "</span>"));
     if (files.size() < 2) return rows;
-    const Sum sum = sum_of(files);
+    const ByteSum sum = sum_of(files);
     return rows + fmt::format("<tr class=\"sum\">{}{}{}{}</tr>\n", cell("all"), number_cell(sized(sum.bytes)),
                               kind_cells(sum.kinds), cell(""));
 }
 
 std::string before_and_after(const RunRecord& record) {
     if (record.inputs.empty() || record.outputs.empty()) return {};
-    const Sum in = sum_of(record.inputs), out = sum_of(record.outputs);
+    const ByteSum in = sum_of(record.inputs), out = sum_of(record.outputs);
     const auto row = [](const char* what, std::uint64_t before, std::uint64_t after) {
-        const std::string share =
-            before > 0 ? percentage(100.0 * static_cast<double>(after) / static_cast<double>(before)) : "-";
         return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", what, number_cell(sized(before)),
-                           number_cell(sized(after)), number_cell(share));
+                           number_cell(sized(after)), number_cell(part_of_before(before, after)));
     };
     return table("Bytes", heads({"kind", "#inputs", "#outputs", "#share"}),
                  row("geometry", in.kinds.geometry, out.kinds.geometry) +

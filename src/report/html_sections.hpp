@@ -14,8 +14,10 @@ std::string check_section(const RunRecord& record);
 /// What was written: its shape beside that of the input, and how far it is from it.
 std::string output_sections(const RunRecord& record);
 /// How far a scene is from an earlier one: a picture in colours, their scale with a histogram, and the worst
-/// place magnified. id: of its pictures in the page.
-std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name);
+/// place magnified. id: of its pictures in the page. whole: whose diagonal the view has, if it is not the
+/// earlier one's.
+std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name,
+                           const std::string& whole = {});
 /// Inputs and outputs: bytes and what they are spent on, digests, what reading back found.
 std::string file_sections(const RunRecord& record);
 /// Time and memory of each stage.

@@ -2,6 +2,7 @@
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "report/check_text.hpp"
+#include "report/glance.hpp"
 #include "report/markdown_parts.hpp"
 #include "report/render.hpp"
 
@@ -60,6 +61,25 @@ MarkdownRows stage_rows_of(const RunRecord& record) {
     return rows;
 }
 
+/// Faces and bytes before and after; kinds of bytes that neither has are left out.
+MarkdownRows glance_rows(const RunRecord& record) {
+    MarkdownRows rows;
+    if (const auto faces = face_counts(record))
+        rows.push_back({"faces", grouped(faces->first), grouped(faces->last),
+                        part_of_before(faces->first, faces->last)});
+    if (record.inputs.empty() && record.outputs.empty()) return rows;
+    const ByteSum in = sum_of(record.inputs), out = sum_of(record.outputs);
+    const auto add = [&](const char* what, std::uint64_t before, std::uint64_t after) {
+        if (before > 0 || after > 0)
+            rows.push_back({what, sized(before), sized(after), part_of_before(before, after)});
+    };
+    add("bytes", in.bytes, out.bytes);
+    add("of geometry", in.kinds.geometry, out.kinds.geometry);
+    add("of textures", in.kinds.textures, out.kinds.textures);
+    add("of JSON", in.kinds.json, out.kinds.json);
+    return rows;
+}
+
 MarkdownRows output_rows(const RunRecord& record) {
     MarkdownRows rows;
     for (const auto& file : record.outputs)
@@ -84,6 +104,9 @@ std::string to_markdown(const RunRecord& record) {
     out += fmt::format("**{}**", verdict_text(record));
     if (!record.checks.empty()) out += fmt::format(", {} checks passed", passed_text(record));
     out += "\n";
+    if (const std::string deviation = deviation_text(record); !deviation.empty())
+        out += fmt::format("\nDeviation: {}\n", markdown_escaped(deviation));
+    out += markdown_table("At a glance", {"", "inputs", "outputs", "share"}, glance_rows(record));
     out += markdown_table("Errors and warnings", {"kind", "id", "message", "hint"}, message_rows(record));
     out += markdown_table("Checks that did not hold",
                           {"outcome", "property", "expected", "found", "locations", "hint"},

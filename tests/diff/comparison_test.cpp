@@ -471,15 +471,28 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     CHECK(pictures.view["scenes"][1]["reference"] == "a<1>.ply");
     CHECK(page.find("<section class=\"viewer\" hidden>") != std::string::npos);
     CHECK(page.find("data-of=\"first\"") != std::string::npos);
-    CHECK(page.find("<td><code>faces</code></td><td>320</td><td>1280</td>") != std::string::npos);
+    CHECK(page.find("<td><code>faces</code></td><td>320</td><td>1,280</td>") != std::string::npos);
     CHECK_FALSE(report::comparison_pictures(Scene{}, b, "a", "b").backward);
     CHECK_FALSE(report::comparison_pictures(b, b, "a", "b").backward);
     const std::string text = report::to_markdown(d, "a|b.ply", "b.ply");
     CHECK(
         text.starts_with("## a\\|b.ply and b.ply\n\n**differ in counts, geometry; the surfaces are up to "));
-    CHECK(text.find("| differs | faces | 320 | 1280 |  |\n") != std::string::npos);
+    CHECK(text.find("| differs | faces | 320 | 1,280 |  |\n") != std::string::npos);
     CHECK(text.find("| noted | deviation rms |") != std::string::npos); // it has no limit
     CHECK(text.find("| same | reversed |") != std::string::npos);
+    CHECK(text.find("<details><summary>Line by line</summary>") < text.find("| differs | faces |"));
+    // Percentages are of one length, wherever distances are from.
+    CHECK(pictures.backward->diagonal == pictures.forward->diagonal);
+    CHECK(page.find("Percentages are of the diagonal of the second") == std::string::npos);
+    // Of points nobody says surfaces.
+    const auto points = [](const char* name, double x) {
+        Scene scene = scene_called(Mesh{});
+        scene.parts[0].name = name;
+        scene.parts[0].mesh.positions = {{x, 0, 0}, {x + 1, 1, 0}};
+        return scene;
+    };
+    const Comparison clouds = report::compare(points("a", 0), points("b", 0.5));
+    CHECK(report::to_markdown(clouds, "a", "b").find("; the points are up to ") != std::string::npos);
 }
 
 TEST_CASE("lines of other materials differ", "[report]") {

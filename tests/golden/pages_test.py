@@ -134,6 +134,14 @@ class Pages(Case):
                 missing = [n for n in numbers(terminal) if n not in there]
                 self.assertEqual(missing, [], f"{line}\n{terminal}")
 
+    def test_the_page_of_a_comparison_has_every_number_of_the_terminal(self):
+        self.write("o.off", CLOSED)
+        self.mill("pipe", "load", "o.off", "!", "split", "!", "crumple", "5%", "!", "write", "p.off")
+        run = self.mill("diff", "o.off", "p.off", "--html", "d.html", "--markdown", "d.md", expect=1)
+        self.assertGreater(len(numbers(run.stdout)), 30)
+        for text in (shown((self.dir / "d.html").read_text()), (self.dir / "d.md").read_text()):
+            self.assertEqual([n for n in numbers(run.stdout) if n not in set(numbers(text))], [])
+
     def test_what_closes_a_cut_is_no_deviation(self):
         page, _ = self.report(*"generate icosphere --subdivisions 4 ! clip z=0 --cap ! write half.ply".split())
         text = " ".join(shown(page).split())
@@ -147,6 +155,12 @@ class Pages(Case):
         text = shown(page)
         self.assertNotRegex(text, r"\(caps\)|without caps")  # the scene that it is compared with has the ball's surface
         self.assertLess(float(re.search(r"deviation\s+([\d.e-]+) % of the diagonal", text)[1]), 1e-9)
+        self.assertNotIn('"cap":true', page)
+        # Nor where it is of several, whose faces have the numbers of their groups.
+        page, _ = self.report(*"generate cube ! generate icosphere ! generate icosphere --name second ! transform --only icosphere"
+                               " --scale 1.25 ! transform --only second --translate 1,1,1 ! combine union --only icosphere,second !"
+                               " combine difference --with icosphere ! write drilled.ply".split())
+        self.assertNotRegex(shown(page), r"\(caps\)|without caps")
         self.assertNotIn('"cap":true', page)
 
     def test_distances_are_those_in_the_pose_that_is_seen(self):
@@ -460,6 +474,8 @@ class Pages(Case):
         self.write("b/little.off", "OFF\nbroken")
         run = self.mill("diff", "a", "b", "--report", "i.html", expect=6)
         self.assertIn("failed   little.off", run.stdout)
+        row = re.search(r"<tr>.*little\.off.*</tr>", (self.dir / "i.html").read_text())[0]
+        self.assertEqual(row.count('<td class="number"></td>'), 3, row)  # nothing is known of it, not even that it has no faces
         self.assertIn("little.off", (self.dir / "i.html").read_text())
         self.mill("diff", "a", "a/same.off", expect=2)
         self.mill("diff", "a", "nowhere", expect=None)
@@ -490,6 +506,45 @@ class Pages(Case):
                       r"verdict\s+\d+ of \d+ sound", r"of geometry"):
             self.assertRegex(text, words)
         self.assertIn("| removed | left |", (self.dir / "d.md").read_text())
+
+    def test_a_comparison_says_how_a_material_differs(self):
+        self.mill("pipe", "generate", "icosphere", "!", "write", "a.gltf")
+        scene = json.loads((self.dir / "a.gltf").read_text())
+        scene["meshes"][0]["primitives"][0]["material"] = 0
+        for name, colour, roughness, image in (("a", [0, 0, 0], 0.5, png(1, 2, 3)), ("b", [1, 0, 0], 0.25, png(4, 5, 6))):
+            (self.dir / f"{name}.png").write_bytes(image)
+            scene.update(images=[{"uri": f"{name}.png"}], textures=[{"source": 0}],
+                         materials=[{"name": "paint", "emissiveFactor": colour, "normalTexture": {"index": 0},
+                                     "pbrMetallicRoughness": {"roughnessFactor": roughness, "metallicFactor": 0}}])
+            self.write(f"{name}.gltf", json.dumps(scene))
+        run = self.mill("diff", "a.gltf", "b.gltf", "--html", "d.html", "--markdown", "d.md", expect=1)
+        digests = re.findall(r"0/normalTexture/index/source +([0-9a-f]{12}\.\.\.) +([0-9a-f]{12}\.\.\.) ", run.stdout)
+        self.assertEqual(len(digests), 1, run.stdout)
+        for name in ("d.html", "d.md"):
+            text = (self.dir / name).read_text()
+            self.assertIn("other emissiveFactor, normalTexture, roughnessFactor", text)
+            self.assertIn(digests[0][0], text)
+            self.assertNotRegex(text, r"\b[0-9a-f]{64}\b")
+
+    def test_markdown_has_bytes_and_the_deviation_of_the_page(self):
+        line = ["generate", "icosphere", "--subdivisions", "4", "!", "simplify", "25%", "!", "write", "small.glb"]
+        page, _ = self.report(*line)
+        self.mill("pipe", "-q", "--report", "alone.md", *line)
+        self.mill("pipe", "-q", "--report", "beside.md", "--report", "beside.html", *line)
+        text = (self.dir / "alone.md").read_text()
+        deviation = re.search(r"\nDeviation: (\S+) % of the diagonal, from the scene as loaded\n", text)
+        self.assertGreater(float(deviation[1]), 0.1)
+        self.assertRegex(" ".join(shown(page).split()), rf"deviation {deviation[1]} % of the diagonal, from")
+        self.assertIn(f"Deviation: {deviation[1]} %", (self.dir / "beside.md").read_text())
+        self.assertIn("| faces | 5,120 | 1,280 | 25 % |\n", text)
+        size = (self.dir / "small.glb").stat().st_size
+        self.assertIn(f"| bytes | 0 bytes | {size / 1000:.1f} kB | - |\n", text)
+        self.assertRegex(text, r"\| of geometry \| 0 bytes \| [\d.]+ kB \| - \|\n\| of JSON \|")
+        # The scene as loaded is taken from the cache, too.
+        cached = {"FACETMILL_CACHE": str(self.dir / "cache")}
+        for _ in range(2):
+            self.mill("pipe", "-q", "--cache", "--report", "cached.md", *line, env=cached)
+            self.assertEqual((self.dir / "cached.md").read_text(), text)
 
     def test_diff_names_its_reports_by_kind(self):
         self.write("a.off", OPEN)

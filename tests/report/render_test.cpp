@@ -264,6 +264,8 @@ TEST_CASE("Markdown for the description of a change", "[report]") {
     CHECK(to_markdown(full_record()) ==
           "## p.yaml\n\nMills &lt;cubes&gt; &amp; more\n\n"
           "**failed with exit code 4**, 2 of 4 checks passed\n\n"
+          "### At a glance\n\n|  | inputs | outputs | share |\n| --- | --- | --- | --- |\n"
+          "| faces | 12 | 12 | 100 % |\n| bytes | 1.2 kB | 56.8 kB | 4,600 % |\n\n"
           "### Errors and warnings\n\n"
           "| kind | id | message | hint |\n| --- | --- | --- | --- |\n"
           "| error | E-WRITE | the disk is full | make room |\n"
