@@ -213,7 +213,7 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     inner.keep = Keep::front;
     inner.convex = false;
     inner.triangulate = false;
-    const double snap = settings.snap ? float32_ulp(mesh.bounds()) : 0;
+    const double snap = settings.snap ? float32_rounding(mesh) : 0;
     const FlatSide flat = flat_side(mesh, settings);
     std::vector<std::uint8_t> inside(mesh.face_count(), 1);
     for (const Plane& plane : settings.planes) {
@@ -252,7 +252,7 @@ class Clipper {
 
     ClipResult run(Mesh mesh) {
         result_.memory = settings_.memory;
-        if (settings_.snap) snap_ = float32_ulp(mesh.bounds());
+        if (settings_.snap) snap_ = float32_rounding(mesh);
         if (settings_.cap && settings_.cap_numbers) {
             last_cut_ = largest_number(mesh, cut_id_attribute);
             last_group_ = largest_number(mesh, group_attribute);

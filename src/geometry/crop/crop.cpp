@@ -56,7 +56,7 @@ class Cropper {
         double scale = 0;
         for (const auto& row : settings_.to_world.m)
             scale += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-        view_.snap = float32_ulp(mesh_.bounds()) * std::sqrt(scale / 3);
+        view_.snap = float32_rounding(mesh_) * std::sqrt(scale / 3);
         for (const auto& e : footprint_.tree().edges())
             if (length(e.b - e.a) <= 4 * view_.snap) {
                 view_.snap = 0; // finer than floats are

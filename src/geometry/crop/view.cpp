@@ -92,10 +92,14 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
     // Points of the cut, and what stands in doubles: 64 units in their last place.
     const double rounding = std::ldexp(snap, -23);
     const auto corners = mesh.face_wedges(f);
-    for (std::size_t i = 0; i < face.size(); ++i)
-        if (!on(face[i], is_float32(mesh.positions[mesh.vertex_of_wedge(corners[i])]) ? snap : rounding))
-            return false;
-    return true;
+    double widest = rounding;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+        const bool rounded = is_float32(mesh.positions[mesh.vertex_of_wedge(corners[i])]);
+        if (!on(face[i], rounded ? snap : rounding)) return false;
+        if (rounded) widest = snap;
+    }
+    return on(mean,
+              widest); // a corner of the outline in a face has three points on it and a mean that is not
 }
 
 Place CropView::settle(Place place, const Mesh& mesh, Index f) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <set>
 
 namespace facetmill {
 
@@ -252,6 +253,22 @@ bool is_closed(const Mesh& mesh) {
         if (balance != 0) return false;
     }
     return true;
+}
+
+double float32_rounding(const Mesh& mesh) {
+    const double ulp = float32_ulp(mesh.bounds());
+    // Of rounded numbers half are odd multiples of it: that none of so many is happens by 2^-24.
+    constexpr std::size_t enough = 24;
+    std::set<double> even;
+    for (const Vec3& p : mesh.positions) {
+        if (!is_float32(p)) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (std::fabs(p[i]) < std::ldexp(ulp, 23)) continue; // its floats are less far apart
+            if (std::fmod(p[i], 2 * ulp) != 0) return ulp;
+            if (even.size() < enough) even.insert(p[i]);
+        }
+    }
+    return even.size() < enough ? ulp : 0;
 }
 
 double float32_ulp(const Box& bounds) {

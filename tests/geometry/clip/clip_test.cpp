@@ -319,6 +319,22 @@ TEST_CASE("skin weights sum to one after a cut, of no more joints than before", 
     CHECK(mixed > 100);
 }
 
+TEST_CASE("numbers that no rounding has made are not snapped, however far apart floats are there",
+          "[geometry]") {
+    Mesh strip; // of whole metres in UTM, where floats are half a metre apart
+    for (Index i = 0; i < 40; ++i) {
+        strip.positions.push_back({0, 5400000.0 + 2.0 * i, 0});
+        strip.positions.push_back({2, 5400000.0 + 2.0 * i, 0});
+    }
+    for (Index i = 0; i + 3 < strip.positions.size(); i += 2)
+        for (const Index v : {i, i + 1, i + 3, i, i + 3, i + 2}) strip.corners.push_back(v);
+    ClipSettings settings = at_plane({{0, 1, 0}, {0, 5400010.3, 0}, 0});
+    settings.snap = true;
+    const ClipResult cut = clip(strip, settings);
+    CHECK(cut.snapped == 0);
+    CHECK(cut.front.bounds().min.y == 5400010.3);
+}
+
 TEST_CASE("a plane through computed vertices cuts no slivers off at them", "[geometry]") {
     const Mesh grid = computed_grid(10);
     ClipSettings settings = at_plane({{1, 1, 0}, {0.2, 0, 0}, 0});

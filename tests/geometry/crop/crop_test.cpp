@@ -405,6 +405,43 @@ TEST_CASE("a convex prism cropped by its own outline is all inside", "[geometry]
     }
 }
 
+TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
+    // A raster of 2 m; floats are half a metre apart so far from the origin.
+    constexpr Index side = 41;
+    const Vec3 corner{450000, 5400000, 0};
+    const Rings outline{
+        {{450001.3, 5400003.7}, {450070.1, 5400010.2}, {450062.5, 5400065.5}, {450010.2, 5400060.9}}};
+    const double wanted =
+        0.5 * std::fabs(cross(outline[0][2] - outline[0][0], outline[0][3] - outline[0][1]));
+    for (const double height : {0.0, 1.0 / 3}) { // all floats, and none
+        INFO(height);
+        Mesh terrain;
+        for (Index i = 0; i < side * side; ++i)
+            terrain.positions.push_back(corner + Vec3{2.0 * (i / side), 2.0 * (i % side), height});
+        for (Index x = 0; x + 1 < side; ++x)
+            for (Index y = 0; y + 1 < side; ++y) {
+                const Index a = x * side + y, b = a + side;
+                for (const Index v : {a, b, b + 1, a, b + 1, a + 1}) terrain.corners.push_back(v);
+            }
+        CropSettings settings;
+        settings.snap = true;
+        const CropResult in = crop(terrain, Footprint(outline), settings);
+        CHECK(in.snapped == 0);
+        CHECK(std::fabs(test::area(in.mesh) - wanted) < 1e-5);
+        settings.keep = polygon::Keep::outside;
+        const double all = 4.0 * (side - 1) * (side - 1);
+        CHECK(std::fabs(test::area(crop(terrain, Footprint(outline), settings).mesh) - (all - wanted)) <
+              1e-5);
+    }
+    // Half metres are what floats there come to, so they may have been others.
+    Mesh rounded = shapes::cube();
+    for (Vec3& p : rounded.positions) p = p * 10.5 + corner;
+    CropSettings settings;
+    settings.snap = true;
+    const Rings beside{{{449990, 5399990}, {450010.7, 5399990}, {450010.7, 5400030}, {449990, 5400030}}};
+    CHECK(crop(rounded, Footprint(beside), settings).snapped == 4);
+}
+
 TEST_CASE("positions in doubles are not snapped", "[geometry]") {
     Mesh cube = shapes::cube(); // reaches to 0.1, which is no float
     for (Vec3& p : cube.positions) p = p * 0.1;
