@@ -14,7 +14,8 @@ std::string make_escaped(const std::string& path, bool target) {
     for (const char c : path) {
         if (c == '\n' || c == '\r')
             throw Error(ErrorKind::output, "E-DEPFILE",
-                        "a depfile cannot name a path with a line break: " + path);
+                        "a depfile cannot name a path with a line break: " + path,
+                        "rename the file: neither Make nor Ninja can spell it");
         // A colon would end the targets, and a % among them make a pattern. Backslashes before one of these
         // would escape it, so they are doubled; elsewhere they are plain.
         if (c == ' ' || c == '#' || c == '\t' || c == ':' || (c == '%' && target))
@@ -97,6 +98,13 @@ void make_newer_than_folders(const report::RunRecord& record, std::optional<fs::
 }
 
 } // namespace
+
+void require_spellable(const std::string& target, const pipeline::Plan& plan) {
+    if (!target.empty()) make_escaped(target, true);
+    const auto outputs = pipeline::planned_outputs(plan);
+    if (target.empty() && !outputs.empty()) make_escaped(outputs.front().string(), true);
+    for (const auto& file : pipeline::planned_inputs(plan)) make_escaped(file.string(), false);
+}
 
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
                    const pipeline::Plan& plan, const report::RunRecord& record,

@@ -12,6 +12,10 @@ std::string make_escaped(const std::string& path, bool target);
 /// "target: inputs", and an empty rule for each input, so that Make does not stop when one is deleted.
 std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);
 
+/// Throws as make_escaped for the target, or what would be it, and for what the plan reads: before a run that
+/// a rule is wanted of.
+void require_spellable(const std::string& target, const pipeline::Plan& plan);
+
 /// The rule of a run whose record names outputs and reports as they are found from here. Its target is the
 /// one given, since Ninja knows only one; empty: the first mesh that was written, else the first output, the
 /// first report, or the depfile itself. It depends on the pipeline's file, unless that is empty, on all that

@@ -390,6 +390,7 @@ void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions&
 
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
                       const std::string& pipeline_file, std::vector<std::filesystem::path>* written) {
+    if (!options.depfile.empty()) require_spellable(options.depfile_target, plan);
     set_threads(options.threads);
     const auto progress = console.progress();
     pipeline::RunSettings settings;

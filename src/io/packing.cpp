@@ -211,6 +211,12 @@ Packing packing_named(const std::filesystem::path& path) {
     return Packing::none;
 }
 
+std::string stem_of_neighbours(const std::filesystem::path& output) {
+    std::string stem = without_packing(output).stem().string();
+    std::replace(stem.begin(), stem.end(), '\\', '_');
+    return stem;
+}
+
 std::filesystem::path without_packing(const std::filesystem::path& path) {
     return packing_named(path) == Packing::none ? path : path.parent_path() / path.stem();
 }

@@ -15,6 +15,9 @@ Packing packing_of(Span bytes);
 Packing packing_named(const std::filesystem::path& path);
 /// The path without .gz or .zst.
 std::filesystem::path without_packing(const std::filesystem::path& path);
+/// What the names of files beside an output begin with (.bin, .mtl, images): its stem, in which a backslash,
+/// which readers take for a slash, is _.
+std::string stem_of_neighbours(const std::filesystem::path& output);
 
 /// How many bytes a compressed file of that size may hold: 64 MiB, or 200 times its size when that is more.
 /// Meshes as text come to 50 times at most; deflate can do 1032, which nothing but a bomb does.

@@ -281,8 +281,9 @@ std::optional<Diagnostic> without_effect(const Plan& plan) {
 }
 
 Diagnostic about_input(const std::vector<fs::path>& inputs, Diagnostic diagnostic) {
+    const std::string place = diagnostic.where.known() ? diagnostic.where.source->name : "";
     const auto is_named = [&](const fs::path& input) {
-        return diagnostic.message.find(input.string()) != std::string::npos;
+        return diagnostic.message.find(input.string()) != std::string::npos || place == input.string();
     };
     if (inputs.empty() || std::any_of(inputs.begin(), inputs.end(), is_named)) return diagnostic;
     const std::string first = inputs.front() == "-" ? "standard input" : inputs.front().string();

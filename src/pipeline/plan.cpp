@@ -125,6 +125,7 @@ std::vector<std::string> read_reports(const Value* report, const Scope& scope, c
             report::form_of(path);
         } catch (Error& e) {
             problems.add(e.at(where));
+            return; // that problem would be met again where the plan's reports tell of it
         }
         const fs::path target = settings.places.output(path);
         for (const auto& known : reports) // asked for in the pipeline and on the command line: once is enough

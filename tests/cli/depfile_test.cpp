@@ -21,6 +21,14 @@ TEST_CASE("names in a depfile are escaped as Make wants it", "[cli]") {
     }
 }
 
+TEST_CASE("what a depfile cannot spell is refused before the run", "[cli]") {
+    pipeline::Plan plan;
+    CHECK_NOTHROW(require_spellable("a.glb", plan));
+    CHECK_THROWS_AS(require_spellable("two\nlines.glb", plan), Error);
+    plan.others.push_back({"two\nlines.yaml", {}, false, {}, true}); // an include
+    CHECK_THROWS_AS(require_spellable("a.glb", plan), Error);
+}
+
 TEST_CASE("a percent sign makes no pattern", "[cli]") {
     CHECK(depfile_text("o-50%.glb", {"50%.stl"}) == "o-50\\%.glb: \\\n  50%.stl\n");
 }

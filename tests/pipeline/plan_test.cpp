@@ -587,6 +587,11 @@ TEST_CASE("a diagnostic names the input unless it does already", "[pipeline]") {
     CHECK(told(stages("  - test-load: b.ply\n"), "flat") == "a.ply and 1 more: flat");
     CHECK(told(stages("  - test-load: b.ply\n"), "b.ply: flat") == "b.ply: flat");
     CHECK(told("facetmill: 1\nstages: [{test-load: \"-\"}]\n", "flat") == "standard input: flat");
+    const auto placed = [](const std::string& file) {
+        return pipeline::about_input({"scan"}, {Severity::error, "E-X", "flat", file_mark(file), {}}).message;
+    };
+    CHECK(placed("scan") == "flat");
+    CHECK(placed("scan.yaml") == "scan: flat");
 }
 
 namespace {

@@ -164,10 +164,12 @@ TEST_CASE("ensure is checked right after its stage, and a failure keeps all outp
     const auto record = ground.run("  - test-load: a.ply\n  - test-write: b.txt\n  - test-cut: 5\n    "
                                    "ensure: {closed: true, faces: {max: 5}}\n  - test-write: c.txt\n");
     CHECK(record.exit_code == 1);
-    CHECK(errors_of(record) == "p.yaml:6:22: error[E-CHECK]: 'closed' must be true, found false\n"
-                               "      ensure: {closed: true, faces: {max: 5}}\n"
-                               "                       ^~~~\n"
-                               "  hint: clean: {holes: minimal} fills holes, orient makes faces consistent");
+    CHECK(errors_of(record) ==
+          "p.yaml:6:22: error[E-CHECK]: 'closed' must be true, found false\n"
+          "      ensure: {closed: true, faces: {max: 5}}\n"
+          "                       ^~~~\n"
+          "  hint: clean: {weld: near, tolerance: 0.0001%} joins corners that differ by rounding, "
+          "clean: {holes: minimal} fills holes, orient makes faces consistent");
     CHECK(record.checks.size() == 2);
     CHECK(record.outputs.empty());
     CHECK(ran(record) == "test-load test-write test-cut");

@@ -156,3 +156,10 @@ TEST_CASE("attributes that 3MF has no place for are said", "[stages]") {
     CHECK(warnings_of(scene, (dir / "a.3mf").string()) ==
           "W-ATTRIBUTE 3MF has no place for attributes: _heat (glTF keeps them: write .glb)\n");
 }
+
+TEST_CASE("a backslash in the name of a file is none in the names beside it", "[stages]") {
+    const TemporaryDirectory dir;
+    const Scene scene = test::scene_in_metres(shapes::cube());
+    const std::string path = (dir / "back\\slash.gltf").string();
+    CHECK(warnings_of(scene, "{path: '" + path + "'}").empty()); // read back, with its buffer
+}

@@ -47,7 +47,9 @@ std::vector<std::string_view> up_words() {
 }
 
 constexpr const char* fewer_or_more = "simplify reduces their number, split increases it";
-constexpr const char* fills_holes = "clean: {holes: minimal} fills holes, orient makes faces consistent";
+constexpr const char* fills_holes = "clean: {weld: near, tolerance: 0.0001%} joins corners that differ by "
+                                    "rounding, clean: {holes: minimal} fills "
+                                    "holes, orient makes faces consistent";
 constexpr const char* non_manifold_hint = "clean separates them (non_manifold)";
 constexpr const char* clean_removes = "clean removes them";
 constexpr const char* untangles = "clean: {self_intersections: all} unites or replaces intersecting faces";
@@ -197,7 +199,13 @@ constexpr Property table[] = {
      .member = &P::touching,
      .costly = true,
      .locations = touching_pairs},
-    {.name = "area", .kind = Kind::area, .help = "Surface area.", .hint = cuts_to_size, .member = &P::area},
+    {.name = "area",
+     .kind = Kind::area,
+     .help =
+         "Surface area. A face that is not planar counts as it is seen along its normal; triangulate makes "
+         "more of it.",
+     .hint = cuts_to_size,
+     .member = &P::area},
     {.name = "volume",
      .kind = Kind::volume,
      .join = Join::sum_if_all,

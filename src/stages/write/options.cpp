@@ -195,7 +195,7 @@ bool is_tileset_name(const std::string& path) {
 
 /// The file's name without suffix, .gz and .zst.
 std::string title_of(const std::filesystem::path& target) {
-    return target == "-" ? "mesh" : io::without_packing(target).stem().string();
+    return target == "-" ? "mesh" : io::stem_of_neighbours(target);
 }
 
 } // namespace
