@@ -54,6 +54,7 @@ struct Settings {
     bool prune = false;       ///< outputs go whose source is gone
     bool pictures = false;    ///< outcomes have pictures
     bool check_invariants = false;
+    bool rehearse = false;            ///< outputs of works are those of pipeline::rehearsed_headers
     bool sync = true;                 ///< as io::CommitSettings
     std::vector<std::string> strict;  ///< as RunSettings
     std::vector<std::string> allowed; ///< as Plan: here for what the batch itself warns of

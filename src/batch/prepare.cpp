@@ -8,6 +8,7 @@
 #include "io/output_files.hpp"
 #include "io/packing.hpp"
 #include "pipeline/document.hpp"
+#include "pipeline/rehearsal.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -175,7 +176,8 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
             if (d.severity == Severity::error) problems.add(d.where, d.id, d.message, d.hint);
         if (of_asset.any_errors()) continue;
         out.allowed = plan.allowed; // the same for all
-        const auto headers = pipeline::read_headers(plan);
+        const auto headers =
+            settings.rehearse ? pipeline::rehearsed_headers(plan) : pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
         if (auto missing = pipeline::missing_inputs(plan); !missing.empty()) {
             const auto inputs = pipeline::inputs_of_steps(plan);

@@ -168,6 +168,7 @@ int export_work(ExportOptions& options, const CommandLine& line, const Console& 
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings;
     set_planner(settings, options, of_all);
+    settings.rehearse = true; // a job that lacks a declared file is never done
     confine({.read_all = true}, options.common.sandbox, console);
     if (!options.common.kept_cells.empty()) {
         const auto jobs = cell_jobs(options, line, of_all, problems);

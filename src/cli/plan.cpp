@@ -1,6 +1,7 @@
 // facetmill plan: everything resolved, nothing run.
 
 #include "cli/pipeline_options.hpp"
+#include "pipeline/rehearsal.hpp"
 
 #include <fmt/format.h>
 
@@ -31,8 +32,11 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     const auto plan = plan_of(options.pipeline, plan_settings(options.common, line, problems), problems);
     settle(problems, console);
     const bool files_only = options.inputs || options.outputs;
+    start_programs(plan);
     confine({.read_all = true}, options.common.sandbox, console);
-    const auto headers = pipeline::read_headers(plan);
+    // The names of what is read alone need no stage to run.
+    const auto headers =
+        options.inputs && !options.outputs ? pipeline::read_headers(plan) : pipeline::rehearsed_headers(plan);
     if (!files_only) settle(pipeline::input_errors(plan, headers)); // names are known all the same
     if (const auto warning = pipeline::without_effect(plan); warning && !files_only)
         console.diagnostic(*warning);

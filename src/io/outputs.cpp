@@ -170,6 +170,7 @@ const Outputs::File& Outputs::add(const fs::path& target, const std::function<vo
     const fs::path self = identity(file->resolved);
     if (inputs_.contains(self)) refuse_input(target, where);
     if (by_identity_.contains(self)) refuse_twice(target);
+    if (settings_.names_only) return hold(std::move(file), self);
     make_place(*file);
     Sha256 sum;
     stage(*file, [&](const Put& put) {
@@ -200,6 +201,7 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
         if (!stream && other.bytes == file->bytes && other.sha256 == file->sha256) return other;
         refuse_twice(target);
     }
+    if (settings_.names_only) return hold(std::move(file), self);
     if (stream) {
         file->stream.assign(bytes.begin(), bytes.end());
     } else if (!file->is_input) {

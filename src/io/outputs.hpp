@@ -15,7 +15,8 @@ struct CleanUp; // what a signal must undo; see io/clean_up.hpp
 
 struct CommitSettings {
     bool keep_unchanged = false; ///< a file that has the bytes already is left alone, with its time
-    bool sync = true; ///< the bytes are on the disk before a file gets its name, and names at the end
+    bool sync = true;        ///< the bytes are on the disk before a file gets its name, and names at the end
+    bool names_only = false; ///< nothing is written, and there is no commit: which files there would be
 };
 
 /// The outputs of a run.

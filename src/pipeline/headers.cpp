@@ -108,6 +108,7 @@ class Walk {
             if (step.when && step.when->known == false) continue;
             for (const auto& arm : step.arms) steps(*arm.steps, unit);
             if (!step.stage || !step.options) continue;
+            images_changed_ |= step.stage->changes_images;
             try {
                 add_written(step);
             } catch (Error& error) { // an input that can no longer be read
@@ -170,9 +171,10 @@ class Walk {
         const bool library = all && std::any_of(loaded_.begin(), loaded_.end(), has_materials);
         if (library) headers.more_outputs.push_back(places_.output(files.materials->text));
         if (!files.images || (all && !library)) return;
+        headers.images_change |= images_changed_;
         const fs::path path = files.images->text;
         // What names its images in a library has all of them as files.
-        io::ImageNames names(io::without_packing(path).stem().string(),
+        io::ImageNames names(io::stem_of_neighbours(path),
                              all ? io::ImageNames::Spelling::plain : io::ImageNames::Spelling::kept);
         std::map<std::string, std::pair<fs::path, bool>>
             copies; // by digest: its name, and whether it is written
@@ -254,7 +256,7 @@ class Walk {
     const Places& places_;
     std::vector<Loaded> loaded_;
     std::set<std::string> known_; ///< paths of headers.inputs
-    bool any_loaded_ = false;
+    bool any_loaded_ = false, images_changed_ = false;
 };
 
 } // namespace

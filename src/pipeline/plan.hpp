@@ -141,6 +141,9 @@ struct Headers {
     /// Files beside inputs that are read, too (.bin, .mtl, images), there or not; and files beside outputs
     /// that are written, too (images, a .mtl).
     std::vector<std::filesystem::path> more_inputs, more_outputs;
+    /// A stage before a write that puts images into files changes them: more_outputs are those that there
+    /// would be without it (see pipeline/rehearsal.hpp).
+    bool images_change = false;
     std::vector<Error> errors; ///< in the order of the plan
     struct Lengths {
         Unit unit = Unit::unknown; ///< the scene's
@@ -152,7 +155,8 @@ struct Headers {
 
 /// Reads the headers of those inputs that exist: files that no stage could load (as their load would throw),
 /// and units (E-UNIT, usage) of lengths and of a stage's option `unit` where what was loaded first has none.
-/// Streams and compressed files wait for the run, since they would have to be read whole.
+/// Streams and compressed files wait for the run, since they would have to be read whole. Which images are
+/// written where a stage changes them is not known (images_change).
 Headers read_headers(const Plan& plan);
 /// What is wrong with the inputs before anything runs: an E-FILE for every pattern that matches nothing,
 /// since what it stands for is not known before it is there, and the errors of the headers.
@@ -169,8 +173,8 @@ std::vector<std::filesystem::path> planned_patterns(const Plan& plan);
 /// W-NOTHING, at the last stage, when nothing would be left of a run: no file, no check that can fail, no
 /// report.
 std::optional<Diagnostic> without_effect(const Plan& plan);
-/// The diagnostic with the first of a plan's inputs in its message ("scan.ply: ..."), unless it names one
-/// already: in a log of many runs it says which asset it is about.
+/// The diagnostic with the first of a plan's inputs in its message ("scan.ply: ..."), unless it, or its
+/// place, names one already: in a log of many runs it says which asset it is about.
 Diagnostic about_input(const std::vector<std::filesystem::path>& inputs, Diagnostic diagnostic);
 /// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
 /// and as JSON.

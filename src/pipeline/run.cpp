@@ -112,7 +112,7 @@ class Runner {
         const Headers headers = read_headers(plan_);
         for (const auto& error : headers.errors) failures_.add(error);
         if (settings_.cells.job) return run_job(watch);
-        try_outputs(headers);
+        if (!settings_.commit.names_only) try_outputs(headers);
         Flow flow;
         const bool small = !failures_.any() && run_on_cells(flow);
         if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
@@ -637,7 +637,7 @@ class Runner {
         if (!failures_.any() && failures_.guarded({}, "writing the outputs", [&] {
                 if (settings_.on_output)
                     for (const auto& file : state_.outputs.files()) settings_.on_output(*file);
-                state_.outputs.commit();
+                if (!settings_.commit.names_only) state_.outputs.commit();
             }))
             return;
         state_.outputs.discard();

@@ -60,6 +60,7 @@ struct StageInfo {
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
     bool tells = false;  ///< something is left of it beside the scene: a file, or lines on the terminal
     bool moves = false;  ///< it may move the scene as a whole: distances from before it tell nothing
+    bool changes_images = false;     ///< it makes, drops or renames images that a write may put into files
     bool measures_deviation = false; ///< it tells how far it moved the surface
     LinesPolicy lines = LinesPolicy::leave;
     bool loads = false;                ///< it adds to the scene rather than working on it (may come first)

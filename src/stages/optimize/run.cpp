@@ -523,6 +523,7 @@ const RegisterStage registered = make_stage<OptimizeOptions>(
      .details = help::optimize::details,
      .examples = {"optimize", "optimize: {join: false}", "optimize: {keep_names: true}",
                   "optimize: {palette: true, drop_attributes: true}", "optimize: {instance: true}"},
+     .changes_images = true,
      .lines = LinesPolicy::pass},
     declare, declare_report, run);
 

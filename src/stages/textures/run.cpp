@@ -215,6 +215,7 @@ const RegisterStage registered = make_stage<TexturesOptions>(
      .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",
                   "textures: {format: webp, normals: {lossless: true}}", "textures: {repack: true}",
                   "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"},
+     .changes_images = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all}, // it touches no mesh: nothing is to be compared
     declare_textures, declare_report, run, {.verify = verify_textures});
