@@ -76,7 +76,10 @@ class Meetings {
         std::vector<PlaneGroup> all;
         for (auto& [set, g] : by_set) {
             std::sort(g.segments.begin(), g.segments.end());
-            g.segments.erase(std::unique(g.segments.begin(), g.segments.end()), g.segments.end());
+            const auto is_same = [](const Segment& a, const Segment& b) {
+                return a.from == b.from && a.to == b.to;
+            };
+            g.segments.erase(std::unique(g.segments.begin(), g.segments.end(), is_same), g.segments.end());
             all.push_back(std::move(g));
         }
         return all;
@@ -192,9 +195,9 @@ class Meetings {
             found.push_back(end.is_corner() ? end.low : known_.find(end.key())->second);
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
-        for (const Index k : {i, j}) {
+        for (const auto& [k, other] : {std::pair{i, j}, std::pair{j, i}}) {
             if (found.size() == 1) points_[k].push_back(found[0]);
-            if (found.size() == 2) segments_[k].emplace_back(found[0], found[1]);
+            if (found.size() == 2) segments_[k].push_back({found[0], found[1], soup_.cut[other]});
         }
     }
 
@@ -203,7 +206,7 @@ class Meetings {
     std::vector<Index> place_of_; ///< of triangles in cut
     DisjointSets sets_;           ///< of one plane; by place in cut, as are:
     std::vector<std::vector<Index>> points_;
-    std::vector<std::vector<std::pair<Index, Index>>> segments_;
+    std::vector<std::vector<Segment>> segments_;
     std::vector<std::uint8_t> flat_; ///< without area
     std::map<std::tuple<Index, Index, Index>, Index> known_;
 };
@@ -211,7 +214,8 @@ class Meetings {
 /// At most how often lines could cross in the group: pairs of boxes that meet, counted up to a limit.
 std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes,
                                std::size_t limit) {
-    auto lines = group.segments;
+    std::vector<std::pair<Index, Index>> lines;
+    for (const Segment& s : group.segments) lines.emplace_back(s.from, s.to);
     if (group.triangles.size() > 1)
         for (const Index t : group.triangles)
             for (std::size_t i = 0; i < 3; ++i)
@@ -241,9 +245,6 @@ double half_area(const Box& box) {
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-/// More than these take longer than a minute or so.
-constexpr std::size_t max_pairs = 1'000'000, max_crossings = 2'000'000;
-
 } // namespace
 
 struct Arrangement::Own {
@@ -263,21 +264,21 @@ struct Arrangement::Own {
     Box bounds;
 
     void cut() {
-        if (soup.pairs.size() > max_pairs) {
+        if (soup.pairs.size() > soup.max_pairs) {
             overfull = most_met();
             return;
         }
         const auto groups = Meetings(soup, nodes).groups();
         std::size_t possible = 0, worst = 0;
         for (const PlaneGroup& g : groups) {
-            const std::size_t count = possible_crossings(soup, g, nodes, max_crossings);
+            const std::size_t count = possible_crossings(soup, g, nodes, soup.max_crossings);
             if (count > worst) {
                 worst = count;
                 overfull = g.triangles.front();
             }
             possible += count;
         }
-        if (possible > max_crossings) return;
+        if (possible > soup.max_crossings) return;
         overfull.reset();
         cut_in_planes(soup, groups, nodes, pieces, sides);
     }

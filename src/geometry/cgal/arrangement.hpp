@@ -18,6 +18,8 @@ struct TriangleSoup {
     std::vector<std::array<Index, 3>> triangles; ///< into points
     std::vector<Index> cut;                      ///< triangles, ascending
     std::vector<std::pair<Index, Index>> pairs;  ///< of those, that may meet elsewhere than in shared points
+    /// As many pairs, and crossings of lines in a plane, are worth trying.
+    std::size_t max_pairs = 1'000'000, max_crossings = 2'000'000;
 };
 
 /// After Q. Zhou, E. Grinspun, D. Zorin and A. Jacobson, "Mesh arrangements for solid geometry" (2016). The
@@ -40,8 +42,8 @@ class Arrangement {
     explicit Arrangement(TriangleSoup soup);
     ~Arrangement();
 
-    /// A triangle where the most meet, if triangles meet, or lines in a plane could cross, more often than is
-    /// worth trying: nothing was cut.
+    /// A triangle where the most meet, if triangles meet, or lines in a plane could cross, more often than
+    /// the soup allows: nothing was cut.
     std::optional<Index> overfull() const;
     /// The pieces of the triangles to be cut, none twice; deterministic.
     const std::vector<Piece>& pieces() const;

@@ -2,7 +2,8 @@
 
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
-#include "geometry/polygon/certain_delaunay.hpp"
+#include "geometry/intersect/plane_crossing.hpp"
+#include "geometry/polygon/certain_triangulation.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
@@ -82,25 +83,36 @@ class Frame {
 using Pieces = std::vector<Arrangement::Piece>;
 using SideList = std::vector<std::pair<std::pair<Index, Index>, int>>;
 
-/// Cuts a group that is one triangle as Cutter would, by floating point alone. False where that is not sure
-/// to come to the same.
+/// Cuts a group that is one triangle by floating point alone, in the steps of Cutter.
 class QuickCutter {
   public:
     QuickCutter(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes)
         : group_(group), nodes_(nodes), triangle_(group.triangles.front()),
           corners_(soup.triangles[triangle_]) {}
 
-    bool run(Pieces& pieces, SideList& sides) {
+    /// The first; false where that is not sure to be right.
+    bool triangulate() {
         if (group_.triangles.size() != 1 || !choose_view()) return false;
         for (const Index n : corners_) add(n);
         for (const Index n : group_.points) add(n);
-        for (const auto& [a, b] : group_.segments) {
-            const Index from = add(a), to = add(b);
+        for (const Segment& s : group_.segments) {
+            const Index from = add(s.from), to = add(s.to);
             cut_.lines.push_back({from, to});
         }
-        const auto triangles = polygon::certain_delaunay(cut_);
-        if (!triangles) return false;
-        for (const auto& [a, b, c] : *triangles) {
+        if (!cross_lines()) return false;
+        auto triangles = polygon::certain_triangulation(cut_);
+        if (triangles) triangles_ = std::move(*triangles);
+        return triangles.has_value();
+    }
+
+    /// Makes nodes of the points where segments cross.
+    void name_vertices(ExactNodes& nodes) {
+        for (Crossing& c : crossings_)
+            here_.push_back(nodes.find_or_add(c.planes, std::move(c.point), c.place));
+    }
+
+    void finish(Pieces& pieces, SideList& sides) const {
+        for (const auto& [a, b, c] : triangles_) {
             std::array<Index, 3> abc{here_[a], here_[b], here_[c]};
             std::rotate(abc.begin(), std::min_element(abc.begin(), abc.end()), abc.end());
             pieces.push_back({abc, Sources(1, {triangle_, 1})});
@@ -110,10 +122,15 @@ class QuickCutter {
         for (std::size_t i = 3; i < here_.size(); ++i)
             for (int k = 0; k < 3; ++k)
                 if (cut_.sides[i] >> k & 1) sides.push_back({{triangle_, here_[i]}, k});
-        return true;
     }
 
   private:
+    struct Crossing {
+        PlaneTriple planes;
+        std::optional<ExactNodes::Point> point; ///< where the place was found by it
+        Vec3 place;
+    };
+
     /// As Frame does.
     bool choose_view() {
         const Vec3 &p = nodes_.rounded(corners_[0]), &q = nodes_.rounded(corners_[1]),
@@ -128,11 +145,13 @@ class QuickCutter {
     Index add(Index node) {
         const auto known = std::find(here_.begin(), here_.end(), node);
         if (known != here_.end()) return static_cast<Index>(known - here_.begin());
-        const Vec3& p = nodes_.rounded(node);
-        cut_.points.push_back({p[u_], p[v_]});
-        cut_.sides.push_back(sides_of(node));
+        add_point(nodes_.rounded(node), sides_of(node));
         here_.push_back(node);
         return static_cast<Index>(here_.size() - 1);
+    }
+    void add_point(const Vec3& p, std::uint8_t sides) {
+        cut_.points.push_back({p[u_], p[v_]});
+        cut_.sides.push_back(sides);
     }
     /// Those that the node is on because it is a corner or was made on one: no other is known to be.
     std::uint8_t sides_of(Index node) const {
@@ -145,13 +164,55 @@ class QuickCutter {
         return static_cast<std::uint8_t>(found);
     }
 
+    /// Divides lines where they cross. False where that is not sure.
+    bool cross_lines() {
+        const auto pairs = polygon::certain_crossings(cut_);
+        if (!pairs) return false;
+        if (pairs->empty()) return true;
+        std::vector<std::vector<Index>> on_line(cut_.lines.size());
+        for (const auto& [i, j] : *pairs) {
+            const auto at = static_cast<Index>(cut_.points.size());
+            const Crossing& c = crossings_.emplace_back(crossing_of(i, j));
+            add_point(c.place, 0);
+            on_line[i].push_back(at);
+            on_line[j].push_back(at);
+        }
+        std::vector<std::array<Index, 2>> parts;
+        for (std::size_t i = 0; i < on_line.size(); ++i) {
+            auto [at, end] = cut_.lines[i];
+            const Vec2 from = cut_.points[at], way = cut_.points[end] - from;
+            std::sort(on_line[i].begin(), on_line[i].end(), [&](Index a, Index b) {
+                return dot(cut_.points[a] - from, way) < dot(cut_.points[b] - from, way);
+            });
+            for (const Index next : on_line[i]) {
+                parts.push_back({at, next});
+                at = next;
+            }
+            parts.push_back({at, end});
+        }
+        cut_.lines = std::move(parts);
+        return true;
+    }
+    Crossing crossing_of(Index i, Index j) const {
+        PlaneTriple planes{triangle_, group_.segments[i].across, group_.segments[j].across};
+        std::sort(planes.begin(), planes.end());
+        if (const auto place = planes_crossing(
+                {nodes_.corners(planes[0]), nodes_.corners(planes[1]), nodes_.corners(planes[2])}))
+            return {planes, {}, *place};
+        auto point = nodes_.point_of(planes);
+        const Vec3 place = ExactNodes::place_of(point);
+        return {planes, std::move(point), place};
+    }
+
     const PlaneGroup& group_;
     const ExactNodes& nodes_;
     Index triangle_;
     std::array<Index, 3> corners_;
     std::size_t u_ = 0, v_ = 1;
     polygon::CutTriangle cut_;
-    std::vector<Index> here_; ///< nodes, of its points
+    std::vector<std::array<Index, 3>> triangles_; ///< of its points
+    std::vector<Index> here_;                     ///< nodes, of its points
+    std::vector<Crossing> crossings_;             ///< its points behind those, until they are named
 };
 
 /// Cuts one group in three steps, of which only the second changes what others use.
@@ -163,14 +224,14 @@ class Cutter {
         for (const Index t : group_.triangles)
             for (const Index p : soup_.triangles[t]) vertex_of(p);
         for (const Index p : group_.points) vertex_of(p);
-        for (const auto& [a, b] : group_.segments) {
-            vertex_of(a);
-            vertex_of(b);
+        for (const Segment& s : group_.segments) {
+            vertex_of(s.from);
+            vertex_of(s.to);
         }
         for (const Index t : group_.triangles)
             for (std::size_t i = 0; i < 3; ++i)
                 constrain(soup_.triangles[t][i], soup_.triangles[t][(i + 1) % 3]);
-        for (const auto& [a, b] : group_.segments) constrain(a, b);
+        for (const Segment& s : group_.segments) constrain(s.from, s.to);
     }
 
     /// Makes nodes of the points where segments crossed.
@@ -282,24 +343,30 @@ void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& grou
     constexpr std::size_t together = 4096, few = 16; // as many are in memory at a time
     for (std::size_t begin = 0; begin < groups.size(); begin += together) {
         const std::size_t count = std::min(together, groups.size() - begin);
-        std::vector<std::unique_ptr<Cutter>> cutters(count);
+        std::vector<std::unique_ptr<QuickCutter>> quick(count);
+        std::vector<std::unique_ptr<Cutter>> cutters(count); // of the others
         std::vector<Pieces> of_each(count);
         std::vector<SideList> sides_of_each(count);
         parallel_for(
             count,
             [&](std::size_t i) {
                 const PlaneGroup& group = groups[begin + i];
-                if (!QuickCutter(soup, group, nodes).run(of_each[i], sides_of_each[i]))
-                    cutters[i] = std::make_unique<Cutter>(soup, group, nodes);
+                quick[i] = std::make_unique<QuickCutter>(soup, group, nodes);
+                if (quick[i]->triangulate()) return;
+                quick[i].reset();
+                cutters[i] = std::make_unique<Cutter>(soup, group, nodes);
             },
             few);
-        for (auto& cutter : cutters)
-            if (cutter) cutter->name_vertices(nodes);
+        for (std::size_t i = 0; i < count; ++i)
+            quick[i] ? quick[i]->name_vertices(nodes) : cutters[i]->name_vertices(nodes);
         parallel_for(
             count,
             [&](std::size_t i) {
-                if (!cutters[i]) return;
-                cutters[i]->finish(of_each[i], sides_of_each[i]);
+                if (quick[i])
+                    quick[i]->finish(of_each[i], sides_of_each[i]);
+                else
+                    cutters[i]->finish(of_each[i], sides_of_each[i]);
+                quick[i].reset();
                 cutters[i].reset();
             },
             few);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <compare>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -25,8 +26,11 @@ struct SideCrossing {
     Index low = none, high = none, triangle = none;
 };
 
-/// Given points, then points that were made. Of those where sides cross triangles the exact point is made
-/// when it is asked for: for most, all is decided by their doubles.
+/// Three triangles, ascending, whose planes have one point in common.
+using PlaneTriple = std::array<Index, 3>;
+
+/// Given points, then points that were made. Of those where sides cross triangles, or three
+/// planes meet, the exact point is made when it is asked for: for most, all is decided by their doubles.
 class ExactNodes {
   public:
     using Point = ExactKernel::Point_3;
@@ -42,7 +46,7 @@ class ExactNodes {
     }
     /// Where p is, rounded: of a lazy number alone, its double depends on what was asked before.
     static Vec3 place_of(const Point& p) { return {nearest(p.x()), nearest(p.y()), nearest(p.z())}; }
-    Index find_or_add(const Point& p) { return find_or_add({}, p, place_of(p)); }
+    Index find_or_add(const Point& p) { return find_or_add(SideCrossing{}, p, place_of(p)); }
     /// The point of a crossing, which need not have been made, at its place.
     Index find_or_add(const SideCrossing& crossing, std::optional<Point> p, const Vec3& place) {
         auto& here = at_place_[hash(place)];
@@ -51,11 +55,49 @@ class ExactNodes {
             if (!p) p = point_of(crossing);
             if (at(other) == *p) return other;
         }
-        const auto node = static_cast<Index>(size());
-        made_.emplace_back(crossing, std::move(p));
-        rounded_.push_back(place);
-        here.push_back(node);
-        return node;
+        return add(here, Made(crossing, {none, none, none}, std::move(p)), place);
+    }
+    /// Likewise where three planes meet.
+    Index find_or_add(const PlaneTriple& planes, std::optional<Point> p, const Vec3& place) {
+        const auto [known, fresh] = of_planes_.try_emplace(planes, none);
+        if (!fresh) return known->second;
+        auto& here = at_place_[hash(place)];
+        for (const Index other : here) {
+            if (rounded(other) != place) continue;
+            if (!p) p = point_of(planes);
+            if (at(other) == *p) return known->second = other;
+        }
+        return known->second = add(here, Made({}, planes, std::move(p)), place);
+    }
+    Point point_of(const PlaneTriple& planes) const {
+        std::array<ExactKernel::Vector_3, 3> normal;
+        std::array<ExactKernel::FT, 3> height;
+        const Point origin = at(soup_.triangles[planes[0]][0]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& [a, b, c] = soup_.triangles[planes[i]];
+            const Point from = at(a);
+            normal[i] = CGAL::cross_product(at(b) - from, at(c) - from);
+            height[i] = normal[i] * (from - origin);
+        }
+        const auto way = height[1] * CGAL::cross_product(normal[2], normal[0]) +
+                         height[2] * CGAL::cross_product(normal[0], normal[1]);
+        const ExactKernel::FT whole = normal[0] * CGAL::cross_product(normal[1], normal[2]);
+        std::array<ExactKernel::FT, 3> x{origin.x() + way.x() / whole, origin.y() + way.y() / whole,
+                                         origin.z() + way.z() / whole};
+        for (const Index t : planes) // of a plane across an axis no number needs to be computed
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const auto there = level(t, k)) x[k] = *there;
+        return {x[0], x[1], x[2]};
+    }
+    /// The coordinate along an axis that all of a triangle has, if it has one.
+    std::optional<double> level(Index triangle, std::size_t axis) const {
+        const auto& [a, b, c] = soup_.triangles[triangle];
+        const double x = points_[a][axis];
+        return x == points_[b][axis] && x == points_[c][axis] ? std::optional(x) : std::nullopt;
+    }
+    std::array<Vec3, 3> corners(Index triangle) const {
+        const auto& [a, b, c] = soup_.triangles[triangle];
+        return {points_[a], points_[b], points_[c]};
     }
     Point point_of(const SideCrossing& crossing) const {
         if (const auto plain = plain_point_of(crossing)) return *plain;
@@ -83,16 +125,29 @@ class ExactNodes {
 
   private:
     struct Made {
-        Made(const SideCrossing& of, std::optional<Point> p) : crossing(of), point(std::move(p)) {}
+        Made(const SideCrossing& of, const PlaneTriple& where, std::optional<Point> p)
+            : crossing(of), planes(where), point(std::move(p)) {}
+        Made(Made&& other) noexcept
+            : crossing(other.crossing), planes(other.planes), point(std::move(other.point)) {}
         SideCrossing crossing;
+        PlaneTriple planes;          ///< or none
         mutable std::once_flag once; // asked for by several threads
         mutable std::optional<Point> point;
     };
     const Point& point_of(const Made& made) const {
         std::call_once(made.once, [&] {
-            if (!made.point) made.point = point_of(made.crossing);
+            if (!made.point)
+                made.point = made.planes[0] == none ? point_of(made.crossing) : point_of(made.planes);
         });
         return *made.point;
+    }
+
+    Index add(std::vector<Index>& here, Made made, const Vec3& place) {
+        const auto node = static_cast<Index>(size());
+        made_.push_back(std::move(made));
+        rounded_.push_back(place);
+        here.push_back(node);
+        return node;
     }
 
     /// Where a line along an axis passes through a plane across it: no number needs to be computed.
@@ -125,21 +180,28 @@ class ExactNodes {
     std::deque<Made> made_;
     std::vector<Vec3> rounded_; ///< of made_
     std::unordered_map<std::uint64_t, std::vector<Index>> at_place_;
+    std::map<PlaneTriple, Index> of_planes_;
+};
+
+/// Between nodes, in a triangle, and the triangle across that it comes from, or one of them.
+struct Segment {
+    Index from, to, across;
+    auto operator<=>(const Segment&) const = default;
 };
 
 /// What is to be cut: triangles in one plane, with area, that overlap or are one.
 struct PlaneGroup {
     std::vector<Index> triangles;
-    std::vector<Index> points;                     ///< nodes in the triangles
-    std::vector<std::pair<Index, Index>> segments; ///< between nodes, in the triangles
+    std::vector<Index> points; ///< nodes in the triangles
+    std::vector<Segment> segments;
 };
 
 /// (triangle, node) -> the side of the triangle that the node is on.
 using SidesOfNodes = std::map<std::pair<Index, Index>, int>;
 
 /// Appends the pieces, group by group, by constrained triangulations with exact intersections, whose points
-/// become nodes. One triangle is cut by floating point alone where that is sure to come to the same pieces
-/// (geometry/polygon/certain_delaunay.hpp). Parallel; the same for the same input.
+/// become nodes. One triangle is cut by floating point alone where that is sure to be right
+/// (geometry/polygon/certain_triangulation.hpp). Parallel; the same for the same input.
 void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& groups, ExactNodes& nodes,
                    std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides);
 

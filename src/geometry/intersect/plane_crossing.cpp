@@ -110,4 +110,57 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     return place;
 }
 
+namespace {
+
+Twofolds cross_of(const Twofolds& u, const Twofolds& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+} // namespace
+
+/// With n the normals, o a corner of the first and d the products of normals with corners less o:
+/// o + (d1 n2 x n0 + d2 n0 x n1) / (n0 . n1 x n2).
+std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& triangles) {
+    const Vec3& origin = triangles[0][0];
+    std::array<Twofolds, 3> normals;
+    std::array<Twofold, 3> heights;
+    double size = 1, reach = 0; // of all normals together; of the corners from the origin
+    Vec3 place;
+    std::array<bool, 3> is_level{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [a, b, c] = triangles[i];
+        for (std::size_t k = 0; k < 3; ++k)
+            if (a[k] == b[k] && b[k] == c[k]) {
+                is_level[k] = true;
+                place[k] = a[k] + 0.0; // of zero the positive one
+            }
+        const Twofolds u = from_to(a, b), v = from_to(a, c), away = from_to(origin, a);
+        const double most_u = largest(u), most_v = largest(v), most = largest(away);
+        for (const double x : {most_u, most_v}) // no product overflows, nor underflows where it matters
+            if (!(x > 1e-20 && x < 1e20)) return {};
+        if (!(most < 1e20)) return {};
+        size *= 2 * most_u * most_v;
+        reach = std::max(reach, most);
+        normals[i] = cross_of(u, v);
+        heights[i] = product_of(normals[i], away);
+    }
+    const Twofolds a = cross_of(normals[2], normals[0]), b = cross_of(normals[0], normals[1]);
+    const Twofold whole = product_of(normals[0], cross_of(normals[1], normals[2]));
+    // A normal is off by 6 * 2^-100 of its size, a height by 30 of that times the reach, a product of two
+    // normals by 30 and of three by 100 of their sizes; so of the numerator, of at most 12 size * reach, it
+    // is less than 2^-91 of that. No normal is larger than its part of `size`.
+    const double error = 0x1p-91 * size;
+    if (!(std::abs(whole.high) > 16 * error)) return {};
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (is_level[k]) continue;
+        const Twofold way = (heights[1] * a[k] + heights[2] * b[k]) / whole;
+        const double off = 4 * error * (12 * reach + std::abs(way.high)) / std::abs(whole.high) +
+                           std::abs(origin[k]) * 0x1p-98;
+        const auto rounded = towards_zero(Twofold{origin[k]} + way, 2 * off);
+        if (!rounded) return {};
+        place[k] = *rounded;
+    }
+    return place;
+}
+
 } // namespace facetmill

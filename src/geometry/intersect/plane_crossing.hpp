@@ -1,5 +1,5 @@
 #pragma once
-// Where an edge passes through the plane of a triangle, in doubles.
+// Where an edge passes through the plane of a triangle, and where three planes meet, in doubles.
 
 #include "base/vec.hpp"
 
@@ -12,5 +12,9 @@ namespace facetmill {
 /// towards zero from the true one, as rational numbers are made doubles; none where twice the bits of a
 /// double leave that open, or do not prove that p and q are on different sides. Exact, so always the same.
 std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle);
+
+/// The point that the planes of three triangles have in common, likewise; none where it is not proved that
+/// there is just one. On a plane across an axis, the coordinate is that of the plane.
+std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& triangles);
 
 } // namespace facetmill

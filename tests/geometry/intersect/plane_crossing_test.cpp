@@ -37,6 +37,31 @@ Vec3 exact_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) 
     return place;
 }
 
+/// By Cramer's rule; none of planes without just one point in common.
+std::optional<Vec3> exact_crossing(const std::array<std::array<Vec3, 3>, 3>& planes) {
+    std::array<Exact, 3> normal;
+    Exact height;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [a, b, c] = planes[i];
+        const Exact u = from_to(a, b), v = from_to(a, c);
+        normal[i] = {mpq_class(u[1] * v[2] - u[2] * v[1]), mpq_class(u[2] * v[0] - u[0] * v[2]),
+                     mpq_class(u[0] * v[1] - u[1] * v[0])};
+        height[i] = product_of(normal[i], from_to({0, 0, 0}, a));
+    }
+    const auto determinant = [&](std::size_t column) {
+        std::array<Exact, 3> m = normal;
+        if (column < 3)
+            for (std::size_t i = 0; i < 3; ++i) m[i][column] = height[i];
+        return mpq_class(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
+    };
+    const mpq_class whole = determinant(3);
+    if (sgn(whole) == 0) return {};
+    return Vec3{mpq_class(determinant(0) / whole).get_d(), mpq_class(determinant(1) / whole).get_d(),
+                mpq_class(determinant(2) / whole).get_d()};
+}
+
 /// In [-1, 1] around a point, of `bits` bits.
 Vec3 random_point(std::uint64_t seed, std::uint64_t number, const Vec3& middle, int bits) {
     const auto x = [&](std::uint64_t k) {
@@ -103,4 +128,31 @@ TEST_CASE("a crossing at a double, or that may be none, is not told", "[geometry
     REQUIRE(upright);
     CHECK(upright->x == 0.3);
     CHECK(!std::signbit(upright->y));
+}
+
+TEST_CASE("the place where three planes meet is the exact one, rounded towards zero", "[geometry]") {
+    std::size_t told = 0, wrong = 0, level = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+        const Vec3 middle = seed % 3 == 0 ? Vec3{} : seed % 3 == 1 ? Vec3{3, -40, 0.1} : Vec3{1e6, 2e6, -1e7};
+        std::array<std::array<Vec3, 3>, 3> planes;
+        for (std::uint64_t i = 0; i < 9; ++i)
+            planes[i / 3][i % 3] = random_point(seed, i, middle, seed % 2 == 0 ? 52 : 24);
+        for (std::size_t i = 0; i < seed % 4; ++i) // so many stand across axes, maybe two across one
+            for (std::size_t k = 0, axis = (seed + (seed % 5 == 0 ? 0 : i)) % 3; k < 3; ++k)
+                planes[i][k][axis] = planes[i][0][axis];
+        const auto place = planes_crossing(planes);
+        if (!place) continue;
+        ++told;
+        level += seed % 4 == 3;
+        const auto exact = exact_crossing(planes);
+        wrong += !exact || *place != *exact;
+    }
+    CHECK(wrong == 0);
+    CHECK(told > 3500);
+    CHECK(level > 700);
+    const std::array one{Vec3{0, 0, 0.5}, Vec3{1, 0, 0.5}, Vec3{0, 1, 0.5}},
+        upright{Vec3{0.1, 0, 0}, Vec3{0.1, 1, 0}, Vec3{0.1, 0, 1}},
+        leaning{Vec3{0, 0.3, 0}, Vec3{1, 0.4, 0.2}, Vec3{0.1, 0.7, 1}};
+    CHECK(!planes_crossing({one, one, leaning}));
+    CHECK(planes_crossing({one, upright, leaning}));
 }

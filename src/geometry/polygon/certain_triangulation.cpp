@@ -1,6 +1,7 @@
-// Triangles are wrapped from edge to edge; that they are those of the constrained Delaunay triangulation (D.
-// T. Lee and A. K. Lin, "Generalized Delaunay triangulation for planar graphs", 1986) is proved afterwards.
-#include "geometry/polygon/certain_delaunay.hpp"
+// Triangles are wrapped from edge to edge, as those of the constrained Delaunay triangulation (D. T. Lee and
+// A. K. Lin, "Generalized Delaunay triangulation for planar graphs", 1986); that they are a triangulation is
+// proved afterwards.
+#include "geometry/polygon/certain_triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +10,12 @@ namespace facetmill::polygon {
 
 namespace {
 
-constexpr std::size_t most_points = 24;
+constexpr std::size_t most_points = 48;
 constexpr double unit = 0x1p-52;
 
-class CertainDelaunay {
+class CertainTriangulation {
   public:
-    explicit CertainDelaunay(const CutTriangle& cut) : cut_(cut), count_(cut.points.size()) {}
+    explicit CertainTriangulation(const CutTriangle& cut) : cut_(cut), count_(cut.points.size()) {}
 
     std::optional<std::vector<std::array<Index, 3>>> run() {
         if (count_ > most_points || !in_range() || !mark_sides()) return {};
@@ -23,6 +24,18 @@ class CertainDelaunay {
         for (const auto& [a, b] : lines_) fixed_[a][b] = fixed_[b][a] = 1;
         if (!wrap() || !is_proved()) return {};
         return std::move(triangles_);
+    }
+
+    std::optional<std::vector<std::array<Index, 2>>> crossings() {
+        std::vector<std::array<Index, 2>> found;
+        if (!in_range()) return {};
+        for (Index i = 0; i < cut_.lines.size(); ++i)
+            for (Index j = i + 1; j < cut_.lines.size(); ++j) {
+                const auto cross = do_cross(cut_.lines[i], cut_.lines[j]);
+                if (!cross) return {};
+                if (*cross) found.push_back({i, j});
+            }
+        return found;
     }
 
   private:
@@ -76,17 +89,29 @@ class CertainDelaunay {
                 size_of({u.x, u.y, v.x, v.y, w.x, w.y})};
     }
     /// A difference of coordinates is wrong by at most d = 2 off + unit / 2 * size: by both ends and by
-    /// rounding. Then a product of two is by at most 2 size d + d^2, a turn by 10 size d, and the three
-    /// products of a circle, whose factors are up to 2 size^2 and wrong by 10 and 12 size d, by 174 size^3 d,
-    /// all roundings counted. (Where d is not small beside the size, the bounds exceed any determinant.)
+    /// rounding. Then a product of two is by at most 2 size d + d^2, and a turn by 10 size d. (Where d is not
+    /// small beside the size, the bound exceeds any determinant.)
     double error(double size) const { return 2 * off_ + unit * size; }
     bool turns_left(Index a, Index b, Index c) const {
         const auto [det, size] = turn(a, b, c);
         return det > 16 * size * error(size);
     }
-    bool is_outside(Index a, Index b, Index c, Index d) const {
-        const auto [det, size] = circle(a, b, c, d);
-        return det < -256 * size * size * size * error(size);
+    /// 1: left, -1: right, 0: not sure.
+    int sure_turn(Index a, Index b, Index c) const {
+        const auto [det, size] = turn(a, b, c);
+        const double bound = 16 * size * error(size);
+        return det > bound ? 1 : det < -bound ? -1 : 0;
+    }
+    std::optional<bool> do_cross(const std::array<Index, 2>& one, const std::array<Index, 2>& other) const {
+        const auto& [a, b] = one;
+        const auto& [c, d] = other;
+        if (a == c || a == d || b == c || b == d) return false;
+        if ((cut_.sides[a] & cut_.sides[b]) != 0 || (cut_.sides[c] & cut_.sides[d]) != 0) return false;
+        const int across_one = sure_turn(a, b, c) * sure_turn(a, b, d);
+        if (across_one > 0) return false;
+        const int across_other = sure_turn(c, d, a) * sure_turn(c, d, b);
+        if (across_other > 0) return false;
+        return across_one < 0 && across_other < 0 ? std::optional(true) : std::nullopt;
     }
 
     // --- finding triangles: nothing here has to be sure
@@ -102,8 +127,8 @@ class CertainDelaunay {
         Index best = none;
         for (Index c = 0; c < count_; ++c) {
             if (c == a || c == b || (cut_.sides[a] & cut_.sides[b] & cut_.sides[c])) continue;
-            if (!(turn(a, b, c).det > 0) || is_crossed(a, c) || is_crossed(b, c)) continue;
-            if (best == none || circle(a, b, best, c).det > 0) best = c;
+            if (!(turn(a, b, c).det > 0) || (best != none && !(circle(a, b, best, c).det > 0))) continue;
+            if (!is_crossed(a, c) && !is_crossed(b, c)) best = c;
         }
         return best;
     }
@@ -120,8 +145,12 @@ class CertainDelaunay {
             across_[b][c] = a;
             across_[c][a] = b;
             triangles_.push_back({a, b, c});
-            if (!border_[b][c]) open.push_back({c, b});
-            if (!border_[c][a]) open.push_back({a, c});
+            for (const auto& [from, to] : {std::array{c, b}, std::array{a, c}}) {
+                if (border_[to][from]) continue;
+                open.push_back({from, to});
+                if (!fixed_[from][to]) lines_.push_back({from, to}); // of points on a circle, one diagonal
+                fixed_[from][to] = fixed_[to][from] = 1;
+            }
         }
         return true;
     }
@@ -130,7 +159,7 @@ class CertainDelaunay {
 
     bool is_proved() const {
         if (triangles_.size() + border_edges_.size() + 2 != 2 * count_) return false; // all points are used
-        for (const auto& [a, b] : lines_)
+        for (const auto& [a, b] : lines_)                                             // and all other edges
             if (across_[a][b] == none || across_[b][a] == none) return false;
         for (const auto& [a, b, c] : triangles_)
             if (!turns_left(a, b, c)) return false;
@@ -138,7 +167,6 @@ class CertainDelaunay {
             for (Index b = 0; b < count_; ++b) {
                 if (across_[a][b] == none || border_[a][b]) continue;
                 if (across_[b][a] == none || border_[b][a]) return false;
-                if (a < b && !fixed_[a][b] && !is_outside(a, b, across_[a][b], across_[b][a])) return false;
             }
         return true;
     }
@@ -157,8 +185,12 @@ class CertainDelaunay {
 
 } // namespace
 
-std::optional<std::vector<std::array<Index, 3>>> certain_delaunay(const CutTriangle& cut) {
-    return CertainDelaunay(cut).run();
+std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const CutTriangle& cut) {
+    return CertainTriangulation(cut).run();
+}
+
+std::optional<std::vector<std::array<Index, 2>>> certain_crossings(const CutTriangle& cut) {
+    return CertainTriangulation(cut).crossings();
 }
 
 } // namespace facetmill::polygon

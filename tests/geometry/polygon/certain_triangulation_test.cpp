@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
 #include "base/random.hpp"
-#include "geometry/polygon/certain_delaunay.hpp"
+#include "geometry/polygon/certain_triangulation.hpp"
 
 #include <algorithm>
 
@@ -40,7 +40,7 @@ bool has_edge(const Triangles& triangles, Index a, Index b) {
 } // namespace
 
 TEST_CASE("a triangle without anything in it stays", "[geometry]") {
-    const auto triangles = certain_delaunay(plain());
+    const auto triangles = certain_triangulation(plain());
     REQUIRE(triangles);
     CHECK(in_order(*triangles) == Triangles{{0, 1, 2}});
 }
@@ -49,7 +49,7 @@ TEST_CASE("a line across a triangle cuts it, and the rest is Delaunay", "[geomet
     CutTriangle cut = plain();
     const Index a = add(cut, {1, 0}, 1), b = add(cut, {0, 1.5}, 4);
     cut.lines.push_back({a, b});
-    const auto triangles = certain_delaunay(cut);
+    const auto triangles = certain_triangulation(cut);
     REQUIRE(triangles);
     CHECK(in_order(*triangles) == Triangles{{0, 3, 4}, {1, 2, 4}, {1, 4, 3}});
 }
@@ -58,41 +58,56 @@ TEST_CASE("a line is an edge although Delaunay would not have it", "[geometry]")
     CutTriangle cut = plain();
     const Index a = add(cut, {0.1, 0}, 1), b = add(cut, {0.125, 2.75});
     const Index c = add(cut, {0.0625, 1}), d = add(cut, {0.25, 1.25});
-    CHECK(!has_edge(*certain_delaunay(cut), a, b));
+    CHECK(!has_edge(*certain_triangulation(cut), a, b));
     cut.lines.push_back({a, b});
-    const auto triangles = certain_delaunay(cut);
+    const auto triangles = certain_triangulation(cut);
     REQUIRE(triangles);
     CHECK(has_edge(*triangles, a, b));
     CHECK(!has_edge(*triangles, c, d));
 }
 
-TEST_CASE("what is not sure to be the only triangulation is not told", "[geometry]") {
+TEST_CASE("of points on one circle any triangulation is told, of lines that cross none", "[geometry]") {
     CutTriangle cocircular = plain();
     const Index a = add(cocircular, {1, 0}, 1), b = add(cocircular, {1, 1}), c = add(cocircular, {0, 1}, 4);
-    CHECK(!certain_delaunay(cocircular)); // a square at the corner
+    const auto either = certain_triangulation(cocircular); // a square at the corner
+    REQUIRE(either);
+    CHECK(has_edge(*either, 0, b) != has_edge(*either, a, c));
     cocircular.lines = {{a, c}};
-    CHECK(certain_delaunay(cocircular)); // of which this line is the diagonal
+    CHECK(has_edge(*certain_triangulation(cocircular), a, c));
+    cocircular.lines = {{0, b}};
+    CHECK(has_edge(*certain_triangulation(cocircular), 0, b));
     cocircular.lines = {{0, b}, {a, c}};
-    CHECK(!certain_delaunay(cocircular)); // which cross
+    CHECK(!certain_triangulation(cocircular)); // which cross
 
+    CutTriangle lattice = {{{0, 0}, {8, 0}, {0, 8}}, {0b101, 0b011, 0b110}, {}};
+    for (int i = 1; i < 5; ++i)
+        for (int j = 1; i + j < 7; ++j) add(lattice, {double(i), double(j)});
+    const auto squares = certain_triangulation(lattice);
+    REQUIRE(squares);
+    double sum = 0;
+    for (const auto& t : *squares) sum += area(lattice, t);
+    CHECK(sum == 32);
+}
+
+TEST_CASE("what is not sure to be a triangulation is not told", "[geometry]") {
     CutTriangle on_line = plain();
     on_line.lines.push_back({add(on_line, {0.5, 0.5}), add(on_line, {1.5, 0.5})});
-    CHECK(certain_delaunay(on_line));
+    CHECK(certain_triangulation(on_line));
     add(on_line, {1, 0.5});
-    CHECK(!certain_delaunay(on_line));
+    CHECK(!certain_triangulation(on_line));
 
     CutTriangle on_side = plain();
     add(on_side, {1, 0}); // it seems, but is not said
-    CHECK(!certain_delaunay(on_side));
+    CHECK(!certain_triangulation(on_side));
 
     CutTriangle far = plain();
     for (Vec2& p : far.points) p = p + Vec2{1e15, 1e15};
     add(far, {1e15 + 1, 1e15 + 0.5});
-    CHECK(!certain_delaunay(far));
+    CHECK(!certain_triangulation(far));
 
     CutTriangle crowded = plain();
-    for (int i = 0; i < 30; ++i) add(crowded, {0.1 + 0.03 * i, 0.1 + 0.001 * i * i});
-    CHECK(!certain_delaunay(crowded));
+    for (int i = 0; i < 50; ++i) add(crowded, {0.1 + 0.02 * i, 0.1 + 0.0005 * i * i});
+    CHECK(!certain_triangulation(crowded));
 }
 
 TEST_CASE("triangulations of random points cover the triangle and have empty circles", "[geometry]") {
@@ -107,7 +122,7 @@ TEST_CASE("triangulations of random points cover the triangle and have empty cir
             add(cut, s + t < 1 ? Vec2{4 * s, 3 * t} : Vec2{4 - 4 * s, 3 - 3 * t});
         }
         add(cut, {4 * random(50), 0}, 1);
-        const auto triangles = certain_delaunay(cut);
+        const auto triangles = certain_triangulation(cut);
         if (!triangles) continue;
         ++told;
         double sum = 0;
@@ -125,4 +140,24 @@ TEST_CASE("triangulations of random points cover the triangle and have empty cir
     }
     CHECK(wrong == 0);
     CHECK(told > 490);
+}
+
+TEST_CASE("lines that cross are told where that is sure", "[geometry]") {
+    using Pairs = std::vector<std::array<Index, 2>>;
+    CutTriangle cut = plain();
+    const Index a = add(cut, {0.5, 0.5}), b = add(cut, {1.5, 1.5}), c = add(cut, {0.5, 1.5}),
+                d = add(cut, {1.5, 0.5}), e = add(cut, {2.5, 0.5});
+    cut.lines = {{a, b}, {c, d}, {d, e}};
+    CHECK(certain_crossings(cut) == Pairs{{0, 1}}); // lines 1 and 2 end in one point
+    const Index on = add(cut, {1.25, 1.25});
+    cut.lines.push_back({on, e}); // ends on line 0, as far as doubles tell
+    CHECK(!certain_crossings(cut));
+    cut.lines.back() = {add(cut, {1.25, 1.0}), e};
+    CHECK(certain_crossings(cut) == Pairs{{0, 1}});
+    cut.lines.back() = {add(cut, {1.25, 2.0}), e};
+    CHECK(certain_crossings(cut) == Pairs{{0, 1}});
+    cut.lines.back() = {add(cut, {0.5, 1.0}), e};
+    CHECK(certain_crossings(cut) == Pairs{{0, 1}, {0, 3}, {1, 3}});
+    cut.lines = {{add(cut, {1, 0}, 1), add(cut, {3, 0}, 1)}, {add(cut, {2, 0}, 1), c}};
+    CHECK(certain_crossings(cut) == Pairs{}); // the first is along a side
 }
