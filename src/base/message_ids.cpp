@@ -71,9 +71,10 @@ std::span<const MessageId> message_ids() {
          {Kind::stage},
          "Parts cannot be combined: one is open, has no faces, is inside out or flattened by its node; or "
          "the "
-         "result could not be rounded without an intersection.",
+         "result could not be rounded without an intersection, or more faces intersect than memory is there "
+         "for.",
          "`clean: {holes: minimal}` closes a part and `orient` turns it outward; the message names the "
-         "part."},
+         "part. Some parts at a time take less memory."},
         {"E-COMMAND",
          {Kind::usage},
          "facetmill has no command of this name.",

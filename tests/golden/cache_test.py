@@ -425,6 +425,13 @@ class Trouble(Cache):
         self.assertIn("there is not enough memory to unite", refused.stderr)
         self.assertEqual(refused.returncode, 0)
         self.assertEqual(self.told("run", "u.yaml", *ALL), expected)
+        self.write("c.yaml", (self.dir / "u.yaml").read_text()
+                   .replace("  - merge\n  - clean: {self_intersections: union}\n", "  - combine\n"))
+        refused = self.limited(least + (8 << 20), "run", "c.yaml", *ALL, "-q", "-j1", "-o", "out")
+        self.assertEqual(refused.returncode, 5)
+        self.assertIn("there is not enough memory to unite", refused.stderr)
+        self.assertIn("combine some of the parts at a time", refused.stderr)
+        self.assertEqual(self.told("run", "c.yaml", *ALL)[0], 0)
 
     @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
     def test_without_memory(self):

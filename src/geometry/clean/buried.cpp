@@ -35,6 +35,12 @@ std::array<int, 3> sides(const std::array<Vec3, 3>& of, const std::array<Vec3, 3
     return side;
 }
 
+/// Whether the second triangle is in the plane of the first, and turns the same way.
+bool is_same_plane(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+    const Vec3 n = cross(a[1] - a[0], a[2] - a[0]), m = cross(b[1] - b[0], b[2] - b[0]);
+    return dot(n, m) > 0.5 * length(n) * length(m) && sides(b, a) == std::array{0, 0, 0};
+}
+
 using Ends = std::array<NearPoint, 2>;
 
 /// Between which points a triangle with corners on these sides is in the plane of another; none where it has
@@ -190,6 +196,7 @@ std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bo
         !(std::min({extent.x, extent.y, extent.z}) > 1e-60))
         return {};
     core.radius = HUGE_VAL;
+    std::optional<Corners> previous;
     for (const Index t : triangles) {
         auto [a, b, c] = corners(t);
         if (turned) std::swap(b, c);
@@ -205,7 +212,9 @@ std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bo
         if (!(deep > 0)) return {};
         // The normal is no longer than `reach`; a thousandth is more than all errors of this and of `holds`.
         core.radius = std::min(core.radius, 0.999 * deep / (length(wall.normal) + 1e-14 * wall.reach));
+        if (previous && is_same_plane(*previous, {a, b, c})) continue;
         walls.push_back(wall);
+        previous = {a, b, c};
     }
     return core;
 }
@@ -264,11 +273,36 @@ bool Buried::holds(const Core& core, const Box& box) const {
     return true;
 }
 
-bool Buried::holds_meeting(Index f, Index g) const {
+std::vector<std::uint8_t> Buried::hold_meetings(std::span<const std::pair<Index, Index>> pairs) const {
+    std::vector<std::uint8_t> held(pairs.size(), 0);
+    if (empty()) return held;
+    parallel_chunks(
+        pairs.size(),
+        [&](std::size_t begin, std::size_t end) {
+            std::vector<Index> near; // the first face of the pair
+            for (std::size_t i = begin; i < end; ++i) {
+                if (i == begin || pairs[i].first != pairs[i - 1].first) near = cores_near(pairs[i].first);
+                held[i] = holds_meeting(pairs[i].first, pairs[i].second, near);
+            }
+        },
+        512);
+    return held;
+}
+
+std::vector<Index> Buried::cores_near(Index face) const {
+    Box box;
+    add_corners(box, mesh_, face);
     std::vector<Index> near;
+    tree_->visit(box, [&](Index core) {
+        if (cores_[core].cluster == solids_.cluster_of_face(face)) near.push_back(core);
+    });
+    return near;
+}
+
+bool Buried::holds_meeting(Index f, Index g, const std::vector<Index>& cores) const {
     for (Index s = first_[f]; s < first_[f + 1]; ++s)
         for (Index t = first_[g]; t < first_[g + 1]; ++t)
-            if (!holds_pair(s, t, near)) return false;
+            if (!holds_pair(s, t, cores)) return false;
     return true;
 }
 
@@ -278,16 +312,13 @@ bool Buried::holds_point(const NearPoint& p, Index cluster) const {
     });
 }
 
-bool Buried::holds_pair(Index s, Index t, std::vector<Index>& near) const {
+bool Buried::holds_pair(Index s, Index t, const std::vector<Index>& cores) const {
     const Corners a = corners(s), b = corners(t);
     const Box box = common_box(a, b);
     if (box.empty()) return true; // they have nothing in common
-    const Index cluster = solids_.cluster_of_face(triangles_.face[s]);
-    near.clear();
-    tree_->visit(box, [&](Index core) {
-        if (cores_[core].cluster == cluster) near.push_back(core);
-    });
-    // Neither can be in the core of its own component.
+    std::vector<Index> near;      // the core of neither's own component ever holds anything of it
+    for (const Index core : cores)
+        if (boxes_meet(cores_[core].box, box)) near.push_back(core);
     if (near.empty()) return false;
     for (const Index core : near)
         if (holds(cores_[core], box)) return true;

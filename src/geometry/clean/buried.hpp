@@ -5,6 +5,7 @@
 #include "geometry/spatial/box_tree.hpp"
 
 #include <optional>
+#include <span>
 
 namespace facetmill::clean_steps {
 
@@ -59,8 +60,9 @@ class Buried {
            const TriangleFaces& triangles, const std::vector<Index>& first, const Operands* operands);
 
     bool empty() const { return cores_.empty(); }
-    /// Whether all that two faces of closed components have in common is surely in K. From any thread.
-    bool holds_meeting(Index f, Index g) const;
+    /// For each pair whether all that the two faces, both of closed components, have in common is surely in
+    /// K. Fastest where pairs of one first face come after each other. Parallel.
+    std::vector<std::uint8_t> hold_meetings(std::span<const std::pair<Index, Index>> pairs) const;
     /// Whether a point on a face of the cluster is surely in K.
     bool holds_point(const NearPoint& p, Index cluster) const;
 
@@ -90,7 +92,9 @@ class Buried {
     Corners corners(Index triangle) const;
     bool holds(const Core& core, const NearPoint& p) const;
     bool holds(const Core& core, const Box& box) const;
-    bool holds_pair(Index s, Index t, std::vector<Index>& near) const;
+    std::vector<Index> cores_near(Index face) const;
+    bool holds_meeting(Index f, Index g, const std::vector<Index>& cores) const;
+    bool holds_pair(Index s, Index t, const std::vector<Index>& cores) const;
     bool holds_segment(const NearPoint& p, const NearPoint& q, const std::vector<Index>& cores) const;
     bool holds_box(const Box& box, const std::vector<Index>& cores, int& budget) const;
     Stretch stretch_of(const Core& core, const NearPoint& p, const NearPoint& q) const;

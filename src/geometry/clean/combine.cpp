@@ -1,5 +1,6 @@
 #include "geometry/clean/combine.hpp"
 
+#include "base/memory.hpp"
 #include "geometry/clean/trial.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/orient/orient.hpp"
@@ -81,11 +82,16 @@ class Combining {
 
     CombineResult run() {
         take_out_degenerate(work_);
-        SelfIntersections found = crossings_and_rings(work_.mesh);
-        if (found.count > found.pairs.size())
-            return failed({fmt::format("{} pairs of faces intersect, and at most {} are processed",
-                                       found.count, max_pairs),
-                           none, corner_mean(work_.mesh, found.pairs[0].first)});
+        constexpr std::uint64_t bytes_a_pair = 32; // and as much again is left for what follows
+        SelfIntersections found = crossings_and_rings(work_.mesh, memory_there() / (2 * bytes_a_pair));
+        if (found.count > found.pairs.size()) {
+            CombineResult result =
+                failed({fmt::format("there is not enough memory to list the {} pairs of faces that intersect",
+                                    found.count),
+                        none, corner_mean(work_.mesh, found.pairs[0].first)});
+            result.short_of_memory = true;
+            return result;
+        }
         Solids solids = find_solids(work_.mesh, {}, std::move(found.rings));
         if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
         if (auto failure = turned_over(work_.mesh, solids, meshes_)) return failed(std::move(*failure));

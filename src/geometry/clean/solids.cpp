@@ -102,10 +102,10 @@ SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, s
                      lowest_at_place(mesh));
 }
 
-SelfIntersections crossings_and_rings(const Mesh& mesh) {
+SelfIntersections crossings_and_rings(const Mesh& mesh, std::size_t limit) {
     const auto place = lowest_at_place(mesh);
-    if (!are_distinct(place)) return crossings(mesh, {.limit = max_pairs}, place);
-    return find_self_intersections(mesh, {.limit = max_pairs, .tell_rings = true});
+    if (!are_distinct(place)) return crossings(mesh, {.limit = limit}, place);
+    return find_self_intersections(mesh, {.limit = limit, .tell_rings = true});
 }
 
 Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {

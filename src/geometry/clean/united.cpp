@@ -21,7 +21,6 @@ constexpr const char* inside_out = "a component is inside out and is not a cavit
 constexpr const char* too_many =
     "more than a million pairs of triangles intersect, or their intersection lines could cross more than two "
     "million times: that is more than can be united in reasonable time";
-
 constexpr const char* no_memory = "there is not enough memory to unite this many intersecting faces";
 
 /// A winding number, by what turns outward and what turns inward.
@@ -83,7 +82,8 @@ class Uniting {
         if (refuse_for_memory(soup)) return std::move(result_);
         Arrangement arrangement(std::move(soup));
         if (const auto full = arrangement.overfull()) {
-            refuse(cluster_of(*full), too_many);
+            result_.short_of_memory = operands_ != nullptr;
+            refuse(cluster_of(*full), operands_ ? no_memory : too_many);
             return std::move(result_);
         }
         make_leaves(arrangement);
@@ -110,12 +110,21 @@ class Uniting {
         result_.refused.push_back({cluster, why});
     }
 
-    bool refuse_for_memory(const TriangleSoup& soup) {
-        constexpr double bytes_a_pair = 3000, bytes_a_triangle = 200; // measured
+    /// Whoever asks for an operation waits as long as it takes; clean does not.
+    bool refuse_for_memory(TriangleSoup& soup) {
+        constexpr double bytes_a_pair = 3000, bytes_a_triangle = 200, bytes_a_crossing = 1000; // measured
         const auto available = available_memory();
-        const double needed = bytes_a_pair * static_cast<double>(soup.pairs.size()) +
-                              bytes_a_triangle * static_cast<double>(soup.triangles.size());
-        if (!available || needed < static_cast<double>(*available)) return false;
+        double left = available ? static_cast<double>(*available) : HUGE_VAL;
+        left -= bytes_a_pair * static_cast<double>(soup.pairs.size()) +
+                bytes_a_triangle * static_cast<double>(soup.triangles.size());
+        if (left > 0) {
+            if (operands_) {
+                soup.max_pairs = SIZE_MAX;
+                soup.max_crossings = static_cast<std::size_t>(
+                    std::min(left / bytes_a_crossing, 1e15)); // however long it takes
+            }
+            return false;
+        }
         for (Index c = 0; c < solids_.clusters(); ++c) refuse(c, no_memory);
         result_.short_of_memory = true;
         return true;
@@ -123,22 +132,18 @@ class Uniting {
 
     void mark_cut_faces() {
         const Buried& buried = buried_.emplace(mesh_, solids_, found_, triangles_, first_, operands_);
-        std::vector<std::uint8_t> counts(found_.pairs.size());
-        parallel_for(
-            counts.size(),
-            [&](std::size_t i) {
-                const auto& [f, g] = found_.pairs[i];
-                counts[i] = solids_.cluster_of_face(f) != none && solids_.cluster_of_face(g) != none &&
-                            (buried.empty() || !buried.holds_meeting(f, g));
-            },
-            256);
+        const auto is_closed = [&](const auto& pair) {
+            return solids_.cluster_of_face(pair.first) != none &&
+                   solids_.cluster_of_face(pair.second) != none;
+        };
+        std::copy_if(found_.pairs.begin(), found_.pairs.end(), std::back_inserter(pairs_), is_closed);
+        const auto held = buried.hold_meetings(pairs_);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < held.size(); ++i)
+            if (!held[i]) pairs_[count++] = pairs_[i];
+        pairs_.resize(count);
         cut_.assign(mesh_.face_count(), 0);
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            if (!counts[i]) continue;
-            const auto& [f, g] = found_.pairs[i];
-            pairs_.emplace_back(f, g);
-            cut_[f] = cut_[g] = 1;
-        }
+        for (const auto& [f, g] : pairs_) cut_[f] = cut_[g] = 1;
     }
 
     void merge_where_cut() {

@@ -130,14 +130,18 @@ Mesh in_space_of(const Part& space, const Part& part) {
     return mesh;
 }
 
-[[noreturn]] void fail(const CombineFailure& failure, const std::vector<const Part*>& parts) {
+[[noreturn]] void fail(const CombineFailure& failure, const std::vector<const Part*>& parts,
+                       bool short_of_memory) {
     const Vec3 at = parts[0]->transform.point(failure.at);
     const std::string place = fmt::format("{:.6g}, {:.6g}, {:.6g}", at.x, at.y, at.z);
     if (failure.mesh != none)
         refuse(*parts[failure.mesh], fmt::format("is no solid: {}, at {}", failure.why, place),
                "clean: {holes: minimal} closes it, clean repairs its faces, orient turns it outward");
     refuse(*parts[0], fmt::format("cannot be combined: {} (near {})", failure.why, place),
-           "clean: {self_intersections: union} for each part first, or move one of them by a little");
+           short_of_memory
+               ? "combine some of the parts at a time, the nearest ones first (with `only`), or simplify "
+                 "them before"
+               : "clean: {self_intersections: union} for each part first, or move one of them by a little");
 }
 
 /// Takes the numbers of its groups from an operand that the first one is cut by, but for those of caps: they
@@ -194,7 +198,7 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     const Index first_cut = unites ? 0 : largest_number(part.mesh, cut_id_attribute);
     CombineResult r = facetmill::combine(std::move(meshes), {operation, unites ? none : Index{1}});
     if (r.short_of_memory) context.tell_unrepeatable();
-    if (r.failure) fail(*r.failure, all);
+    if (r.failure) fail(*r.failure, all, r.short_of_memory);
     tag(r.mesh, r.mesh_of_face, unites, first_cut);
     CombinedPart report{part.name, {}, r.mesh.face_count(), r.cut_faces, r.covered_faces, 0};
     for (const Part* p : others) report.with.push_back(p->name);

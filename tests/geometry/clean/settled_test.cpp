@@ -36,7 +36,7 @@ struct Seen {
 
 /// Solids, and what they are united to, are the same with rings and without.
 void check_rings(Mesh mesh, Seen& seen) {
-    SelfIntersections found = crossings_and_rings(mesh);
+    SelfIntersections found = crossings_and_rings(mesh, clean_steps::max_pairs);
     if (found.rings.empty() || found.count > 20'000) return;
     ++seen.rings;
     const Solids without = find_solids(mesh, found), with = find_solids(mesh, found, found.rings);
