@@ -62,8 +62,9 @@ std::vector<std::string> measured_lines(const Comparison& comparison) {
     lines.push_back(
         fmt::format("{} and {} samples ({} and {} averaged), seed {}, and all {} and {} vertices; "
                     "percentages of {:.6g}",
-                    d.forward.samples, d.backward.samples, d.forward.averaged, d.backward.averaged, d.seed,
-                    d.forward.vertices, d.backward.vertices, d.diagonal));
+                    grouped(d.forward.samples), grouped(d.backward.samples), grouped(d.forward.averaged),
+                    grouped(d.backward.averaged), d.seed, grouped(d.forward.vertices),
+                    grouped(d.backward.vertices), d.diagonal));
     const std::string a = comparison.geometry_a, b = comparison.geometry_b;
     if (a != "surface" || b != "surface")
         lines.push_back(fmt::format("of {} and {}; mean and rms of points are over all of them", a, b));
@@ -155,7 +156,7 @@ std::string difference_rows(const Comparison& comparison, const char* section) {
             rows += fmt::format(
                 "<tr>{}{}{}{}{}</tr>\n",
                 cell(fmt::format("<span class=\"{}\">{}</span>", outcome_of(*d).kind, outcome_of(*d).text)),
-                cell(code(d->name)), cell(escaped(text_of(d->a))), cell(escaped(text_of(d->b))),
+                cell(path_code(d->name)), cell(escaped(text_of(d->a))), cell(escaped(text_of(d->b))),
                 cell(escaped(d->note)));
     return rows;
 }

@@ -49,7 +49,7 @@ svg.chart { display: block; width: 100%; height: auto; max-width: 40rem; } .char
 .chart .before { stroke: var(--before); stroke-width: 1.5; fill: none; }
 .charts { display: grid; gap: 1rem 2rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18rem), 1fr)); }
 .deviation { display: grid; gap: 0 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 19rem), 1fr)); }
-.deviation + h3 { margin-top: 1.6rem; } .deviation .wide { grid-column: 1 / -1; } .card { min-width: 0; }
+.deviation figure { max-width: none; } .deviation + h3 { margin-top: 1.6rem; } .deviation .wide { grid-column: 1 / -1; } .card { min-width: 0; }
 td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height: .75rem; margin-top: .35rem;
   border-radius: .2rem; background: var(--bar); min-width: 1px; }
 @media (min-width: 800px) { .stage.pictured { grid-template-columns: minmax(0, 26rem) minmax(0, 1fr); }

@@ -525,6 +525,8 @@ class Pages(Case):
             self.assertIn("other emissiveFactor, normalTexture, roughnessFactor", text)
             self.assertIn(digests[0][0], text)
             self.assertNotRegex(text, r"\b[0-9a-f]{64}\b")
+        self.assertIn("<code>0/<wbr>normalTexture/<wbr>index/<wbr>source</code>", (self.dir / "d.html").read_text())
+        self.assertRegex(run.stdout, r"100,000 and 100,000 samples")
 
     def test_markdown_has_bytes_and_the_deviation_of_the_page(self):
         line = ["generate", "icosphere", "--subdivisions", "4", "!", "simplify", "25%", "!", "write", "small.glb"]
