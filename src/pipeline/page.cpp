@@ -239,7 +239,7 @@ bool Page::failures(const std::string& step, const Scene& scene, std::size_t fir
     for (std::size_t i = first_check; i < record_.checks.size(); ++i) {
         report::Check& check = record_.checks[i];
         fails |= !check.passed && check.severity == Severity::error;
-        if (report::failing_locations(check).empty()) continue;
+        if (!with_pictures_ || report::failing_locations(check).empty()) continue;
         if (is_full() || failures_shown_ >= most_failures) {
             ++record_.pictures_left_out;
             continue;

@@ -297,7 +297,7 @@ class Runner {
             if (step.ensure && !failures_.guarded(step.where, step.name, [&] {
                     const std::size_t first = record().checks.size();
                     check_contract(step, flow.scene, entered, reference.get());
-                    if (takes_pictures_) show_failures(step, flow.scene, first);
+                    if (takes_pictures_ || measures_) show_failures(step, flow.scene, first);
                 }))
                 return false;
             holds = failures_.judge_checks(checked) && holds;
@@ -306,7 +306,7 @@ class Runner {
     }
 
     void show_failures(const Step& step, const Scene& scene, std::size_t first_check) {
-        if (page_.failures(step.name, scene, first_check)) view_.failed(step.name, scene);
+        if (page_.failures(step.name, scene, first_check) && takes_pictures_) view_.failed(step.name, scene);
     }
 
     /// Checks of what the scene is at this place. Resolved lengths are recorded in `record`.
@@ -371,6 +371,8 @@ class Runner {
                 const Share share = beside_stages(fmt::format("deviation after {}", step.name));
                 page_.measure(step, flow.scene, outputs);
             });
+        if (done && measures_ && record().checks.size() > checks && fetch(step.where, "the deviation", flow))
+            failures_.guarded({}, "the deviation", [&] { show_failures(step, flow.scene, checks); });
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));

@@ -67,11 +67,12 @@ MarkdownRows glance_rows(const RunRecord& record) {
     if (const auto faces = face_counts(record))
         rows.push_back({"faces", grouped(faces->first), grouped(faces->last),
                         part_of_before(faces->first, faces->last)});
-    if (record.inputs.empty() && record.outputs.empty()) return rows;
+    const bool any_in = !record.inputs.empty(), any_out = !record.outputs.empty();
     const ByteSum in = sum_of(record.inputs), out = sum_of(record.outputs);
     const auto add = [&](const char* what, std::uint64_t before, std::uint64_t after) {
-        if (before > 0 || after > 0)
-            rows.push_back({what, sized(before), sized(after), part_of_before(before, after)});
+        if (before == 0 && after == 0) return;
+        rows.push_back({what, any_in ? sized(before) : "-", any_out ? sized(after) : "-",
+                        any_in && any_out ? part_of_before(before, after) : "-"});
     };
     add("bytes", in.bytes, out.bytes);
     add("of geometry", in.kinds.geometry, out.kinds.geometry);

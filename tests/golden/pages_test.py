@@ -540,8 +540,18 @@ class Pages(Case):
         self.assertIn(f"Deviation: {deviation[1]} %", (self.dir / "beside.md").read_text())
         self.assertIn("| faces | 5,120 | 1,280 | 25 % |\n", text)
         size = (self.dir / "small.glb").stat().st_size
-        self.assertIn(f"| bytes | 0 bytes | {size / 1000:.1f} kB | - |\n", text)
-        self.assertRegex(text, r"\| of geometry \| 0 bytes \| [\d.]+ kB \| - \|\n\| of JSON \|")
+        self.assertIn(f"| bytes | - | {size / 1000:.1f} kB | - |\n", text)
+        self.assertRegex(text, r"\| of geometry \| - \| [\d.]+ kB \| - \|\n\| of JSON \|")
+        # Where a check fails nothing is written, and the scene there is measured.
+        self.write("o.off", CLOSED)
+        for check, place in ((["!", "validate", "--faces.max", "9"], "validate"), (["--ensure", "{faces: {max: 9}}"], "crumple")):
+            failing = ["load", "o.off", "!", "split", "!", "crumple", "5%", *check]
+            self.mill("pipe", "-q", "--report", "failed.md", *failing, expect=1)
+            failed = (self.dir / "failed.md").read_text()
+            self.assertRegex(failed, rf"\| bytes \| {len(CLOSED)} bytes \| - \| - \|")
+            page, _ = self.report(*failing, expect=1)
+            deviation = re.search(r"\nDeviation: (\S+) % of the diagonal", failed)
+            self.assertIn(f"deviation {deviation[1]} % of the diagonal", " ".join(shown(page).split()), place)
         # The scene as loaded is taken from the cache, too.
         cached = {"FACETMILL_CACHE": str(self.dir / "cache")}
         for _ in range(2):
