@@ -759,6 +759,13 @@ std::span<const MessageId> message_ids() {
          {},
          "Data in a file that a mesh cannot represent is skipped.",
          "Nothing, if it is not needed; the message names it."},
+        {"W-SNAPPED",
+         {},
+         "clip or crop takes vertices as on the plane or the outline that may be seen to lie beside it: the "
+         "part is so far from "
+         "the origin "
+         "that 32-bit floats are far apart, half a metre in UTM.",
+         "`snap: 0` takes positions as they are, where they never were 32-bit floats."},
         {"W-SPLIT-FOLDED",
          {},
          "split made overlapping faces from concave faces; the message gives their number.",

@@ -5,6 +5,7 @@
 #include "support/measure.hpp"
 #include "support/run_stage.hpp"
 
+#include <algorithm>
 #include <set>
 
 using namespace facetmill;
@@ -251,4 +252,18 @@ TEST_CASE("split takes a method or a grid", "[stages]") {
     CHECK(test::failure([&] { faces(text("grid")); }) ==
           "usage [E-MISSING] split: the method grid needs 'grid', the number of segments per edge | for "
           "example split: {grid: 3}");
+}
+
+TEST_CASE("clip says when vertices far from the origin count as on the plane", "[stages]") {
+    Mesh far_away = shapes::cube();
+    for (Vec3& p : far_away.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
+    const auto warned = [](const Mesh& mesh, const std::string& options) {
+        const auto ids = test::run_stage("clip", options, test::scene_of(mesh)).warnings();
+        return std::count(ids.begin(), ids.end(), "W-SNAPPED");
+    };
+    CHECK(warned(far_away, "{plane: y=5400010.3}") == 1); // floats are half a metre apart there
+    CHECK(warned(far_away, "{plane: y=5400010.3, snap: 0}") == 0);
+    CHECK(warned(far_away, "{plane: y=5400005.2}") == 0);
+    for (Vec3& p : far_away.positions) p.y += 1e-9; // no floats, within four roundings of a double
+    CHECK(warned(far_away, "{plane: y=5400010.5}") == 0);
 }

@@ -5,6 +5,7 @@
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 using namespace facetmill;
@@ -128,4 +129,20 @@ TEST_CASE("crop refuses footprints before it runs", "[stages]") {
               .starts_with("usage [E-WKT]"));
     CHECK(
         refusal_of("crop", "missing.geojson", scene_of(shapes::grid(4, 3))).starts_with("missing [E-FILE]"));
+}
+
+TEST_CASE("crop says when vertices far from the origin count as on the outline", "[stages]") {
+    const std::string outline =
+        "[[449990, 5399990], [450010.7, 5399990], [450010.7, 5400030], [449990, 5400030]]";
+    Mesh far_away = shapes::cube();
+    for (Vec3& p : far_away.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
+    const auto warned = [&](const Mesh& mesh, const std::string& options) {
+        const auto ids = run_stage("crop", options, scene_of(mesh)).warnings();
+        return std::count(ids.begin(), ids.end(), "W-SNAPPED");
+    };
+    CHECK(warned(far_away, "{footprint: " + outline + ", axis: z}") == 1);
+    CHECK(warned(far_away, "{footprint: " + outline + ", axis: z, snap: 0}") == 0);
+    Mesh near = shapes::cube(); // 0.1f is not 0.1, and nobody sees it
+    for (Vec3& p : near.positions) p = p * static_cast<double>(0.1F);
+    CHECK(warned(near, "{footprint: [[0, 0], [0.1, 0], [0.1, 0.05], [0, 0.05]], axis: z}") == 0);
 }

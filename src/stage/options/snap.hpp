@@ -2,6 +2,9 @@
 // What counts as on a plane, or on the outline of a footprint.
 
 #include "options/declaration.hpp"
+#include "stage/context.hpp"
+
+#include <optional>
 
 namespace facetmill {
 
@@ -21,5 +24,14 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
         .option()
         .schema = {{"enum", {"auto", "0", 0}}};
 }
+
+/// How far 32-bit floats are apart where the mesh is, when that may be seen beside its size and most of its
+/// positions are such numbers; else none.
+std::optional<double> seen_rounding(const Mesh& mesh);
+
+/// Warns (W-SNAPPED) of vertices that count as on a plane or an outline though they may be that far away.
+/// what: "the outline".
+void warn_of_snapping(const std::string& part, std::size_t vertices, double apart, const std::string& what,
+                      Context& context);
 
 } // namespace facetmill

@@ -169,8 +169,10 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
         const bool had_faces = part.mesh.face_count() > 0;
         settings.planes = cutter.planes_for(part);
         settings.memory = part.cuts ? *part.cuts : CutMemory{};
+        const auto apart = settings.snap ? seen_rounding(part.mesh) : std::nullopt;
         ClipResult r = clip(std::move(part.mesh), settings);
         warn(part, r, had_faces, context);
+        if (apart && r.snapped > 0) warn_of_snapping(part.name, r.snapped, *apart, "a plane", context);
         context.attribute_changes(part, r.changes);
         report.cut_faces += r.cut_faces;
         report.cap_faces += r.cap_faces;
