@@ -117,7 +117,8 @@ void Partition::store(const std::filesystem::path& records, const std::filesyste
 void Partition::distribute(Distribution& work, std::uint64_t most) {
     faces_ = work.count(tree_, most);
     if (faces_ == 0)
-        throw Error(ErrorKind::malformed, "E-EMPTY", fmt::format("'{}' has no faces", source_->name()));
+        throw Error(ErrorKind::malformed, "E-EMPTY", fmt::format("'{}' has no faces", source_->name()),
+                    "points and lines are processed in memory: --partition never");
     // Half of the waiting bytes is of lists that are full.
     records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(work.means().memory / 16));
     work.give(records_, faces_);

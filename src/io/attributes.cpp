@@ -113,7 +113,8 @@ void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
                 {Severity::warning, "W-NAN",
                  fmt::format("{} values of '{}' in part '{}' are not finite numbers: they are set to 0",
                              found, attribute.name, part.name),
-                 file_mark(file), ""});
+                 file_mark(file),
+                 "export the file again if the attribute is needed: 0 may mean something there"});
     }
 }
 

@@ -66,7 +66,8 @@ Input readable(const Input& input) { return sure_codec(input) ? input : in_utf8(
 const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
     if (input.bytes().empty())
         throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' is empty: it has no bytes", input.name()));
+                    fmt::format("'{}' is empty: it has no bytes", input.name()),
+                    "its export or its download broke off: make the file again");
     const Codec& codec = forced ? *forced : choose(input, log);
     if (!codec.read)
         throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} is written but not read", codec.name));
@@ -276,7 +277,9 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     }
     if (!any)
         throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no mesh: not one vertex", input.name()));
+                    fmt::format("'{}' has no mesh: not one vertex", input.name()),
+                    "export it again, with the meshes themselves: programs leave out what is hidden or not "
+                    "selected");
     return scene;
 }
 

@@ -117,7 +117,8 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
     std::error_code ignored;
     if (!fs::is_regular_file(*path, ignored)) {
         log.absent.push_back(*path);
-        return refuse(fmt::format("the file \"{}\" is missing", path->string()));
+        return refuse(fmt::format("the file \"{}\" is missing", path->string()),
+                      "put the image there, or export the model with its textures in the file (GLB)");
     }
     const auto size = fs::file_size(*path, ignored);
     if (!ignored)
@@ -132,7 +133,7 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         // A fault of the disk or too many open files: without its picture the result would be another one.
         if (error.kind() == ErrorKind::missing && ::access(path->c_str(), R_OK) == 0) throw;
         log.unrepeatable = true; // it is there, and may be readable the next time
-        return refuse(error.diagnostics().front().message);
+        return refuse(error.diagnostics().front().message, "check the permissions of the image");
     }
 }
 

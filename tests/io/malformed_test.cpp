@@ -83,7 +83,9 @@ TEST_CASE("a broken STL is refused with its place", "[io]") {
          "leaves out such vertices and the faces at them"},
         {"solid a\n" + facet + "endsolid\nsolod b\n",
          "malformed [E-STL] a.stl:10: expected 'solid', found 'solod'"},
-        {"solid a\nendsolid a\n", "malformed [E-EMPTY] 'a.stl' has no mesh: not one vertex"},
+        {"solid a\nendsolid a\n",
+         "malformed [E-EMPTY] 'a.stl' has no mesh: not one vertex | export it again, with the meshes "
+         "themselves: programs leave out what is hidden or not selected"},
         {"what is this", "malformed [E-STL] a.stl: 12 bytes are neither STL text nor binary, which has 84 "
                          "before the first triangle"},
         {std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(60, '\0'),
@@ -111,8 +113,10 @@ TEST_CASE("a broken OBJ is refused with its place", "[io]") {
          "malformed [E-OBJ] a.obj:4: a face names a vertex that is not there: the file has 3"},
         {triangle + "f 1 2 99999999999999999999\n", "malformed [E-OBJ] a.obj:4: expected a corner (v, v/vt, "
                                                     "v//vn or v/vt/vn), found '99999999999999999999'"},
-        {"# nothing\n", "malformed [E-EMPTY] 'a.obj' has no mesh: not one vertex"},
-        {"", "malformed [E-EMPTY] 'a.obj' is empty: it has no bytes"},
+        {"# nothing\n", "malformed [E-EMPTY] 'a.obj' has no mesh: not one vertex | export it again, with the "
+                        "meshes themselves: programs leave out what is hidden or not selected"},
+        {"", "malformed [E-EMPTY] 'a.obj' is empty: it has no bytes | its export or its download broke off: "
+             "make the file again"},
     };
     for (const auto& [text, message] : cases) CHECK(reading("a.obj", text) == message);
 }

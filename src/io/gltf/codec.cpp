@@ -199,7 +199,8 @@ void refuse_without_parts(const Json& document, const std::string& name) {
     if (primitives > 0)
         throw Error(ErrorKind::malformed, "E-EMPTY",
                     fmt::format("'{}' has no faces: its {} primitive{} placed nowhere or without positions",
-                                name, primitives, primitives == 1 ? " is" : "s are"));
+                                name, primitives, primitives == 1 ? " is" : "s are"),
+                    "export it again, with the scene that shows them");
 }
 
 bool has_embedded_images(const Json& document) {

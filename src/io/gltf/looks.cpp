@@ -1,5 +1,7 @@
 #include "io/gltf/looks.hpp"
 
+#include "io/gltf/textures.hpp"
+
 #include "base/portable_math.hpp"
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/container.hpp"
@@ -89,7 +91,8 @@ class LookBuilder {
         auto image = place.find("source");
         if (const auto webp = extension(place, "EXT_texture_webp")) image = webp->find("source");
         if (!image) {
-            warn(place.path(), "its image is of an unsupported kind");
+            warn(place.path(), "its image is of an unsupported kind",
+                 "convert the image to PNG, JPEG or WebP");
             return {};
         }
         out.image = decoded(image->index(count_of(json_, "images"), "image"), srgb);
@@ -134,18 +137,18 @@ class LookBuilder {
         if (!bytes) return nullptr; // told when the file was read
         const auto size = image_size(*bytes);
         if (size && reader_.bytes_ + texture_bytes(size->first, size->second, max_side) > reader_.most_) {
-            warn(place.path(),
-                 fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20));
+            warn(index, fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20),
+                 "textures: 1024 before the picture makes them smaller");
             return nullptr;
         }
         if (size && size->first > max_pixels / std::max<std::size_t>(1, size->second)) {
-            warn(place.path(),
-                 fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second));
+            warn(index, fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second),
+                 "make the image smaller where it was made, to 8192 x 8192 at most");
             return nullptr;
         }
         auto pixels = decoded_image(*bytes);
         if (!pixels) {
-            warn(place.path(), "it is broken, or neither PNG nor JPEG nor WebP");
+            warn(index, "it is broken, or neither PNG nor JPEG nor WebP", "export the image again");
             return nullptr;
         }
         auto image = texture_image(static_cast<int>(pixels->width), static_cast<int>(pixels->height),
@@ -165,9 +168,16 @@ class LookBuilder {
         return Bytes(view.begin(), view.end());
     }
 
-    void warn(const std::string& place, const std::string& why) {
+    void warn(const std::string& place, const std::string& why, const std::string& hint) {
         warnings_.push_back({Severity::warning, "W-TEXTURE", fmt::format("{}: not drawn: {}", place, why),
-                             file_mark(known_.document->name), "the plain colour is drawn in its place"});
+                             file_mark(known_.document->name),
+                             hint + "; the plain colour is drawn in its place"});
+    }
+    /// Of an image: its place in the document and, where it has one, its name.
+    void warn(std::size_t index, const std::string& why, const std::string& hint) {
+        const std::string place = fmt::format("images[{}]", index);
+        const std::string name = name_of_image(json_["images"][index], index);
+        warn(name == place ? place : fmt::format("{} ({})", place, name), why, hint);
     }
 
     LookReader& reader_;

@@ -100,7 +100,7 @@ MaterialMaker::Image* MaterialMaker::image_of(const std::string& material, const
                                      fmt::format("{}: \"{}\" is neither PNG nor JPEG, as glTF requires, and "
                                                  "is not kept",
                                                  where, map.file),
-                                     file_mark(input_.name()), ""});
+                                     file_mark(input_.name()), "convert the image to PNG or JPEG"});
     }
     return at->second ? &*at->second : nullptr;
 }

@@ -231,7 +231,8 @@ void Builder::add_textures(Scene& scene, const Header& header) {
             {Severity::warning, "W-IMAGE",
              fmt::format("the texture '{}' is not read: the file has no texture coordinates",
                          header.textures[0]),
-             file_mark(input_.name()), ""});
+             file_mark(input_.name()),
+             "export it with texture coordinates: s and t of vertices, or texcoord of faces"});
         return;
     }
     MaterialDocument document(input_.name());

@@ -16,7 +16,7 @@ std::optional<Bytes> texture_bytes(const Input& input, const std::string& textur
     log.warnings.push_back(
         {Severity::warning, "W-IMAGE",
          fmt::format("the texture '{}' is neither PNG nor JPEG, as glTF requires, and is not kept", texture),
-         file_mark(input.name()), ""});
+         file_mark(input.name()), "convert the image to PNG or JPEG"});
     return {};
 }
 

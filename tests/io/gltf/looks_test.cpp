@@ -91,7 +91,7 @@ TEST_CASE("a texture that cannot be drawn is a warning, and the plain colour", "
         std::vector<Diagnostic> warnings;
         CHECK_FALSE(look_of(scene, &warnings).base_texture);
         std::string text;
-        for (const auto& w : warnings) text += w.id + " " + w.message;
+        for (const auto& w : warnings) text += w.id + " " + w.message + " | " + w.hint;
         return text;
     };
     CHECK(warned(scene_with(red_texture, {data_uri("no image at all")}))
@@ -101,7 +101,9 @@ TEST_CASE("a texture that cannot be drawn is a warning, and the plain colour", "
     // 16384 x 16384 pixels, of which there are no more than the header.
     std::string huge = test::red_png();
     huge.replace(16, 8, std::string("\0\0\x40\0\0\0\x40\0", 8));
-    CHECK(warned(scene_with(red_texture, {data_uri(huge)})).starts_with("W-TEXTURE"));
+    const std::string told = warned(scene_with(red_texture, {data_uri(huge)}));
+    CHECK(told.starts_with("W-TEXTURE images[0]: not drawn: "));
+    CHECK(told.ends_with("; the plain colour is drawn in its place"));
     CHECK(warned(scene_with(red_texture, {})).starts_with("W-TEXTURE not drawn: "));
     CHECK(warned(scene_with(red_texture, {"missing.png"})).empty()); // reading the file has told it
     Scene compressed = scene_with(red_texture, {data_uri(test::red_png())});
