@@ -23,7 +23,7 @@ std::span<const MessageId> message_ids() {
         {"E-ATTRIBUTE",
          {Kind::stage},
          "A part has no attribute of the name and kind that an option asks for.",
-         "`facetmill info` lists the attributes of a file."},
+         "`facetmill info` lists the attributes of a file; render measures those that its help names."},
         {"E-BASELINE",
          {Kind::usage, Kind::malformed},
          "A baseline of validate is given but no stage uses one, or the file is not a baseline.",
@@ -551,6 +551,14 @@ std::span<const MessageId> message_ids() {
          "Faces were replaced by triangles that may overlap: faces without area, non-planar faces that "
          "intersect themselves, and faces with neighbours that wind around some points several times.",
          "Check the faces given in the message."},
+        {"W-FAR",
+         {},
+         "Most of a scene is hardly seen in its picture, because something lies far off: a stray face, a "
+         "part in "
+         "other units.",
+         "The message says where it is, for `at` and `zoom`. `clean: {components: {keep: 1}}` keeps the "
+         "largest "
+         "component; `facetmill info` tells the bounds of parts."},
         {"W-FORMAT", {}, "The content of a file does not match its suffix.", "Rename it."},
         {"W-GROUPS",
          {},
@@ -640,10 +648,12 @@ std::span<const MessageId> message_ids() {
          {},
          "Values of an attribute are not finite numbers and are set to 0.",
          "Export the file again if the attribute is needed."},
-        {"W-NO-ATTRIBUTE",
+        {"W-NO-VALUE",
          {},
-         "render was asked to colour by an attribute that no part has.",
-         "`facetmill info` lists the attributes."},
+         "What render measured has no value at any face or vertex: the walls of an open sheet have no "
+         "thickness.",
+         "`facetmill info` tells whether the surface is closed and manifold; `clean` and `orient` make it "
+         "so."},
         {"W-NODES",
          {},
          "A glTF node has two parents and is placed under the first.",

@@ -173,7 +173,7 @@ void write_picture(const std::vector<Picture>& pictures, const std::string& path
     io::write_now(path, io::png(sheet));
 }
 
-Picture info_picture(const Scene& scene, const Console& console) {
+Picture info_picture(const std::string& mesh, const Scene& scene, const Console& console) {
     PictureSettings settings;
     settings.width = 800;
     settings.height = 600;
@@ -183,7 +183,19 @@ Picture info_picture(const Scene& scene, const Console& console) {
     settings.looks = reader.looks(scene, warnings);
     for (const auto& warning : warnings) console.diagnostic(warning);
     const auto posed = io::posed(scene);
-    return picture_of(posed ? *posed : scene, settings);
+    const Scene& seen = posed ? *posed : scene;
+    if (const auto crowd = crowd_of(seen, settings))
+        console.diagnostic(
+            {Severity::warning,
+             "W-FAR",
+             fmt::format("{}: most of the scene is {:.2g} pixels wide in the picture, because "
+                         "something lies far off",
+                         mesh, crowd->pixels),
+             {},
+             fmt::format("facetmill render {} -o part.png --at {:.6g},{:.6g},{:.6g} --zoom {} "
+                         "shows it",
+                         mesh, crowd->middle.x, crowd->middle.y, crowd->middle.z, crowd->zoom)});
+    return picture_of(seen, settings);
 }
 
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
@@ -195,7 +207,7 @@ FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Cons
     info.scene = io::read_scene(io::Input::open(mesh), read_settings(options.asset_roots), log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
     steps.next();
-    if (!options.picture.empty()) pictures.push_back(info_picture(info.scene, console));
+    if (!options.picture.empty()) pictures.push_back(info_picture(mesh, info.scene, console));
     steps.next();
     info.properties = inspect(info.scene, {options.self_intersections});
     steps.next();

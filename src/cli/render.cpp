@@ -20,6 +20,8 @@ Examples
   facetmill render part.stl -o part.png --view front --edges all --background white
   facetmill render scan.ply -o around.png --views turntable --width 400 --height 400
   facetmill render before.glb after.glb -o both.png --width 800 --height 800
+  facetmill render part.stl -o walls.png --attribute wall_thickness
+  facetmill render low.glb high.glb -o deviation.png --attribute deviation
 
 )";
 
@@ -61,6 +63,14 @@ void parse_own(const Arguments& arguments, std::vector<std::string> words) {
     }
 }
 
+/// Nothing is between load and render that the scene could deviate by.
+void require_other_mesh(const pipeline::Plan& plan) {
+    const auto& step = plan.steps.back();
+    if (step.stage->compares_with_load && step.stage->compares_with_load(step.options.get()))
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "render: deviation is measured from another mesh",
+                    "facetmill render low.glb high.glb -o deviation.png --attribute deviation", step.where);
+}
+
 int render(RenderCommandOptions& options, const Arguments& arguments, const Invocation& invocation,
            const Console& console) {
     const auto& all = invocation.line.arguments();
@@ -94,6 +104,7 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
     problems.throw_if_any(ErrorKind::usage);
     const auto plan = pipeline::make_plan(document, settings, problems);
     if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
+    require_other_mesh(plan);
     confine_to({plan}, options.run, console);
     return run_with_messages(plan, options.run, console, "");
 }

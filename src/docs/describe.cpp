@@ -11,7 +11,7 @@ std::string type_text(const Option& o) {
     if (!o.choices.empty()) {
         std::vector<std::string> names;
         for (const auto& c : o.choices) names.push_back(c.name);
-        return fmt::format("one of {}", fmt::join(names, ", "));
+        return fmt::format("{} {}", o.repeatable ? "list of" : "one of", fmt::join(names, ", "));
     }
     std::string text(to_string(o.kind));
     if (o.dimension == Dimension::bytes) text += " of bytes";

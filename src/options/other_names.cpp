@@ -81,6 +81,9 @@ const std::vector<OtherNames>& other_names() {
         {"max_size", {"resize", "resolution", "texture_size"}},
         {"with", {"other", "mesh", "path", "file", "tool"}},
         {"view", {"camera", "direction"}},
+        {"attributes", {"areas"}, "attributes: area"},
+        {"attributes", {"curvature", "curvatures"}, "attributes: [mean_curvature, gaussian_curvature]"},
+        {"attribute", {"scalar", "scalars", "field", "scalar_field"}},
         {"colours", {"colors", "color_by"}},
         {"background", {"bg"}},
     };

@@ -46,16 +46,14 @@ int count_stages(const Steps& steps) {
     return count;
 }
 
-/// Whether a contract compares with the scene as loaded.
+/// Whether a contract or a stage compares with the scene as loaded.
 bool compares_with_load(const Steps& steps) {
     return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
         if (step.ensure && step.ensure->deviation &&
             step.ensure->deviation->from == DeviationLimits::From::load)
             return true;
-        if (step.kind == Step::Kind::stage) {
-            const std::string& option = step.stage->roles.compares_with_load;
-            return !option.empty() && step.given.find(option) != nullptr;
-        }
+        if (step.kind == Step::Kind::stage)
+            return step.stage->compares_with_load && step.stage->compares_with_load(step.options.get());
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return compares_with_load(*arm.steps); });
     });

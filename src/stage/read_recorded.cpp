@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "base/progress.hpp"
+#include "io/convert.hpp"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,14 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
     for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
     if (log.unrepeatable || !input.is_as_opened()) context.tell_unrepeatable();
     return {std::move(scene), std::move(log)};
+}
+
+Scene read_beside(const PathText& path, const Scene& scene, Context& context) {
+    io::ReadSettings settings;
+    settings.asset_roots = context.places().asset_roots;
+    Scene other = read_recorded(context.places().input(path.text), settings, nullptr, context).first;
+    io::convert(other, {scene.unit, scene.up});
+    return other;
 }
 
 } // namespace facetmill

@@ -20,4 +20,7 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
                                             const io::ReadSettings& settings, const io::Codec* codec,
                                             Context& context);
 
+/// Reads the mesh file that an option names, in the scene's unit and up axis. Throws as above.
+Scene read_beside(const PathText& path, const Scene& scene, Context& context);
+
 } // namespace facetmill

@@ -37,11 +37,10 @@ struct StageFiles {
 
 /// Options of a stage that the pipeline has to know of, by their names; empty: it has none such.
 struct OptionRoles {
-    std::string sets_unit = {};          ///< says what the numbers of the scene mean afterwards
-    std::string writes_in_unit = {};     ///< the unit of the numbers in the file that it writes
-    std::string compares_with_load = {}; ///< compares with the scene as loaded, when it is given
-    std::string baseline = {};           ///< the file of what is known and may go on
-    std::string updates_baseline = {};   ///< writes that file anew: --update-baseline gives it
+    std::string sets_unit = {};        ///< says what the numbers of the scene mean afterwards
+    std::string writes_in_unit = {};   ///< the unit of the numbers in the file that it writes
+    std::string baseline = {};         ///< the file of what is known and may go on
+    std::string updates_baseline = {}; ///< writes that file anew: --update-baseline gives it
 };
 
 /// What a stage does with parts of lines.
@@ -86,6 +85,8 @@ struct StageInfo {
     Function<MayLose(const void* options)> may_lose_with = {};
     /// What these options need of faces that cross themselves. May be empty.
     Function<CrossingFacePolicy(const void* options)> crossing_faces_with = {};
+    /// Whether these options compare with the scene as loaded (RunState::loaded). May be empty.
+    Function<bool(const void* options)> compares_with_load = {};
     /// As run, of a mesh that is larger than memory. Empty: the stage cannot do that.
     Function<void(const void* options, CellFlow&, Context&)> on_cells = {};
     /// Why these options need the mesh in memory, in words. May be empty.
@@ -111,6 +112,7 @@ struct StageHooks {
     io::FileHeader (*header)(const Options&, const std::filesystem::path&, const Places&) = nullptr;
     MayLose (*may_lose)(const Options&) = nullptr;
     CrossingFacePolicy (*crossing_faces)(const Options&) = nullptr;
+    bool (*compares_with_load)(const Options&) = nullptr;
     void (*on_cells)(const Options&, CellFlow&, Context&) = nullptr;
     std::optional<std::string> (*why_not_on_cells)(const Options&) = nullptr;
 };
@@ -142,6 +144,7 @@ void add_options(StageInfo& info, DeclareFunction declare, const StageHooks<Opti
     info.may_lose_with = of_any_options(hooks.may_lose);
     info.crossing_faces_with = of_any_options(hooks.crossing_faces);
     info.verify = of_any_options(hooks.verify);
+    info.compares_with_load = of_any_options(hooks.compares_with_load);
     info.on_cells = of_any_options(hooks.on_cells);
     info.why_not_on_cells = of_any_options(hooks.why_not_on_cells);
 }

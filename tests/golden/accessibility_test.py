@@ -94,7 +94,7 @@ class Looks(Case):
         self.mill("pipe", "-q", "--report", "good.html", "--timings", "times.html", "load", SCAN, "--unit", "mm", "!", "simplify", "20%",
                   "!", "relax", "1", "!", "write", "a-rather-long-name_of_a-file_" + "x" * 40 + ".glb")
         self.textured()
-        self.mill("pipe", "-q", "--report", "bad.html", "load", "red.obj", "!", "measure", "--curvature", "!", "validate", "--closed",
+        self.mill("pipe", "-q", "--report", "bad.html", "load", "red.obj", "!", "measure", "--attributes", "mean_curvature", "!", "validate", "--closed",
                   "--faces.max", "2", expect=1)
         for name in ("good.html", "times.html", "bad.html"):
             self.assertEqual(self.faults(self.dir / name, axe=name != "times.html"), [], name)

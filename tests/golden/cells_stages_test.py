@@ -95,7 +95,7 @@ class StagesInCells(LargeCase):
 
     def test_a_large_mesh_is_split_in_cells(self):
         scan = self.dir / "scan.ply"
-        self.mill("pipe", "load", SCAN, "!", "measure", "--curvature", "!", "write", scan)
+        self.mill("pipe", "load", SCAN, "!", "measure", "--attributes", "mean_curvature,gaussian_curvature", "!", "write", scan)
         for passes in variants(1, 2):
             results = set()
             for threads, memory in variants((1, "32M"), (2, "64M"), (5, "1G")):
@@ -115,7 +115,7 @@ class StagesInCells(LargeCase):
 
     def test_a_large_mesh_is_crumpled_in_cells(self):
         scan = self.dir / "scan.ply"
-        self.mill("pipe", "load", SCAN, "!", "measure", "--curvature", "!", "write", scan)
+        self.mill("pipe", "load", SCAN, "!", "measure", "--attributes", "mean_curvature,gaussian_curvature", "!", "write", scan)
         turn = ("transform", "--rotate.axis", "1,2,3", "--rotate.angle", "30deg", "!")  # percentages are of the world's box
         for chain in variants((*turn, "crumple", "0.05%"), ("crumple", "0.1% of load", "--grid", 1, "--seed", 7),
                               (*turn, "split", "midpoint", "!", "crumple", "0.5%", "--grid", 1, "--frequency", 3, "--octaves", 3)):
@@ -176,7 +176,7 @@ class StagesInCells(LargeCase):
     @unittest.skipIf(SLOW, "the same code with other data takes minutes under sanitizers")
     def test_clean_in_cells_keeps_attributes_apart_and_is_bounded(self):
         self.large()
-        self.mill("pipe", "load", "large.ply", "!", "measure", "--curvature", "!", "write", "attributes.ply")
+        self.mill("pipe", "load", "large.ply", "!", "measure", "--attributes", "mean_curvature,gaussian_curvature", "!", "write", "attributes.ply")
         scarred(self.dir / "attributes.ply", self.dir / "scarred.ply")
         run = self.mill("pipe", "--partition", "always", "load", "scarred.ply", "!", "clean", "!", "write", "o.ply", expect=2)
         self.assertIn("vertices at one place have attributes of their own", run.stderr)

@@ -65,7 +65,7 @@ class Cells(LargeCase):
                  ("simplify 10% --max_error 1%", "max_error is measured on the whole mesh", "leave that option out"),
                  ("simplify 10% --only x", "'simplify' has the key 'only'", "leave it out"),
                  ("simplify --vertices 100", "the target must be faces or a ratio", "leave that option out"),
-                 ("measure --areas", "measure: areas: cells do not carry attributes of faces", "leave that option out"),
+                 ("measure --attributes area", "measure: attributes: cells do not get any", "leave that option out"),
                  ("measure --path o.csv", "the faces in the order of the file", "leave that option out"),
                  ("split bisect", "split: the method bisect needs the whole mesh", "leave that option out"),
                  ("split --max_edge 1%", "the target max_edge is decided for the whole mesh", "leave that option out"),

@@ -120,7 +120,7 @@ class Pages(Case):
 
     def test_the_page_has_every_number_of_the_terminal(self):
         self.write("o.off", CLOSED)
-        for line in ("load o.off ! measure --density 2 --curvature ! section z=0.2 ! probe 0.1,0.1,0.1 ! write o.ply",
+        for line in ("load o.off ! measure --density 2 --attributes mean_curvature ! section z=0.2 ! probe 0.1,0.1,0.1 ! write o.ply",
                      "generate sphere ! simplify 50% --certify ! write s.glb",
                      "load o.off ! split ! clip z=0.25 --cap ! clean ! validate --closed --area.max 1 ! write o.stl"):
             for timings in ((), ("--timings", "t.html")):
@@ -376,7 +376,7 @@ class Pages(Case):
                 for word in ("!", "render", f"{name}.png", "--width", "200", "--height", "150", *options)]
         seen = []
         for threads in (1, 2, 3):
-            for source, before in ((SCAN, ("!", "simplify", "20%", "!", "measure", "--curvature")), ("ball.gltf", ())):
+            for source, before in ((SCAN, ("!", "simplify", "20%", "!", "measure", "--attributes", "mean_curvature,gaussian_curvature")), ("ball.gltf", ())):
                 there = [*line] if before else line[:line.index("curved.png") - 2] + line[line.index("around.png") - 2:]
                 self.mill("pipe", "-q", "-j", threads, "-o", f"{threads}/{'scan' if before else 'ball'}", "load", source, *before, *there)
             seen.append({name: digest for name, digest in self.files(self.dir / str(threads)).items()})

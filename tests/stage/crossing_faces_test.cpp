@@ -141,7 +141,7 @@ TEST_CASE("what is measured is what faces that cross themselves cover", "[stages
     CHECK(d.forward.maximum == 0);
     CHECK(d.backward.maximum == 0);
 
-    const auto curved = run_stage("measure", "{curvature: true}", scene_of(bow_tie_prism()));
+    const auto curved = run_stage("measure", "{attributes: gaussian_curvature}", scene_of(bow_tie_prism()));
     CHECK(curved.mesh().find("gaussian_curvature", Domain::vertex)->size() == 8);
     CHECK(broken_invariants(curved.mesh()).empty());
 }

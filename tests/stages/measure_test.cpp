@@ -1,5 +1,7 @@
 #include "support/catch.hpp"
 
+#include "io/codec.hpp"
+#include "io/outputs.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"
@@ -62,18 +64,67 @@ TEST_CASE("a solid inside out is warned of, an empty scene has nothing", "[stage
     CHECK(run_stage("measure", "{}", scene_of({})).record.result["total"]["shell"]["area"] == 0);
 }
 
-TEST_CASE("areas and curvature are attributes when asked for", "[stages]") {
+TEST_CASE("what is measured is kept as attributes when asked for", "[stages]") {
     const auto plain = run_stage("measure", "{}", scene_of(shapes::uv_cube()));
     CHECK(plain.scene.parts[0].mesh.attributes.size() == shapes::uv_cube().attributes.size());
     CHECK_FALSE(plain.scene.parts[0].changed);
-    const auto r = run_stage("measure", "{areas: true, curvature: true}", scene_of(shapes::uv_cube()));
+    const auto r = run_stage("measure", "{attributes: [area, gaussian_curvature, wall_thickness]}",
+                             scene_of(shapes::uv_cube(), Unit::mm));
     const Mesh& mesh = r.scene.parts[0].mesh;
     CHECK(broken_invariants(mesh).empty());
     CHECK(mesh.find("area", Domain::face)->value(3, 0) == 0.5);
     CHECK(mesh.find("gaussian_curvature", Domain::vertex)->value(0, 0) > 0);
+    CHECK(mesh.find("wall_thickness", Domain::face)->value(7, 0) == Approx(1));
     CHECK(r.scene.parts[0].changed);
-    const auto again = run_stage("measure", "{areas: true}", r.scene);
+    const Json& kept = r.record.result["parts"][0]["attributes"];
+    REQUIRE(kept.size() == 3);
+    CHECK(kept[2]["name"] == "wall_thickness");
+    CHECK(kept[2]["unit"] == "mm");
+    CHECK(kept[2]["missing"] == 0);
+    CHECK(kept[2]["values"]["count"] == 12);
+    const auto again = run_stage("measure", "{attributes: area}", r.scene);
     CHECK(again.scene.parts[0].mesh.attributes.size() == mesh.attributes.size());
+}
+
+TEST_CASE("where there is no number, attributes have the one that is given", "[stages]") {
+    const auto r =
+        run_stage("measure", "{attributes: wall_thickness, missing: -1}", scene_of(shapes::grid(2, 2)));
+    CHECK(r.mesh().find("wall_thickness", Domain::face)->value(5, 0) == -1);
+    const Json& kept = r.record.result["parts"][0]["attributes"][0];
+    CHECK(kept["missing"] == 8);
+    CHECK(kept["values"]["count"] == 0);
+    const auto zero = run_stage("measure", "{attributes: mean_curvature}", scene_of(shapes::grid(2, 2)));
+    CHECK(zero.mesh().find("mean_curvature", Domain::vertex)->value(0, 0) == 0);
+}
+
+TEST_CASE("deviation is kept from another file, or from the scene as loaded", "[stages]") {
+    test::TemporaryDirectory directory;
+    const auto other = directory / "other.off";
+    io::write_now(other, io::codec_for(other)->write(scene_of(shapes::icosphere(4)), {}).files.front().bytes);
+    Mesh large = shapes::icosphere(4);
+    for (Vec3& p : large.positions) p = p * 1.5;
+    const auto r =
+        run_stage("measure", "{attributes: deviation, with: " + other.string() + "}", scene_of(large));
+    const auto* a = r.mesh().find("deviation", Domain::vertex);
+    REQUIRE(a);
+    for (std::size_t i = 0; i < a->size(); ++i) CHECK(a->value(i, 0) == Approx(0.5).epsilon(0.01));
+    CHECK(r.state->record.inputs.size() == 1);
+    const auto& compares = test::stage_for_test("measure").compares_with_load;
+    Problems problems;
+    for (const auto& [options, expected] : {std::pair{"deviation", true}, {"area", false}}) {
+        const auto given = test::options_of(test::stage_for_test("measure"),
+                                            test::options({{"attributes", options}}), problems);
+        CHECK(compares(given.get()) == expected);
+    }
+    using test::problems_of;
+    CHECK(problems_of("measure", test::options({{"attributes", "thickness"}}))
+              .ends_with("| 'thickness' is called 'wall_thickness' here"));
+    CHECK(
+        problems_of("measure", test::options({{"attributes", "aera"}})).ends_with("| did you mean 'area'?"));
+    CHECK(problems_of("measure", test::options({{"with", "a.off"}}))
+              .find("goes with the attribute deviation") != std::string::npos);
+    CHECK(problems_of("measure", test::options({{"missing", "1"}})).find("goes with attributes") !=
+          std::string::npos);
 }
 
 TEST_CASE("measure writes all as JSON and the faces as a table", "[stages]") {

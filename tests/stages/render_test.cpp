@@ -154,9 +154,7 @@ TEST_CASE("views beside a legend have one scale, however small a direction is", 
 TEST_CASE("render says what it was not given", "[stages]") {
     const test::TemporaryDirectory folder;
     const auto run =
-        run_stage("render", options({{"path", (folder.path() / "c.png").string()}, {"attribute", "heat"}}),
-                  scene_of({}));
-    CHECK(run.warnings() == std::vector<std::string>{"W-NO-ATTRIBUTE"});
+        run_stage("render", options({{"path", (folder.path() / "c.png").string()}}), scene_of({}));
     CHECK(run.record.result["pixels_per_unit"] == 0.0);
     CHECK(
         problems_of("render", options({{"path", "a.jpg"}})) ==
@@ -168,4 +166,104 @@ TEST_CASE("render says what it was not given", "[stages]") {
     CHECK(problems_of("render", options({{"path", "a.png"}, {"width", "100000"}})).starts_with("E-RANGE"));
     CHECK(problems_of("render", options({{"path", "a.png"}, {"height", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("render", options({})).starts_with("E-MISSING"));
+}
+
+namespace {
+
+/// As a map, in which the attribute is drawn into a file of the folder.
+std::string drawing_options(const test::TemporaryDirectory& folder, const std::string& rest) {
+    return "{path: " + (folder / "m.png").string() + ", width: 200, height: 150, " + rest + "}";
+}
+
+} // namespace
+
+TEST_CASE("render measures an attribute that no part has", "[stages]") {
+    const test::TemporaryDirectory folder;
+    Mesh ball = shapes::icosphere(3);
+    for (Vec3& p : ball.positions) p = p * 2;
+    const auto run =
+        run_stage("render", drawing_options(folder, "attribute: thickness"), scene_of(ball, Unit::mm));
+    const Json& result = run.record.result;
+    CHECK(result["attribute"] == "wall_thickness");
+    CHECK(result["measured"] == true);
+    CHECK(result["missing"] == 0);
+    CHECK(result["all_values"][0].get<double>() == Approx(4).epsilon(0.03));
+    CHECK(run.mesh().attributes.empty()); // the scene passes on unchanged
+    CHECK_FALSE(run.scene.parts[0].changed);
+    const auto equal =
+        run_stage("render", drawing_options(folder, "attribute: min_angle"), scene_of(shapes::octahedron()));
+    CHECK(equal.record.said.at(0).find("min_angle 60 everywhere") != std::string::npos);
+    // An attribute of the scene comes first.
+    Scene own = scene_of(shapes::cube());
+    own.parts[0].mesh.attributes.push_back(
+        {"thickness", Domain::vertex, Role::generic, 1, false, std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7}});
+    const auto as_is = run_stage("render", drawing_options(folder, "attribute: thickness"), own);
+    CHECK(as_is.record.result["measured"] == false);
+    CHECK(as_is.record.result["range"] == Json::array({0.0, 7.0}));
+    // Signed numbers have a range as wide either way.
+    const auto bends =
+        run_stage("render", drawing_options(folder, "attribute: curvature"), scene_of(shapes::torus(24, 12)));
+    const Json& range = bends.record.result["range"];
+    CHECK(range[0].get<double>() == -range[1].get<double>());
+}
+
+TEST_CASE("deviation of render is that of each mesh from the other", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto other = folder / "other.off";
+    io::write_now(other, io::codec_for(other)->write(scene_of(shapes::icosphere(3)), {}).files.front().bytes);
+    Mesh large = shapes::cube(); // around the ball, its corners far off; cut for the picture
+    for (Vec3& p : large.positions) p = (p - Vec3{0.5, 0.5, 0.5}) * 2;
+    const auto run = run_stage(
+        "render", drawing_options(folder, "attribute: deviation, with: " + other.string()), scene_of(large));
+    const Json& result = run.record.result;
+    CHECK(result["all_values"][1].get<double>() == Approx(std::sqrt(3.0) - 1).epsilon(0.02));
+    CHECK(result["all_values"][0].get<double>() < 0.02); // the middles of its faces touch the ball
+    CHECK(result["faces"] == 12 + 1280);                 // as they were before faces were cut
+    const auto whole = run_stage(
+        "render", drawing_options(folder, "edges: all, attribute: deviation, with: " + other.string()),
+        scene_of(large));
+    const Json& corners = whole.record.result["all_values"]; // alone, all of them as far
+    CHECK(corners[0].get<double>() == Approx(corners[1].get<double>()).epsilon(1e-6));
+}
+
+TEST_CASE("what can be neither drawn nor measured is told with what can", "[stages]") {
+    const test::TemporaryDirectory folder;
+    Scene scene = scene_of(shapes::uv_cube(), Unit::mm);
+    const auto said = [&](const std::string& rest) {
+        return test::refusal_of("render", drawing_options(folder, rest), scene);
+    };
+    CHECK(said("attribute: warmth").find("no part has an attribute 'warmth'") != std::string::npos);
+    CHECK(said("attribute: warmth").find("the scene has ") != std::string::npos);
+    CHECK(said("attribute: warmth").find("NORMAL") != std::string::npos);
+    CHECK(said("attribute: warmth").find("; measured are min_angle, ") != std::string::npos);
+    CHECK(said("attribute: thicknes").find("did you mean 'thickness'?") != std::string::npos);
+    CHECK(said("attribute: failed").find("validate: {mark: failed.ply}") != std::string::npos);
+    CHECK(said("attribute: thickness, unit: m").find("wall_thickness is measured in mm, not in m") !=
+          std::string::npos);
+    const auto sheet =
+        run_stage("render", drawing_options(folder, "attribute: thickness"), scene_of(shapes::grid(2, 2)));
+    CHECK(sheet.warnings() == std::vector<std::string>{"W-NO-VALUE"});
+    CHECK(sheet.record.result["missing"] == 8);
+}
+
+TEST_CASE("a stray face that makes the rest small is told, and what shows it", "[stages]") {
+    const test::TemporaryDirectory folder;
+    Scene scene = scene_of(shapes::icosphere(3));
+    Mesh stray = shapes::tetrahedron();
+    for (Vec3& p : stray.positions) p = p + Vec3{0, 4e4, 0};
+    append(scene.parts[0].mesh, stray);
+    const auto run = run_stage("render", drawing_options(folder, "view: front"), scene);
+    REQUIRE(run.warnings() == std::vector<std::string>{"W-FAR"});
+    CHECK(run.record.warnings[0].hint.starts_with("render: {path: near.png, at: ["));
+    CHECK(
+        run_stage("render", drawing_options(folder, "zoom: 10000, at: [0, 0, 0]"), scene).warnings().empty());
+    CHECK(run_stage("render", drawing_options(folder, "view: front"), scene_of(shapes::icosphere(3)))
+              .warnings()
+              .empty());
+    // One point has no extent: there is no scale.
+    Mesh point;
+    point.positions = {{1, 2, 3}};
+    const auto one = run_stage("render", drawing_options(folder, "view: front"), scene_of(point));
+    CHECK(one.record.result["pixels_per_unit"] == 0.0);
+    CHECK(one.record.said.at(0).find("a unit") == std::string::npos);
 }

@@ -75,7 +75,7 @@ class Cutter {
     bool operator()(Part& part) {
         const Surface surface = surface_of(part.mesh);
         bool any = false;
-        std::vector<Index> corners;
+        std::vector<Index> corners, faces; // of each new face the one that it is of
         Mesh& mesh = part.mesh;
         for (std::size_t t = 0; t < surface.size(); ++t) {
             const Index* c = &surface.corners[3 * t];
@@ -86,8 +86,11 @@ class Cutter {
                 cut(mesh, {c[0], c[1], c[2]}, n, corners);
             else
                 corners.insert(corners.end(), c, c + 3);
+            faces.insert(faces.end(), n * n, surface.face(t));
         }
         if (!any) return false;
+        std::erase_if(mesh.attributes, [](const Attribute& a) { return a.domain != Domain::face; });
+        for (Attribute& a : mesh.attributes) a.select(faces);
         mesh.corners = std::move(corners);
         mesh.face_offsets.clear();
         mesh.wedge_vertex.clear();
@@ -275,6 +278,14 @@ void add_means(SignedDeviation& out) {
 
 } // namespace
 
+bool cut_large_faces(Scene& scene, double diagonal) {
+    constexpr double along_diagonal = 64; // as many pieces, each some pixels of a picture
+    Cutter cut(diagonal / along_diagonal);
+    bool any = false;
+    for (Part& part : scene.parts) any |= cut(part);
+    return any;
+}
+
 Index last_cap(const Scene& scene) {
     Index last = 0;
     for (const Part& part : scene.parts) last = std::max(last, largest_number(part.mesh, cut_id_attribute));
@@ -285,13 +296,11 @@ SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
                                  const SignedDeviationSettings& settings) {
     SignedDeviation out;
     if (reference.empty() || scene.parts.empty()) return out;
-    constexpr double along_diagonal = 64; // as many pieces, each some pixels of a picture
     out.scene = bare(scene);
     std::vector<Part> caps;
     if (settings.last_cap) caps = taken_caps(out.scene, scene, *settings.last_cap);
     for (const Part& part : caps) out.caps += part.mesh.face_count();
-    Cutter cut(scene.bounds().diagonal() / along_diagonal);
-    for (Part& part : out.scene.parts) out.is_cut |= cut(part);
+    out.is_cut = cut_large_faces(out.scene, scene.bounds().diagonal());
     const std::vector<Vec3> points = vertices_of(out.scene);
     if (points.empty()) return out;
     std::vector<float> distances;

@@ -23,6 +23,11 @@ struct SignedDeviationSettings {
     std::optional<Index> last_cap = {};
 };
 
+/// Cuts the triangles of all parts where their edges are longer than a 64th of the diagonal, so that colours
+/// of vertices show what happens inside, as long as few points are added. Whether any was cut; then its part
+/// has triangles alone, no seams, and of its attributes those of faces. O(n).
+bool cut_large_faces(Scene& scene, double diagonal);
+
 /// The largest number of a cap in a scene: of the face attribute cut_id, 0 where nothing was capped.
 Index last_cap(const Scene& scene);
 

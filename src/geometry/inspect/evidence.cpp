@@ -21,7 +21,7 @@ Mesh placed(const Part& part) {
 
 /// The faces with the worst values that fail, the worst first.
 std::vector<Index> worst_faces(const Mesh& mesh, const Property& property, const LocationQuery& query) {
-    const auto values = inspect_room::face_values(mesh, property);
+    const auto values = face_values(mesh, property);
     std::vector<Index> order;
     for (Index f = 0; f < values.size(); ++f)
         if (!query.fails || query.fails(values[f])) order.push_back(f);

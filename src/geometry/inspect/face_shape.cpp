@@ -2,7 +2,7 @@
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
-#include "geometry/spatial/box_tree.hpp"
+#include "geometry/spatial/rays_walk.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
@@ -10,7 +10,19 @@
 
 #include <algorithm>
 
-namespace facetmill::inspect_room {
+namespace facetmill {
+
+std::vector<double> face_values(const Mesh& mesh, const Property& property) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return property.of_faces(mesh);
+    auto values = property.of_faces(scale(mesh));
+    const int power = property.kind == PropertyKind::length ? 1 : property.kind == PropertyKind::area ? 2 : 0;
+    if (power > 0)
+        for (double& x : values) x = unscaled(x, power * scale.powers[0]);
+    return values;
+}
+
+namespace inspect_room {
 
 namespace {
 
@@ -103,47 +115,26 @@ std::vector<double> nonplanarities(const Mesh& mesh) {
 }
 
 std::vector<double> wall_thicknesses(const Mesh& mesh) {
-    const Surface surface = filled_surface(mesh);
-    std::vector<Box> boxes(surface.size());
-    parallel_for(boxes.size(), [&](std::size_t t) {
-        for (std::size_t i = 0; i < 3; ++i)
-            if (is_finite(surface.point(t, i))) boxes[t].add(surface.point(t, i));
-    });
-    const BoxTree tree(boxes);
-    const double all = surface.bounds().diagonal();
+    const FaceTree tree(filled_surface(mesh), FaceTree::Use::rays);
     std::vector<double> ways(mesh.face_count(), HUGE_VAL);
     parallel_for(
         ways.size(),
         [&](std::size_t f) {
             const auto face = static_cast<Index>(f);
-            const Vec3 d = -normalised(area_vector(mesh, face));
-            if (!(dot(d, d) > 0) || !(all < HUGE_VAL)) return;
-            const Vec3 p = corner_mean(mesh, face);
-            // Pieces of the ray, each as long as all before: boxes stay small as long as the wall is thin.
-            for (double from = 0, to = all / 1024; from <= all && ways[f] > from; from = to, to *= 2) {
-                Box piece;
-                piece.add(p + d * from);
-                piece.add(p + d * to);
-                tree.visit(piece, [&](Index t) {
-                    if (surface.face(t) == face) return;
-                    const double at =
-                        leaves_at(p, d, surface.point(t, 0), surface.point(t, 1), surface.point(t, 2));
-                    if (at >= 0) ways[f] = std::min(ways[f], at);
-                });
+            const Vec3 d = -normalised(area_vector(mesh, face)), p = corner_mean(mesh, face);
+            if (!(dot(d, d) > 0) || !is_finite(p)) return;
+            rays::LineWalk walk(tree, {p, p + d, true});
+            while (walk.step([&](Index t) {
+                if (tree.face(t) == face) return ways[f];
+                const auto [a, b, c] = tree.triangle(t);
+                const double at = leaves_at(p, d, a, b, c);
+                if (at >= 0) ways[f] = std::min(ways[f], at);
+                return ways[f];
+            })) {
             }
         },
         256);
     return ways;
-}
-
-std::vector<double> face_values(const Mesh& mesh, const Property& property) {
-    const PowerScale scale = even_scale(mesh.bounds());
-    if (scale.none()) return property.of_faces(mesh);
-    auto values = property.of_faces(scale(mesh));
-    const int power = property.kind == PropertyKind::length ? 1 : property.kind == PropertyKind::area ? 2 : 0;
-    if (power > 0)
-        for (double& x : values) x = unscaled(x, power * scale.powers[0]);
-    return values;
 }
 
 std::optional<double> value_of(const Property& property, const Measured& mesh) {
@@ -154,4 +145,6 @@ std::optional<double> value_of(const Property& property, const Measured& mesh) {
     return best == HUGE_VAL && property.join == Join::least ? std::nullopt : best;
 }
 
-} // namespace facetmill::inspect_room
+} // namespace inspect_room
+
+} // namespace facetmill

@@ -165,6 +165,9 @@ std::span<const Property> property_table();
 /// Null when there is none of that name.
 const Property* property_named(std::string_view name);
 
+/// [faces] The values of a property that faces have (Property::of_faces), of meshes of any size. Parallel.
+std::vector<double> face_values(const Mesh& mesh, const Property& property);
+
 /// The value for a mesh in world space of a property that is measured on request. Parallel.
 std::optional<double> measure(const Mesh& mesh, const Property& property);
 

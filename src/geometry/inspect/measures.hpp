@@ -10,8 +10,6 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 
 /// The value of a property that is measured on request.
 std::optional<double> value_of(const Property& property, const Measured& mesh);
-/// The values of faces of such a property, of meshes of any size.
-std::vector<double> face_values(const Mesh& mesh, const Property& property);
 
 // face_shape.cpp: [faces] of polygons, over their corners, edges or fan of triangles.
 std::vector<double> smallest_angles(const Mesh& mesh);

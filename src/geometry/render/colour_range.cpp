@@ -16,7 +16,7 @@ double percentile_of(std::vector<double>& values, std::size_t percent) {
 }
 
 std::vector<double> finite_values(const Scene& scene, const std::string& attribute,
-                                  const std::function<bool(const Part&)>& shows) {
+                                  const std::function<bool(const Part&)>& shows, std::size_t& missing) {
     std::vector<double> values;
     for (const Part& part : scene.parts) {
         if (shows && !shows(part)) continue;
@@ -24,9 +24,27 @@ std::vector<double> finite_values(const Scene& scene, const std::string& attribu
         if (!a || a->role == Role::index) continue;
         values.reserve(values.size() + a->size());
         for (std::size_t i = 0; i < a->size(); ++i)
-            if (const double x = a->value(i, 0); std::isfinite(x)) values.push_back(x);
+            if (const double x = a->value(i, 0); std::isfinite(x))
+                values.push_back(x);
+            else
+                ++missing;
     }
     return values;
+}
+
+/// Narrows the range to percentiles where they are wanted, or where outliers take up most of it.
+void leave_outliers_out(std::vector<double>& values, ColourRange::Kind wanted, ValueRange& range) {
+    using Kind = ColourRange::Kind;
+    if (wanted != Kind::automatic && wanted != Kind::percentile) return;
+    if (range.diverging) // of both sides alike
+        for (double& x : values) x = std::abs(x);
+    const double high = percentile_of(values, 99), low = range.diverging ? -high : percentile_of(values, 1);
+    // Halves, because the span of all doubles is none.
+    const bool outliers = high / 2 - low / 2 < (range.high / 2 - range.low / 2) / 4;
+    if (!(low < high) || (wanted != Kind::percentile && !outliers)) return;
+    range.low = low;
+    range.high = high;
+    range.percentiles = true;
 }
 
 } // namespace
@@ -41,7 +59,7 @@ ValueRange value_range(const Scene& scene, const std::string& attribute, const C
                        const std::function<bool(const Part&)>& shows) {
     using Kind = ColourRange::Kind;
     ValueRange range;
-    std::vector<double> values = finite_values(scene, attribute, shows);
+    std::vector<double> values = finite_values(scene, attribute, shows, range.missing);
     if (values.empty()) return range;
     range.known = true;
     range.diverging = wanted.diverging;
@@ -51,16 +69,17 @@ ValueRange value_range(const Scene& scene, const std::string& attribute, const C
     if (wanted.kind == Kind::given) {
         range.low = wanted.min;
         range.high = wanted.max;
+        return range;
     }
-    if (wanted.kind != Kind::automatic && wanted.kind != Kind::percentile) return range;
-    const double low = percentile_of(values, 1), high = percentile_of(values, 99);
-    // Halves, because the span of all doubles is none.
-    const bool outliers = high / 2 - low / 2 < (range.max / 2 - range.min / 2) / 4;
-    if (low < high && (wanted.kind == Kind::percentile || outliers)) {
-        range.low = low;
-        range.high = high;
-        range.percentiles = true;
+    if (range.diverging) {
+        range.high = std::max(std::abs(range.min), std::abs(range.max));
+        range.low = -range.high;
     }
+    const double largest = std::max(std::abs(range.min), std::abs(range.max));
+    if (wanted.kind == Kind::automatic && range.high - range.low <= wanted.lost * largest)
+        range.low = range.high = range.min;
+    else
+        leave_outliers_out(values, wanted.kind, range);
     return range;
 }
 

@@ -18,15 +18,20 @@ struct ColourRange {
     };
     Kind kind = Kind::automatic;
     double min = 0, max = 0; ///< of Kind::given
-    bool diverging = false;  ///< in colours that tell the two sides of the middle apart
+    bool diverging = false;  ///< in colours that tell the two sides of the middle apart; unless it is given,
+                             ///< the range is as wide on either side of 0
+    double lost = 0; ///< of Kind::automatic: numbers are right to this part of the largest; those that
+                     ///< differ by less have one colour
 };
 
 struct ValueRange {
-    bool known = false;                                     ///< there are numbers at all
-    double low = 0, high = 0;                               ///< the first and the last colour
-    double min = 0, max = 0;                                ///< of all numbers
-    bool diverging = false;                                 ///< of ColourRange
-    bool percentiles = false;                               ///< low and high are the 1st and 99th percentile
+    bool known = false;       ///< there are numbers at all
+    double low = 0, high = 0; ///< the first and the last colour
+    double min = 0, max = 0;  ///< of all numbers
+    bool diverging = false;   ///< of ColourRange
+    bool percentiles = false; ///< low and high are the 1st and 99th percentile, or
+                              ///< of diverging ones the 99th of the amounts
+    std::size_t missing = 0;  ///< elements whose value is not finite
     bool beyond() const { return min < low || max > high; } ///< some numbers lie outside
 };
 

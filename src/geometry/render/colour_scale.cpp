@@ -2,6 +2,8 @@
 
 #include "geometry/render/srgb.hpp"
 
+#include <limits>
+
 namespace facetmill {
 
 Colour distinct_colour(std::uint64_t number) {
@@ -19,7 +21,7 @@ Colour distinct_colour(std::uint64_t number) {
 }
 
 Colour on_a_scale(double t) {
-    if (std::isnan(t)) return {0.5f, 0.5f, 0.5f};
+    if (std::isnan(t)) return missing_colour;
     // By power of t, each for red, green and blue in sRGB.
     static constexpr double c[7][3] = {{0.2777273272234177, 0.005407344544966578, 0.3340998053353061},
                                        {0.1050930431085774, 1.404613529898575, 1.384590162594685},
@@ -39,7 +41,7 @@ Colour on_a_scale(double t) {
 }
 
 Colour on_a_diverging_scale(double t) {
-    if (std::isnan(t)) return {0.5f, 0.5f, 0.5f};
+    if (std::isnan(t)) return missing_colour;
     // Red, green and blue in sRGB at eighths.
     static constexpr double c[9][3] = {{59, 76, 192},   {98, 130, 234},  {141, 176, 254},
                                        {184, 208, 249}, {221, 221, 221}, {245, 196, 173},
@@ -59,7 +61,8 @@ Colour on_the_scale_of(const ValueRange& range, double t) {
 }
 
 double in_range(double x, const ValueRange& range) {
-    if (!(range.low < range.high)) return std::isnan(x) ? x : 0.5;
+    if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
+    if (!(range.low < range.high)) return 0.5;
     // Halves, because the span of all doubles is none.
     return (x / 2 - range.low / 2) / (range.high / 2 - range.low / 2);
 }

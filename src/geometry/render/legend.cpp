@@ -28,6 +28,10 @@ Ink ink_for(const PictureSettings& s) {
     return light < 0.18f ? Ink{235, 235, 235} : Ink{32, 32, 32};
 }
 
+std::array<std::uint8_t, 4> bytes_of(const Colour& c) {
+    return {srgb_of(c[0]), srgb_of(c[1]), srgb_of(c[2]), 255};
+}
+
 void fill(Picture& p, int x0, int y0, int x1, int y1, const std::array<std::uint8_t, 4>& rgba) {
     for (int y = std::max(0, y0); y < std::min(p.height, y1); ++y)
         for (int x = std::max(0, x0); x < std::min(p.width, x1); ++x)
@@ -47,14 +51,17 @@ std::string shortened(const std::string& text) {
 
 std::string number_text(double x, int digits = 4) { return fmt::format("{:.{}g}", x == 0 ? 0.0 : x, digits); }
 
-/// The lines below the scale.
+constexpr const char* missing_text = "no value";
+
+/// The lines below the scale; missing_text has its colour before it.
 std::vector<std::string> footnotes(const ValueRange& range) {
     std::vector<std::string> lines;
-    if (range.percentiles) lines.push_back("1st to 99th pct");
+    if (range.percentiles) lines.push_back(range.diverging ? "to the 99th pct" : "1st to 99th pct");
     if (range.beyond()) {
         lines.push_back("all: " + number_text(range.min));
         lines.push_back("  to " + number_text(range.max));
     }
+    if (range.missing > 0) lines.push_back(missing_text);
     return lines;
 }
 
@@ -87,8 +94,7 @@ Picture widened(const Picture& picture, const PictureSettings& settings) {
     for (std::size_t y = 0; y < static_cast<std::size_t>(out.height); ++y)
         std::copy_n(&picture.rgba[y * from], from, &out.rgba[y * to]);
     if (!settings.ground) return out;
-    const auto& g = *settings.ground;
-    fill(out, picture.width, 0, out.width, out.height, {srgb_of(g[0]), srgb_of(g[1]), srgb_of(g[2]), 255});
+    fill(out, picture.width, 0, out.width, out.height, bytes_of(*settings.ground));
     return out;
 }
 
@@ -151,7 +157,7 @@ Picture with_legend(const Picture& picture, const PictureSettings& settings, con
     if (!settings.unit.empty()) write_text(out, left, 2 * line, scale, shortened("in " + settings.unit), ink);
     for (int y = top; y < bottom; ++y) {
         const Colour c = on_the_scale_of(range, (bottom - y - 0.5) / (bottom - top));
-        fill(out, left, y, bar, y + 1, {srgb_of(c[0]), srgb_of(c[1]), srgb_of(c[2]), 255});
+        fill(out, left, y, bar, y + 1, bytes_of(c));
     }
     const auto most = static_cast<std::size_t>(std::clamp((bottom - top) / (3 * line), 2, 9));
     const std::vector<double> numbers = round_numbers(range.low, range.high, most);
@@ -162,8 +168,12 @@ Picture with_legend(const Picture& picture, const PictureSettings& settings, con
         fill(out, bar, y - scale / 2, bar + 3 * scale, y - scale / 2 + scale, {ink[0], ink[1], ink[2], 255});
         write_text(out, bar + 5 * scale, y - letter_height * scale / 2, scale, texts[i], ink);
     }
-    for (std::size_t i = 0; i < notes.size(); ++i)
-        write_text(out, left, bottom + line + static_cast<int>(i) * line, scale, shortened(notes[i]), ink);
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        const int y = bottom + line + static_cast<int>(i) * line;
+        const bool missing = notes[i] == missing_text;
+        if (missing) fill(out, left, y, bar, y + letter_height * scale, bytes_of(missing_colour));
+        write_text(out, missing ? bar + 5 * scale : left, y, scale, shortened(notes[i]), ink);
+    }
     return out;
 }
 

@@ -100,7 +100,7 @@ class PictureDrawing {
         for (const Vec3& mark : settings_.marks)
             if (const Vec3 seen = view_.of(mark); is_finite(seen))
                 draw_ring(picture, seen.x / Canvas::samples, seen.y / Canvas::samples);
-        picture.scale = view_.scale / Canvas::samples;
+        picture.scale = view_.has_extent ? view_.scale / Canvas::samples : 0;
         picture.faces = drawing_.faces();
         return picture;
     }

@@ -113,6 +113,18 @@ Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 /// Picture::scale without the picture, before zoom: beside the legend, where there is one.
 double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
+/// Where most of a scene is that is hardly seen, because something lies far off.
+struct Crowd {
+    Vec3 middle;       ///< in world space
+    double pixels = 0; ///< how large it is in the picture
+    double zoom = 1;   ///< what would show it around the middle
+};
+
+/// The box around the vertices of faces without the tenth at either end of each axis, where in the picture,
+/// before zoom, it is less than a hundredth of the longer side; else none. Of many vertices every n-th is
+/// looked at. O(n).
+std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings);
+
 /// Pictures of one size in rows of so many columns; what is left of the last row is transparent.
 Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns);
 

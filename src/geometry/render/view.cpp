@@ -267,6 +267,7 @@ View view_of(const Scene& scene, const PictureSettings& settings, int width, int
                          : as_seen(box);
     const Vec3 size = seen.extent(), middle = seen.centre();
     const double tallest = std::max(size.x / width, size.y / height);
+    view.has_extent = tallest > 0;
     view.scale = std::min(tallest > 0 ? 0.92 / tallest : 1, settings.max_scale * Canvas::samples);
     view.distance *= view.scale;
     view.x = view.ahead_x = width / 2.0 - middle.x * view.scale;

@@ -9,6 +9,7 @@ namespace facetmill {
 /// is chosen so that planes stay planes: it grows with the inverse of the distance.
 struct View {
     Vec3 right, up, towards;
+    bool has_extent = false; ///< else what is seen is a point, or nothing, and the scale says nothing
     double scale = 0, x = 0, y = 0, z = 0; ///< the scene's middle goes to the canvas' middle
     /// In perspective: the viewer's place along the axes in the world's units, how far it is from the scene's
     /// middle in samples, and where the ray straight ahead meets the canvas.

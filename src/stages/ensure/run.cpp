@@ -44,9 +44,11 @@ const RegisterStage registered{make_stage<EnsureOptions>(
      .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
                   "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
      .checks = true,
-     .lines = LinesPolicy::work,
-     .roles = {.compares_with_load = "deviation"}},
-    declare, run, StageHooks<EnsureOptions>{.files = {}, .verify = verify})};
+     .lines = LinesPolicy::work},
+    declare, run,
+    StageHooks<EnsureOptions>{.verify = verify, .compares_with_load = [](const EnsureOptions& o) {
+                                  return o.deviation.has_value();
+                              }})};
 
 } // namespace
 

@@ -8,8 +8,7 @@
 namespace facetmill::measure_stage {
 
 std::optional<std::string> why_not_on_cells(const MeasureOptions& o) {
-    if (o.areas) return "areas: cells do not carry attributes of faces";
-    if (o.curvature) return "curvature: cells do not get attributes";
+    if (!o.attributes.empty()) return "attributes: cells do not get any";
     if (std::any_of(o.path.begin(), o.path.end(), lists_faces))
         return "path: the table has the faces in the order of the file, which cells do not keep";
     return {};

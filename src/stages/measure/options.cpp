@@ -1,10 +1,31 @@
 #include "stages/measure/options.hpp"
 
+#include "base/refusal.hpp"
+#include "base/spelling.hpp"
+#include "options/mark_at.hpp"
 #include "stages/measure/face_table.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace facetmill::measure_stage {
+
+namespace {
+
+/// "of faces: The smallest angle of a face; none where ..."
+std::string told(const Quantity& q) {
+    std::string text = fmt::format("of {}: {}", q.domain == Domain::face ? "faces" : "vertices", q.help);
+    if (!q.missing.empty()) text += fmt::format(" None {}.", q.missing);
+    return text;
+}
+
+bool compares(const MeasureOptions& o) {
+    return std::any_of(o.attributes.begin(), o.attributes.end(),
+                       [](const QuantityName& name) { return name.quantity && name.quantity->compares; });
+}
+
+} // namespace
 
 void declare_measure(Declare<MeasureOptions>& d) {
     d.option("density", &MeasureOptions::density,
@@ -14,12 +35,15 @@ void declare_measure(Declare<MeasureOptions>& d) {
              "Edges whose dihedral angle is larger than this count as feature edges (an angle between the "
              "normals of the two faces).")
         .between(0, 180);
-    d.option("areas", &MeasureOptions::areas,
-             "Writes the area of every face, in square scene units, as face attribute area.");
-    d.option(
-        "curvature", &MeasureOptions::curvature,
-        "Writes the curvature at every vertex as vertex attributes gaussian_curvature and mean_curvature "
-        "(per square scene unit and per scene unit; 0 where there is none).");
+    Option& attributes =
+        d.option("attributes", &MeasureOptions::attributes,
+                 "Keeps these as attributes of faces or vertices, in world space and scene units.")
+            .option();
+    for (const Quantity& q : quantities()) attributes.choices.push_back({std::string(q.name), told(q)});
+    d.option("with", &MeasureOptions::with,
+             "The mesh file that deviation is measured from. Default: the scene as loaded.");
+    d.option("missing", &MeasureOptions::missing,
+             "What attributes are set to where there is no number, which no file could hold.");
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files; the suffix decides the format. .json gets all results, "
              ".csv one line per face; - is JSON on standard output. The columns of the table: " +
@@ -31,10 +55,45 @@ void verify_measure(const MeasureOptions& o, const Value& given, Problems& probl
         if (path.text != "-" && !lists_faces(path) && !path.text.ends_with(".json"))
             problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
                          "a name that ends in .json or .csv");
+    if (o.with && !compares(o))
+        add_refusal(Refusal{"with", "'with' goes with the attribute deviation"}, "measure", given, problems);
+    if (given.find("missing") && o.attributes.empty())
+        add_refusal(Refusal{"missing", "'missing' goes with attributes"}, "measure", given, problems);
 }
 
-StageFiles files_of_measure(const MeasureOptions& o) { return {{}, o.path}; }
+StageFiles files_of_measure(const MeasureOptions& o) {
+    StageFiles files{{}, o.path};
+    if (o.with) files.inputs.push_back(*o.with);
+    return files;
+}
+
+bool is_from_load(const MeasureOptions& o) { return !o.with && compares(o); }
 
 bool lists_faces(const PathText& path) { return path.text.ends_with(".csv"); }
 
 } // namespace facetmill::measure_stage
+
+namespace facetmill {
+
+using measure_stage::QuantityName;
+
+bool OptionType<QuantityName>::parse(const Value& value, QuantityName& out, Problems& problems) {
+    if (value.deferred) return true;
+    out.quantity = value.is_scalar() ? quantity_named(value.text) : nullptr;
+    if (out.quantity) return true;
+    const Quantity* called = value.is_scalar() ? quantity_called(value.text) : nullptr;
+    problems.add(value.mark, "E-CHOICE",
+                 fmt::format("'attributes' are some of {}, found {}", fmt::join(quantity_names(), ", "),
+                             value.described()),
+                 called ? fmt::format("'{}' is called '{}' here", value.text, called->name)
+                        : did_you_mean(value.text, quantity_words()));
+    return false;
+}
+
+std::string OptionType<QuantityName>::print(const QuantityName& name) {
+    return name.quantity ? std::string(name.quantity->name) : "";
+}
+
+Json OptionType<QuantityName>::schema() { return {{"enum", quantity_names()}}; }
+
+} // namespace facetmill

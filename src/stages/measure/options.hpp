@@ -1,14 +1,22 @@
 #pragma once
 // The options of measure.
 
+#include "geometry/quantities/quantities.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill::measure_stage {
 
+/// The name of one that measure keeps as an attribute.
+struct QuantityName {
+    const Quantity* quantity = nullptr;
+};
+
 struct MeasureOptions {
     double density = 1;
     Angle feature_angle = Angle::degrees(30);
-    bool areas = false, curvature = false;
+    std::vector<QuantityName> attributes;
+    std::optional<PathText> with;
+    double missing = 0;
     std::vector<PathText> path;
 };
 
@@ -20,4 +28,21 @@ StageFiles files_of_measure(const MeasureOptions& o);
 /// Whether the file gets a line for every face, rather than all results as JSON.
 bool lists_faces(const PathText& path);
 
+/// Whether an attribute is from the scene as loaded.
+bool is_from_load(const MeasureOptions& o);
+
 } // namespace facetmill::measure_stage
+
+namespace facetmill {
+
+template <>
+struct OptionType<measure_stage::QuantityName> {
+    static constexpr OptionKind kind = OptionKind::text;
+    static constexpr Dimension dimension = Dimension::none;
+    static bool parse(const Value& value, measure_stage::QuantityName& out, Problems& problems);
+    static std::string print(const measure_stage::QuantityName& name);
+    static Json schema();
+    static std::optional<double> magnitude(const measure_stage::QuantityName&) { return {}; }
+};
+
+} // namespace facetmill

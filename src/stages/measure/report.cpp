@@ -140,6 +140,14 @@ void declare_curvature(DeclareFields<CurvatureResult>& d) {
         "The sum of the angle defects of all vertices, in full turns: the Euler number of a manifold.");
 }
 
+void declare_attribute(DeclareFields<KeptAttribute>& d) {
+    d.field("name", &KeptAttribute::name, "Its name.");
+    d.field("of", &KeptAttribute::elements, "What has one: faces or vertices.");
+    d.field("unit", &KeptAttribute::unit, "Of its values; empty: they have none.");
+    d.field("missing", &KeptAttribute::missing, "Faces or vertices without a value.");
+    d.object("values", &KeptAttribute::values, "The values of the others.", statistics_fields(""));
+}
+
 constexpr const char* open = "the surface is open";
 
 void declare_part(DeclareFields<MeasuredPart>& d) {
@@ -150,6 +158,8 @@ void declare_part(DeclareFields<MeasuredPart>& d) {
     d.object("faces", &MeasuredPart::faces, "Its faces.", declare_faces);
     d.object("edges", &MeasuredPart::edges, "Its edges.", declare_edges);
     d.object("curvature", &MeasuredPart::curvature, "At its vertices.", declare_curvature);
+    d.list("attributes", &MeasuredPart::attributes, "Those that were kept, in the order asked for.",
+           declare_attribute);
 }
 
 void declare_total(DeclareFields<MeasureReport::Total>& d) {
@@ -173,6 +183,14 @@ std::string mass_text(const ShellMass& shell, const std::optional<MeasuredSolid>
     return text + fmt::format(", centroid {}", readable(solid->centroid));
 }
 
+/// "wall_thickness 1.9 to 2 mm (mean 1.95), none at 12 faces".
+std::string attribute_text(const KeptAttribute& kept) {
+    const std::string unit = kept.unit.empty() ? "" : fmt::format(" in {}", kept.unit);
+    const std::string range = kept.values.count > 0 ? range_text(kept.name.c_str(), kept.values) + unit
+                                                    : fmt::format("{} nowhere", kept.name);
+    return kept.missing == 0 ? range : fmt::format("{}, none at {} {}", range, kept.missing, kept.elements);
+}
+
 std::vector<std::string> lines_of(const MeasureReport& report) {
     constexpr std::size_t few = 5; // parts that are told one by one
     const auto& parts = report.parts;
@@ -191,6 +209,7 @@ std::vector<std::string> lines_of(const MeasureReport& report) {
                                 readable(double(edges.convex)), readable(double(edges.concave)),
                                 readable(double(edges.flat)), readable(double(edges.boundary)),
                                 readable(double(edges.feature))));
+    for (const KeptAttribute& kept : parts[0].attributes) lines.push_back(attribute_text(kept));
     std::erase(lines, "");
     return lines;
 }

@@ -22,6 +22,13 @@ struct MeasuredSolid {
 };
 MeasuredSolid measured(const SolidMass& solid, double density);
 
+/// What was kept as an attribute.
+struct KeptAttribute {
+    std::string name, unit, elements; ///< elements: faces or vertices
+    std::size_t missing = 0;          ///< faces or vertices without a number
+    Statistics values;                ///< of the others
+};
+
 struct MeasuredPart {
     std::string part;
     ShellMass shell;
@@ -29,6 +36,7 @@ struct MeasuredPart {
     FaceResult faces;
     EdgeResult edges;
     CurvatureResult curvature;
+    std::vector<KeptAttribute> attributes{};
 };
 
 struct MeasureReport {

@@ -1,6 +1,8 @@
 #include "geometry/measure/measure.hpp"
 
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/placement.hpp"
+#include "stage/read_recorded.hpp"
 #include "stages/measure/cells.hpp"
 #include "stages/measure/face_table.hpp"
 #include "stages/measure/help.hpp"
@@ -10,13 +12,6 @@
 namespace facetmill::measure_stage {
 
 namespace {
-
-void set_attribute(Mesh& mesh, const char* name, Domain domain, std::vector<double> values) {
-    mesh.drop(name, domain);
-    for (double& x : values)
-        if (!std::isfinite(x)) x = 0;
-    mesh.attributes.push_back({name, domain, Role::generic, 1, false, std::move(values)});
-}
 
 struct Measures {
     std::vector<MeasuredPart> parts;
@@ -38,11 +33,6 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
     if (list_faces) all.csv += face_table_rows(part.name, mesh);
     warn_of_inside_out(part.name, mass, context);
-    if (o.areas) set_attribute(part.mesh, "area", Domain::face, std::move(faces.areas));
-    if (o.curvature) {
-        set_attribute(part.mesh, "gaussian_curvature", Domain::vertex, std::move(curvature.gaussian));
-        set_attribute(part.mesh, "mean_curvature", Domain::vertex, std::move(curvature.mean));
-    }
     faces.areas.clear();
     curvature.gaussian.clear();
     curvature.mean.clear();
@@ -51,13 +41,41 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
                          std::move(curvature)});
 }
 
+/// What deviation is from; null where none is asked for.
+std::unique_ptr<FaceTree> other_surface(const MeasureOptions& o, const Scene& scene, Context& context) {
+    if (is_from_load(o)) {
+        context.tell_unrepeatable(); // the scene as loaded is no part of what a result is known by
+        const auto loaded = context.run().loaded;
+        return std::make_unique<FaceTree>(loaded ? *loaded : Surface{}, FaceTree::Use::near);
+    }
+    if (!o.with) return nullptr;
+    const Scene other = read_beside(*o.with, scene, context);
+    return std::make_unique<FaceTree>(surface_or_points_of(other, filled_surface), FaceTree::Use::near);
+}
+
+std::vector<KeptAttribute> kept(Part& part, Unit unit, const MeasureOptions& o, const FaceTree* other) {
+    std::vector<KeptAttribute> all;
+    for (const auto& [quantity] : o.attributes) {
+        std::vector<double> values = values_of(*quantity, part, other);
+        const std::size_t count = values.size();
+        Statistics numbers = statistics(values);
+        all.push_back({std::string(quantity->name), unit_of(*quantity, unit),
+                       quantity->domain == Domain::face ? "faces" : "vertices", count - numbers.count,
+                       numbers});
+        give_attribute(part, *quantity, std::move(values), o.missing);
+    }
+    part.changed = true;
+    return all;
+}
+
 Scene run(Scene scene, const MeasureOptions& o, Context& context, MeasureReport& report) {
     const bool list_faces = std::any_of(o.path.begin(), o.path.end(), lists_faces);
+    const auto other = other_surface(o, scene, context);
     Measures all;
     for (auto& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
         measure_part(part, o, list_faces, all, context);
-        part.changed = part.changed || o.areas || o.curvature;
+        if (!o.attributes.empty()) all.parts.back().attributes = kept(part, scene.unit, o, other.get());
     }
     if (all.parts.empty()) all.solid.reset();
     report = {
@@ -71,12 +89,14 @@ const RegisterStage registered =
                                 .about = help::measure::about,
                                 .details = help::measure::details,
                                 .examples = {"measure", "measure: {density: 7.85, path: part.json}",
-                                             "measure: {curvature: true, path: [all.json, faces.csv]}"},
+                                             "measure: {path: [all.json, faces.csv]}",
+                                             "measure: {attributes: [mean_curvature, wall_thickness]}"},
                                 .tells = true,
                                 .crossing_faces = CrossingFacePolicy::name},
                                declare_measure, declare_measure_report, run,
                                {.files = files_of_measure,
                                 .verify = verify_measure,
+                                .compares_with_load = is_from_load,
                                 .on_cells = measure_on_cells,
                                 .why_not_on_cells = why_not_on_cells});
 

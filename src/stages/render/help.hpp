@@ -21,6 +21,13 @@ which axis is up, the scene stands on its flat base, if it has one; otherwise z 
 the scene is longest along it, and y if not. An open surface is then seen from the side that its
 faces face.
 
+An attribute that no part has is measured: in bind pose, in world space, with the unit of the scene
+on the legend (measure: {attributes: ...} keeps it instead). deviation is measured from the other
+mesh (with), whose own colours show how far it is from the scene, or else from the scene as loaded;
+large faces are measured inside, too, unless their edges are drawn (edges: all). Signed numbers
+(deviation, curvatures) are blue below 0 and red above, on a scale that is as wide either way; where
+there is no number, such as the thickness of a sheet, faces are pink.
+
 The light comes from the upper left of the viewer. `shading: one-sided` takes the cosine of the
 angle between the normal of a face and the light, so faces with reversed vertex order are dark.
 `absolute` uses its absolute value, which hides reversed faces. `beside` shows both images; where

@@ -2,10 +2,12 @@
 
 #include "base/portable_math.hpp"
 #include "base/spelling.hpp"
+#include "geometry/quantities/quantities.hpp"
 #include "options/lists.hpp"
 #include "options/mark_at.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace facetmill {
 
@@ -159,8 +161,10 @@ void declare_render(Declare<RenderOptions>& d) {
          {"plain", Paint::plain, "grey"}},
         "How faces are coloured.");
     d.option("attribute", &RenderOptions::attribute,
-             "Colours by this attribute where a part has it: identifiers (group, failed, cut_id) get "
-             "distinct colours, other numbers a scale from dark blue over green to yellow (viridis).");
+             fmt::format("Colours by this attribute where a part has it: identifiers (group, failed, cut_id) "
+                         "get distinct colours, other numbers a scale from dark blue over green to yellow "
+                         "(viridis). What no part has is measured: {}.",
+                         fmt::join(quantity_names(), ", ")));
     d.option("range", &RenderOptions::range,
              "The numbers at the ends of the scale: auto (the smallest and largest, or, if few outliers "
              "take up more than three quarters of that, the 1st and 99th percentile), percentile, all (the "
@@ -169,7 +173,10 @@ void declare_render(Declare<RenderOptions>& d) {
         "legend", &RenderOptions::legend,
         "Whether the scale is drawn beside the scene, with numbers. It is left out where it would take more "
         "than half of the width, or does not fit into the height.");
-    d.option("unit", &RenderOptions::unit, "The unit of the attribute, for the legend.");
+    d.option(
+        "unit", &RenderOptions::unit,
+        "The unit of the attribute, for the legend. Of what is measured it is known, if that of the scene "
+        "is.");
     d.choice<EdgeLines>("edges", &RenderOptions::edges,
                         {{"few", EdgeLines::few, "if the scene has at most 6000 faces"},
                          {"all", EdgeLines::all, "always"},
@@ -222,8 +229,6 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
                      "make width and height smaller: they are those of one view");
 }
 
-namespace {
-
 PictureSettings common_settings(const RenderOptions& o, const Scene& scene, const Context& context) {
     PictureSettings s;
     s.width = static_cast<int>(o.width);
@@ -251,14 +256,10 @@ PictureSettings common_settings(const RenderOptions& o, const Scene& scene, cons
     return s;
 }
 
-} // namespace
-
-Shots shots_of(const RenderOptions& o, const Scene& scene, const Context& context,
-               const std::shared_ptr<const MaterialLooks>& looks) {
+Shots shots_of(const RenderOptions& o, const Scene& scene, const PictureSettings& given) {
     Shots shots;
     shots.columns = count_and_columns(o).second;
-    PictureSettings common = common_settings(o, scene, context);
-    common.looks = looks;
+    PictureSettings common = given;
     const auto add = [&](const PictureSettings& s) {
         shots.settings.push_back(s);
         if (o.shading != Look::beside) return;

@@ -41,8 +41,9 @@ struct Shots {
     std::vector<PictureSettings> settings;
     std::size_t columns = 1;
 };
-Shots shots_of(const RenderOptions& o, const Scene& scene, const Context& context,
-               const std::shared_ptr<const MaterialLooks>& looks);
+Shots shots_of(const RenderOptions& o, const Scene& scene, const PictureSettings& common);
+/// What all pictures of a scene have in common.
+PictureSettings common_settings(const RenderOptions& o, const Scene& scene, const Context& context);
 
 /// "auto", "percentile", "all", or two numbers.
 template <>

@@ -1,11 +1,11 @@
 #include "base/progress.hpp"
-#include "io/convert.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/gltf/pose.hpp"
 #include "io/png.hpp"
 #include "stage/read_recorded.hpp"
 #include "stages/render/help.hpp"
-#include "stages/render/options.hpp"
+#include "stages/render/measured.hpp"
 
 #include <fmt/format.h>
 
@@ -19,16 +19,6 @@ std::shared_ptr<const MaterialLooks> looks_of(const RenderOptions& o, const Scen
     auto looks = io::LookReader().looks(scene, warnings);
     for (const auto& w : warnings) context.warn(w.id, "render: " + w.message, w.hint);
     return looks;
-}
-
-/// The file that is drawn beside the scene, in the scene's convention, in pose.
-Scene scene_beside(const RenderOptions& o, const Scene& scene, Context& context) {
-    io::ReadSettings settings;
-    settings.asset_roots = context.places().asset_roots;
-    Scene other = read_recorded(context.places().input(o.with->text), settings, nullptr, context).first;
-    io::convert(other, {scene.unit, scene.up});
-    std::optional<Scene> posed = io::posed(other);
-    return posed ? std::move(*posed) : other;
 }
 
 /// Two scenes seen by one camera, which sees all of both, from where the first is seen. Numbers of the second
@@ -53,28 +43,123 @@ Picture both(const PictureSettings& first, const Scene& a, const Scene& b,
     return sheet;
 }
 
-Picture taken(const RenderOptions& o, const Scene& given, Context& context) {
-    const std::optional<Scene> posed = io::posed(given);
-    const Scene& scene = posed ? *posed : given;
-    const auto looks = looks_of(o, scene, context);
-    const Shots shots = shots_of(o, scene, context, looks);
+/// What is drawn: the scenes as they are, or with numbers that were measured.
+struct Subject {
+    std::optional<Scene> own, other; ///< own: instead of the scene that was given
+    const Quantity* quantity = nullptr;
+    std::size_t faces = 0; ///< before large ones were cut
+};
+
+/// Of the surface of a scene.
+FaceTree tree_of(const Scene& scene) {
+    return FaceTree(surface_or_points_of(scene, filled_surface), FaceTree::Use::near);
+}
+
+void pose(std::optional<Scene>& scene) {
+    if (auto posed = io::posed(*scene)) scene = std::move(posed);
+}
+
+/// Deviation is that of each scene from the other, or of the one from what was loaded.
+void measure(const RenderOptions& o, const Scene& scene, Subject& subject, Context& context) {
+    const Quantity& quantity = *subject.quantity;
+    const auto selects = [&](const Part& part) { return context.selects(part, scene); };
+    const bool bind = io::posed(scene) || (subject.other && io::posed(*subject.other));
+    std::optional<FaceTree> from, from_scene;
+    if (quantity.compares) {
+        const auto loaded = context.run().loaded;
+        if (subject.other)
+            from = tree_of(*subject.other);
+        else
+            from.emplace(loaded ? *loaded : Surface{}, FaceTree::Use::near);
+    }
+    subject.own = measured(o, quantity, scene, selects, from ? &*from : nullptr, bind);
+    if (!subject.other) return;
+    if (quantity.compares) from_scene = tree_of(*subject.own);
+    const auto all = [](const Part&) { return true; };
+    subject.other = measured(o, quantity, *subject.other, all, from_scene ? &*from_scene : nullptr, bind);
+}
+
+std::size_t faces_drawn(const Scene& scene, const Subject& subject, const Context& context) {
+    std::size_t count = subject.other ? subject.other->face_count() : 0;
+    for (const Part& part : scene.parts)
+        if (context.selects(part, scene)) count += part.mesh.face_count();
+    return count;
+}
+
+Subject subject_of(const RenderOptions& o, const Scene& scene, Context& context) {
+    Subject subject;
+    if (o.with) subject.other = read_beside(*o.with, scene, context);
+    subject.faces = faces_drawn(scene, subject, context);
+    subject.quantity = quantity_to_measure(o, scene, subject.other ? &*subject.other : nullptr, context);
+    if (subject.quantity) measure(o, scene, subject, context);
+    if (subject.other) pose(subject.other);
+    if (subject.own)
+        pose(subject.own);
+    else
+        subject.own = io::posed(scene);
+    return subject;
+}
+
+/// What positions in 32-bit floats may be off by, of the numbers that are measured of them.
+constexpr double lost_by_floats = 1e-6;
+
+PictureSettings settings_of(const RenderOptions& o, const Scene& scene, const Quantity* quantity,
+                            Context& context) {
+    PictureSettings common = common_settings(o, scene, context);
+    common.unit = unit_of_legend(o, quantity, scene.unit, context);
+    const Quantity* named = quantity ? quantity : quantity_named(o.attribute); // which measure may have kept
+    common.range.diverging = named && named->is_signed;
+    if (!quantity) return common;
+    common.range.lost = lost_by_floats;
+    common.attribute = quantity->name;
+    common.shows = {}; // those that were measured
+    if (quantity->compares && o.edges != EdgeLines::all) common.edges = EdgeLines::no; // faces were cut
+    return common;
+}
+
+/// Deviations that positions in 32-bit floats do not hold have no colour.
+void widen_to_floats(const Scene& scene, PictureSettings& settings) {
+    if (settings.range.kind != ColourRange::Kind::automatic) return;
+    const ValueRange found = value_range(scene, settings.attribute, settings.range, settings.shows);
+    const double least = lost_by_floats * scene.bounds().diagonal();
+    if (found.known && found.high < least) settings.range = {ColourRange::Kind::given, -least, least, true};
+}
+
+void warn_of_crowd(const Scene& scene, const PictureSettings& settings, Context& context) {
+    const auto crowd = crowd_of(scene, settings);
+    if (!crowd) return;
+    const Vec3& p = crowd->middle;
+    context.warn(
+        "W-FAR",
+        fmt::format("render: most of the scene is {:.2g} pixels wide, because something lies far off",
+                    crowd->pixels),
+        fmt::format("render: {{path: near.png, at: [{:.6g}, {:.6g}, {:.6g}], zoom: {}}} shows it; clean: "
+                    "{{components: {{keep: 1}}}} leaves out what does not hang together with it",
+                    p.x, p.y, p.z, crowd->zoom));
+}
+
+Picture taken(const RenderOptions& o, const Scene& given, const Subject& subject, Context& context) {
+    const Scene& scene = subject.own ? *subject.own : given;
+    PictureSettings common = settings_of(o, given, subject.quantity, context);
+    common.looks = looks_of(o, scene, context);
+    if (subject.quantity && subject.quantity->compares) widen_to_floats(scene, common);
+    if (!o.zoom && !o.at) warn_of_crowd(scene, common, context);
+    const Shots shots = shots_of(o, scene, common);
     std::vector<Picture> pictures;
     ShareOfSteps steps(std::vector<double>(shots.settings.size(), 1));
-    std::optional<Scene> other;
-    if (o.with) other = scene_beside(o, scene, context);
-    const auto looks_of_other = other ? looks_of(o, *other, context) : nullptr;
+    const auto looks_of_other = subject.other ? looks_of(o, *subject.other, context) : nullptr;
     for (const auto& settings : shots.settings) {
-        pictures.push_back(other ? both(settings, scene, *other, looks_of_other)
-                                 : picture_of(scene, settings));
+        pictures.push_back(subject.other ? both(settings, scene, *subject.other, looks_of_other)
+                                         : picture_of(scene, settings));
         steps.next();
     }
     if (pictures.size() == 1) return std::move(pictures.front());
-    return sheet_of(pictures, other ? 1 : shots.columns);
+    return sheet_of(pictures, subject.other ? 1 : shots.columns);
 }
 
 struct RenderReport {
     std::string path, attribute;
-    bool percentiles = false;
+    bool percentiles = false, measured = false;
     int width = 0, height = 0;
     std::size_t faces = 0;
     double scale = 0;
@@ -85,7 +170,7 @@ struct RenderReport {
 
   private:
     std::optional<std::array<double, 2>> pair(double a, double b) const {
-        return values.known && values.min < values.max ? std::optional(std::array{a, b}) : std::nullopt;
+        return values.known && values.low < values.high ? std::optional(std::array{a, b}) : std::nullopt;
     }
 
   public:
@@ -96,48 +181,64 @@ void declare_report(DeclareFields<RenderReport>& d) {
     d.field("width", &RenderReport::width, "Of the image.").unit("pixels");
     d.field("height", &RenderReport::height, "Of the image.").unit("pixels");
     d.field("faces", &RenderReport::faces, "Faces of the parts that were drawn.");
-    d.field("pixels_per_unit", &RenderReport::scale, "Pixels per scene unit.");
+    d.field("pixels_per_unit", &RenderReport::scale,
+            "Pixels per scene unit; 0 when what is seen has no extent.");
     d.field("range", &RenderReport::painted,
-            "The values of the attribute at the ends of the scale, blue and yellow.")
+            "The values of the attribute at the ends of the scale: blue and yellow, or blue and red.")
         .only_when("an attribute with different values was drawn");
     d.field("all_values", &RenderReport::all, "The smallest and the largest value of the attribute.")
         .only_when("an attribute with different values was drawn");
     d.field("percentiles", &RenderReport::percentiles,
-            "Whether range is from the 1st to the 99th percentile.");
+            "Whether range is from the 1st to the 99th percentile, or, where it is as wide on either side of "
+            "0, to the 99th of the amounts.");
+    d.field("attribute", &RenderReport::attribute, "The attribute that was drawn; empty: none.");
+    d.field("measured", &RenderReport::measured,
+            "Whether render measured the attribute, which the scene has not.");
+    d.field(
+        "missing", [](const RenderReport& r) { return r.values.missing; },
+        "Faces or vertices without a value, which are pink.");
     d.tell([](const RenderReport& r) {
-        std::string line =
-            fmt::format("{}: {} x {} pixels, {:.6g} a unit", r.path, r.width, r.height, r.scale);
+        std::string line = fmt::format("{}: {} x {} pixels", r.path, r.width, r.height);
+        if (r.scale > 0) line += fmt::format(", {:.6g} a unit", r.scale);
         if (const auto range = r.painted())
-            line += fmt::format(", {} from {:.6g} (blue) to {:.6g} (yellow)", r.attribute, (*range)[0],
-                                (*range)[1]);
+            line += fmt::format(", {} from {:.6g} (blue) to {:.6g} ({})", r.attribute, (*range)[0],
+                                (*range)[1], r.values.diverging ? "red" : "yellow");
+        else if (r.values.known)
+            line += fmt::format(", {} {:.6g} everywhere", r.attribute, r.values.min);
         if (r.percentiles)
-            line +=
-                fmt::format(", the 1st and 99th percentile of {:.6g} to {:.6g}", r.values.min, r.values.max);
+            line += fmt::format(", the {} of {:.6g} to {:.6g}",
+                                r.values.diverging ? "99th percentile either way" : "1st and 99th percentile",
+                                r.values.min, r.values.max);
+        if (r.values.missing > 0) line += fmt::format(", {} without a value (pink)", r.values.missing);
         return std::vector<std::string>{line};
     });
 }
 
-void warn(const RenderOptions& o, const Picture& picture, Context& context) {
-    if (!o.attribute.empty() && !picture.has_attribute)
-        context.warn("W-NO-ATTRIBUTE", fmt::format("render: no part has an attribute '{}'", o.attribute),
-                     "facetmill info lists them");
+void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context& context) {
+    if (!quantity || picture.range.known || picture.range.missing == 0) return;
+    context.warn("W-NO-VALUE",
+                 fmt::format("render: {} has no value anywhere: there is none {}", quantity->name,
+                             quantity->missing.empty() ? "without faces" : quantity->missing),
+                 "facetmill info tells whether the surface is closed and manifold");
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
     ShareOfSteps steps({9, 1});
-    const Picture picture = taken(o, scene, context);
+    const Subject subject = subject_of(o, scene, context);
+    const Picture picture = taken(o, scene, subject, context);
     steps.next();
     const io::Bytes bytes = io::png(picture);
     context.output(o.path.text, bytes);
     report.path = o.path.text;
-    report.attribute = o.attribute;
+    report.attribute = subject.quantity ? std::string(subject.quantity->name) : o.attribute;
+    report.measured = subject.quantity != nullptr;
     report.percentiles = picture.range.percentiles;
     report.width = picture.width;
     report.height = picture.height;
-    report.faces = picture.faces;
+    report.faces = subject.faces;
     report.scale = picture.scale;
     report.values = picture.range;
-    warn(o, picture, context);
+    warn_of_no_values(subject.quantity, picture, context);
     return scene;
 }
 
@@ -150,7 +251,8 @@ const RegisterStage registered{make_stage<RenderOptions>(
                   "render: {path: around.png, views: turntable, width: 400, height: 400, background: light}",
                   "render: {path: before-after.png, with: before.glb, background: white}",
                   "render: {path: failed.png, attribute: failed}",
-                  "render: {path: curvature.png, attribute: mean_curvature, unit: 1/mm, range: [-1, 1]}"},
+                  "render: {path: curvature.png, attribute: mean_curvature, range: [-1, 1]}",
+                  "render: {path: deviation.png, attribute: deviation}"},
      .tells = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes on: nothing is to be compared
@@ -162,7 +264,8 @@ const RegisterStage registered{make_stage<RenderOptions>(
                                       if (o.with) files.inputs.push_back(*o.with);
                                       return files;
                                   },
-                              .verify = verify_render})};
+                              .verify = verify_render,
+                              .compares_with_load = is_from_load})};
 
 } // namespace
 

@@ -390,6 +390,41 @@ TEST_CASE("outliers do not eat the range of colours", "[geometry]") {
     CHECK(range(ColourRange::Kind::percentile).percentiles);
     stored[0] = NAN;
     CHECK(range(ColourRange::Kind::automatic).low == 1);
+    CHECK(range(ColourRange::Kind::automatic).missing == 1);
+    stored[1] = -2000;
+    const auto both_ways = [&](ColourRange::Kind kind) {
+        return value_range(scene, "heat", {kind, 3, 4, true}, {});
+    };
+    CHECK(both_ways(ColourRange::Kind::automatic).low == -2000);
+    CHECK(both_ways(ColourRange::Kind::automatic).high == 2000);
+    CHECK(both_ways(ColourRange::Kind::percentile).low == -990);
+    CHECK(both_ways(ColourRange::Kind::percentile).high == 990);
+}
+
+TEST_CASE("what is no number is pink, and the legend says so", "[geometry]") {
+    const auto pink = [](const Pixel& p) { return p.r > 120 && p.r > p.g + 60 && p.b > p.g + 40; };
+    for (const float x : {NAN, HUGE_VALF}) {
+        Scene scene = scene_of(shapes::grid(2, 1)); // two squares of two triangles
+        scene.parts[0].mesh.attributes.push_back(
+            {"heat", Domain::face, Role::generic, 1, false, std::vector<float>{0, 1, x, x}});
+        PictureSettings s = seen_from({0, 0, 1});
+        s.width = 300;
+        s.attribute = "heat";
+        s.ground = {1, 1, 1};
+        const Picture bare = picture_of(scene, s);
+        CHECK(pink(at(bare, 225, 50)));
+        CHECK_FALSE(pink(at(bare, 75, 50)));
+        s.legend = true;
+        const Picture picture = picture_of(scene, s);
+        std::size_t swatch = 0; // below the scale
+        for (int y = 70; y < 100; ++y)
+            for (int x_at = 300 - 17 * 6; x_at < 300; ++x_at) swatch += pink(at(picture, x_at, y));
+        CHECK(swatch > 30);
+        scene.parts[0].mesh.attributes.back().data = std::vector<float>{0, 1, 2, 3};
+        const Picture whole = picture_of(scene, s);
+        for (int y = 0; y < 100; ++y)
+            for (int x_at = 300 - 17 * 6; x_at < 300; ++x_at) REQUIRE_FALSE(pink(at(whole, x_at, y)));
+    }
 }
 
 TEST_CASE("a legend stands beside the scene", "[geometry]") {
@@ -553,4 +588,45 @@ TEST_CASE("lines and points without a colour are seen on white and on black", "[
         CHECK(red.rgba[i + 1] == 0);
     }
     CHECK(all > 100);
+}
+
+TEST_CASE("numbers that differ by rounding alone have one colour, when that is asked for", "[geometry]") {
+    Scene scene = square();
+    scene.parts[0].mesh.attributes.push_back(
+        {"heat", Domain::vertex, Role::generic, 1, false, std::vector<double>{2, 2 + 1e-7, 2, 2}});
+    ColourRange wanted;
+    CHECK(value_range(scene, "heat", wanted, {}).low < value_range(scene, "heat", wanted, {}).high);
+    wanted.lost = 1e-6;
+    const ValueRange one = value_range(scene, "heat", wanted, {});
+    CHECK(one.low == one.high);
+    CHECK(one.max > one.min);
+    wanted.kind = ColourRange::Kind::all;
+    CHECK(value_range(scene, "heat", wanted, {}).high == 2 + 1e-7);
+}
+
+TEST_CASE("what lies far off makes a crowd of the rest", "[geometry]") {
+    Scene scene = scene_of(shapes::icosphere(3));
+    PictureSettings s;
+    CHECK_FALSE(crowd_of(scene, s));
+    CHECK_FALSE(crowd_of(scene_of({}), s));
+    Mesh stray; // one triangle
+    stray.positions = {{5000, 0, 0}, {5001, 0, 0}, {5000, 1, 0}};
+    stray.corners = {0, 1, 2};
+    append(scene.parts[0].mesh, stray);
+    const auto crowd = crowd_of(scene, s);
+    REQUIRE(crowd);
+    CHECK(crowd->pixels < 0.5);
+    CHECK(length(crowd->middle) < 0.1);
+    s.at = crowd->middle;
+    s.zoom = crowd->zoom;
+    CHECK(covered(picture_of(scene, s)) > 480U * 360U / 20);
+    // A vertex that is not drawn makes nothing small; nor does one part of two.
+    Scene alone = scene_of(shapes::icosphere(3));
+    alone.parts[0].mesh.positions.push_back({1e9, 0, 0});
+    CHECK_FALSE(crowd_of(alone, {}));
+    s.shows = [](const Part& part) { return part.name == "part"; };
+    Scene two = scene_of(shapes::icosphere(3));
+    two.parts.push_back(scene_of(stray).parts[0]);
+    two.parts[1].name = "stray";
+    CHECK_FALSE(crowd_of(two, s));
 }

@@ -1,0 +1,193 @@
+#include "geometry/quantities/quantities.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "geometry/measure/measure.hpp"
+#include "geometry/spatial/signed_distances.hpp"
+#include "mesh/placement.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace facetmill {
+
+namespace {
+
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+
+Measure measure_of(PropertyKind kind) {
+    switch (kind) {
+    case PropertyKind::angle:
+        return Measure::degrees;
+    case PropertyKind::length:
+        return Measure::length;
+    case PropertyKind::area:
+        return Measure::area;
+    default:
+        return Measure::number;
+    }
+}
+
+std::vector<double> values_of_property(const Quantity& q, const Mesh& world, const FaceTree*) {
+    return face_values(world, *property_named(q.name));
+}
+
+std::vector<double> areas(const Quantity&, const Mesh& world, const FaceTree*) {
+    return measure_faces(world).areas;
+}
+
+std::vector<double> mean_curvatures(const Quantity&, const Mesh& world, const FaceTree*) {
+    return measure_curvature(world).mean;
+}
+
+std::vector<double> gaussian_curvatures(const Quantity&, const Mesh& world, const FaceTree*) {
+    return measure_curvature(world).gaussian;
+}
+
+/// What the coordinates, rounded as they are, cannot tell from 0 is 0, as in every deviation
+/// (DirectedDeviation).
+std::vector<double> distances(const Quantity&, const Mesh& world, const FaceTree* other) {
+    std::vector<double> values(world.vertex_count(), not_there);
+    if (!other || other->empty()) return values;
+    const auto found = signed_distances(*other, world.positions);
+    parallel_for(values.size(), [&](std::size_t v) {
+        const Vec3& p = world.positions[v];
+        if (!is_finite(p)) return;
+        const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        const double d = found[v];
+        values[v] = std::abs(d) <= 16 * std::numeric_limits<double>::epsilon() * largest ? 0 : d;
+    });
+    return values;
+}
+
+struct OfProperty {
+    std::string_view name, missing;
+    std::vector<std::string_view> other_names;
+};
+
+/// What the rows of properties do not say.
+const std::vector<OfProperty>& of_properties() {
+    static const std::vector<OfProperty> all{
+        {"min_angle", "", {"smallest_angle", "minimum_angle"}},
+        {"max_angle", "", {"largest_angle", "maximum_angle"}},
+        {"aspect_ratio", "of faces without area", {"aspect"}},
+        {"wall_thickness", "where no face lies behind", {"thickness", "wall"}},
+    };
+    return all;
+}
+
+std::vector<Quantity> all_quantities() {
+    std::vector<Quantity> all;
+    for (const Property& p : property_table()) {
+        if (!p.of_faces) continue;
+        Quantity q{.name = p.name, .measure = measure_of(p.kind), .help = p.help, .of = values_of_property};
+        for (const OfProperty& more : of_properties())
+            if (more.name == p.name) {
+                q.missing = more.missing;
+                q.other_names = more.other_names;
+            }
+        all.push_back(std::move(q));
+    }
+    all.push_back({.name = "area", .measure = Measure::area, .help = "Its area.", .of = areas});
+    constexpr std::string_view rims = "on boundaries and where the surface is no manifold";
+    all.push_back({.name = "mean_curvature",
+                   .domain = Domain::vertex,
+                   .measure = Measure::per_length,
+                   .help = "The mean curvature, positive where the surface bulges outward.",
+                   .missing = rims,
+                   .other_names = {"curvature"},
+                   .is_signed = true,
+                   .of = mean_curvatures});
+    all.push_back({.name = "gaussian_curvature",
+                   .domain = Domain::vertex,
+                   .measure = Measure::per_area,
+                   .help = "The Gaussian curvature, negative at saddles.",
+                   .missing = rims,
+                   .other_names = {"gauss_curvature"},
+                   .is_signed = true,
+                   .of = gaussian_curvatures});
+    all.push_back({.name = "deviation",
+                   .domain = Domain::vertex,
+                   .measure = Measure::length,
+                   .help = "The distance from the nearest point of another surface (with, or the scene as "
+                           "loaded), negative inside: behind the face there.",
+                   .missing = "where the other surface is empty",
+                   .other_names = {"distance", "signed_distance"},
+                   .is_signed = true,
+                   .compares = true,
+                   .of = distances});
+    return all;
+}
+
+} // namespace
+
+const std::vector<Quantity>& quantities() {
+    static const std::vector<Quantity> all = all_quantities();
+    return all;
+}
+
+std::vector<std::string> quantity_names() {
+    std::vector<std::string> names;
+    for (const Quantity& q : quantities()) names.emplace_back(q.name);
+    return names;
+}
+
+std::vector<std::string> quantity_words() {
+    std::vector<std::string> words = quantity_names();
+    for (const Quantity& q : quantities())
+        words.insert(words.end(), q.other_names.begin(), q.other_names.end());
+    return words;
+}
+
+const Quantity* quantity_named(std::string_view name) {
+    for (const Quantity& q : quantities())
+        if (q.name == name) return &q;
+    return nullptr;
+}
+
+const Quantity* quantity_called(std::string_view word) {
+    if (const Quantity* q = quantity_named(word)) return q;
+    for (const Quantity& q : quantities())
+        if (std::find(q.other_names.begin(), q.other_names.end(), word) != q.other_names.end()) return &q;
+    return nullptr;
+}
+
+std::string unit_of(const Quantity& quantity, Unit unit) {
+    const bool known = unit != Unit::unknown;
+    const std::string one = known ? to_string(unit) : "scene unit", many = known ? one : one + "s";
+    switch (quantity.measure) {
+    case Measure::degrees:
+        return "degrees";
+    case Measure::length:
+        return many;
+    case Measure::area:
+        return many + "^2";
+    case Measure::per_length:
+        return "1/" + one;
+    case Measure::per_area:
+        return "1/" + one + "^2";
+    case Measure::number:
+        break;
+    }
+    return {};
+}
+
+std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other) {
+    const Mesh world = in_world(part);
+    std::vector<double> values = quantity.of(quantity, world, other);
+    values.resize(world.count(quantity.domain), not_there); // curvature has vertices of faces that cross
+    for (double& x : values)
+        if (!std::isfinite(x)) x = not_there;
+    return values;
+}
+
+void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values, double none) {
+    for (double& x : values)
+        if (std::isnan(x)) x = none;
+    for (const Domain domain : {Domain::vertex, Domain::wedge, Domain::face})
+        part.mesh.drop(quantity.name, domain);
+    part.mesh.attributes.push_back(
+        {std::string(quantity.name), quantity.domain, Role::generic, 1, false, std::move(values)});
+}
+
+} // namespace facetmill

@@ -1,0 +1,50 @@
+#pragma once
+// Numbers that every face, or every vertex, of a mesh has by its shape: what measure keeps as attributes, and
+// pictures show.
+
+#include "geometry/spatial/face_tree.hpp"
+#include "mesh/scene.hpp"
+
+#include <string_view>
+
+namespace facetmill {
+
+/// What numbers are of: a power of a length, an angle in degrees, or a pure number.
+enum class Measure { number, degrees, length, area, per_length, per_area };
+
+/// One of them: a row of a table. Those of properties that faces have (min_angle, wall_thickness) come from
+/// the rows of these (geometry/inspect), so that they have the same names and values.
+struct Quantity {
+    std::string_view name; ///< as users write it, and of the attribute
+    Domain domain = Domain::face;
+    Measure measure = Measure::number;
+    std::string_view help;
+    std::string_view missing;                    ///< where there is none, in words: "on boundaries"
+    std::vector<std::string_view> other_names{}; ///< what else people call it
+    bool is_signed = false;                      ///< both sides of 0 are told apart
+    bool compares = false;                       ///< it is from another surface
+    std::vector<double> (*of)(const Quantity&, const Mesh& world, const FaceTree* other) = nullptr;
+};
+
+/// All of them, in the order of the help.
+const std::vector<Quantity>& quantities();
+std::vector<std::string> quantity_names();
+/// With what else people call them: for the nearest of a word.
+std::vector<std::string> quantity_words();
+/// Null when there is none of that name.
+const Quantity* quantity_named(std::string_view name);
+/// Also by what else people call it.
+const Quantity* quantity_called(std::string_view word);
+
+/// "mm", "1/mm^2", "degrees"; "scene units" and the like where the unit is unknown, empty for pure numbers.
+std::string unit_of(const Quantity& quantity, Unit unit);
+
+/// The numbers of the part's faces or vertices, in world space and scene units; not a number where there is
+/// none. other: what quantities that compare are from, in world space; only these look at it. O(n log n); the
+/// same for any number of threads.
+std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other = nullptr);
+
+/// Makes an attribute of them, instead of any of that name; those that are missing become `none`.
+void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values, double none);
+
+} // namespace facetmill

@@ -1,0 +1,64 @@
+// Whether something far off makes most of a scene small in its picture.
+#include "geometry/render/render.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+/// Of the parts that are shown, in world space: of many every n-th.
+std::vector<Vec3> some_points(const Scene& scene, const PictureSettings& settings) {
+    constexpr std::size_t enough = 200000;
+    std::vector<Vec3> points;
+    std::size_t count = 0;
+    for (const Part& part : scene.parts) count += part.mesh.wedge_count() + part.mesh.corner_count();
+    const std::size_t step = 1 + count / enough;
+    const auto add = [&](const Part& part, const Vec3& p) {
+        if (const Vec3 world = part.transform.point(p); is_finite(world)) points.push_back(world);
+    };
+    std::size_t at = 0; // through all parts, so that many small ones are not left out
+    for (const Part& part : scene.parts) {
+        if (settings.shows && !settings.shows(part)) continue;
+        const Mesh& mesh = part.mesh;
+        const bool faces = mesh.face_count() > 0; // vertices beside faces are not drawn
+        for (std::size_t i = 0; i < (faces ? mesh.corner_count() : mesh.vertex_count()); ++i)
+            if (at++ % step == 0) add(part, faces ? mesh.point(static_cast<Index>(i)) : mesh.positions[i]);
+    }
+    return points;
+}
+
+/// Along each axis without the tenth of the points at either end.
+Box middle_box(std::vector<Vec3>& points) {
+    Box box;
+    Vec3 low, high;
+    const std::size_t tenth = points.size() / 10;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto less = [&](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; };
+        const auto first = points.begin() + static_cast<std::ptrdiff_t>(tenth),
+                   last = points.end() - 1 - (first - points.begin());
+        std::nth_element(points.begin(), first, points.end(), less);
+        low[axis] = (*first)[axis];
+        std::nth_element(points.begin(), last, points.end(), less);
+        high[axis] = (*last)[axis];
+    }
+    box.add(low);
+    box.add(high);
+    return box;
+}
+
+} // namespace
+
+std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings) {
+    constexpr double small = 0.01; // of the longer side: an icon
+    std::vector<Vec3> points = some_points(scene, settings);
+    if (points.empty()) return {};
+    const Box box = middle_box(points);
+    const double size = box.diagonal(), pixels = size * fitting_scale(scene, settings);
+    if (!(size > 0) || !(pixels < small * std::max(settings.width, settings.height))) return {};
+    // Half of the shorter side, so that what is beside it is seen, too; no more than pictures are magnified.
+    const double zoom = std::clamp(std::min(settings.width, settings.height) / (2 * pixels), 1.0, 10000.0);
+    return Crowd{box.centre(), pixels, std::floor(zoom)};
+}
+
+} // namespace facetmill
