@@ -49,14 +49,28 @@ class Site:
             return f"[{words}]({up}{name}{anchor})"
         return words
 
+    @staticmethod
+    def commands(scene, picture):
+        """The words of the commands that make a picture of the scene: those between && in its text, of which the last one
+        ends in render, if only with its path."""
+        *first, last = [shlex.split(command) for command in scene.split(" && ")]
+        if "render" in last:
+            at = last.index("render") + 1
+            last = [*last[:at], picture, *last[at:]]
+        else:
+            last = [*last, "!", "render", picture]
+        return [["pipe", *words] for words in [*first, last]]
+
     def pictures(self, stage, scenes):
         """The Markdown of the scenes before and after a stage."""
         text = ""
         for number, scene in enumerate(scenes):
             picture = f"{stage}-{number}.png"
-            self.run("pipe", *shlex.split(scene), "!", "render", str(self.pages / "stages" / picture), "--width", "480",
-                     "--height", "360", cwd=self.pages.parent)
-            text += f"\n```sh\nfacetmill pipe {scene} ! render {picture}\n```\n\n![{scene}]({picture})\n"
+            for words in self.commands(scene, str(self.pages / "stages" / picture)):
+                size = ["--width", "480", "--height", "360"] if "render" in words else []
+                self.run(*words, *size, cwd=self.pages.parent)
+            lines = "".join(f"facetmill {' '.join(words)}\n" for words in self.commands(scene, picture))
+            text += f"\n```sh\n{lines}```\n\n![{scene}]({picture})\n"
         return text
 
     def stage_pages(self):
@@ -64,6 +78,7 @@ class Site:
         parts = re.split(r"\n## (?=[a-z-]+\n)", self.run("stages", "--markdown"))
         (self.pages / "stages").mkdir()
         shutil.copy(SOURCE / "examples/data/nefertiti.ply", self.pages.parent / "scan.ply")
+        shutil.copy(SOURCE / "tests/data/box-textured.glb", self.pages.parent / "crate.glb")
         names = [part.split("\n", 1)[0] for part in parts[1:]]
         if unknown := set(scenes) - set(names):
             sys.exit(f"pictures.yaml names what is no stage: {', '.join(sorted(unknown))}")
