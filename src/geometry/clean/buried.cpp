@@ -120,7 +120,8 @@ Buried::Buried(const Mesh& mesh, const Solids& solids, const SelfIntersections& 
     : mesh_(mesh), solids_(solids), triangles_(triangles), first_(first) {
     // What is buried is between two components, and in a third.
     if (solids.components.count < 3) return;
-    if (operands && operands->operation == CombineOperation::intersect) return;
+    if (operands && operands->operation == CombineOperation::intersect) only_second_ = &operands->second;
+    const bool unites = !operands || operands->operation == CombineOperation::unite;
     const bool subtracts = operands && operands->operation == CombineOperation::subtract;
     const auto by_component = triangles_by_component();
     std::vector<std::vector<Wall>> walls(by_component.size());
@@ -149,7 +150,7 @@ Buried::Buried(const Mesh& mesh, const Solids& solids, const SelfIntersections& 
     const BoxTree doubts(std::move(boxes));
     std::vector<Box> boxes_of_cores;
     for (Index p = 0; p < cores.size(); ++p) {
-        if (!has_core[p] || (subtracts && !operands->second[p])) continue;
+        if (!has_core[p] || (!unites && !operands->second[p])) continue;
         if (doubts.any_of(cores[p]->box, [&](Index q) { return solids.cluster[q] == solids.cluster[p]; }))
             continue;
         Core& core = cores_.emplace_back(*cores[p]);
@@ -282,7 +283,8 @@ std::vector<std::uint8_t> Buried::hold_meetings(std::span<const std::pair<Index,
             std::vector<Index> near; // the first face of the pair
             for (std::size_t i = begin; i < end; ++i) {
                 if (i == begin || pairs[i].first != pairs[i - 1].first) near = cores_near(pairs[i].first);
-                held[i] = holds_meeting(pairs[i].first, pairs[i].second, near);
+                held[i] = may_leave(pairs[i].first) && may_leave(pairs[i].second) &&
+                          holds_meeting(pairs[i].first, pairs[i].second, near);
             }
         },
         512);

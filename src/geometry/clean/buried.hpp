@@ -24,11 +24,12 @@ struct NearPoint {
 /// it. Of a convex solid it is the inside; of most other solids it is empty, and those are of no use here.
 ///
 /// Let K be the union of the cores of components that bury: of a union all; of a difference those that are
-/// taken away; of an intersection none. Those are left out whose box meets the box of a component that might
-/// wind around something less than zero times: any but those with a core, which wind at least zero times
-/// around every point (count along the ray from a point of the core), and those that are manifold, turned
-/// outward and do not pass through themselves. So nowhere in K is there a face of the result: a union has the
-/// winding number 1 at least, and of a difference all is taken away.
+/// taken away; of an intersection those of the second operand (see below). Those are left out whose box meets
+/// the box of a component that might wind around something less than zero times: any but those with a core,
+/// which wind at least zero times around every point (count along the ray from a point of the core), and
+/// those that are manifold, turned outward and do not pass through themselves. So in K a union has
+/// the winding number 1 at least, and of a difference all is taken away: nowhere there is a face of the
+/// result.
 ///
 /// **What meets in K only need not be cut along each other.** Suppose that all other pairs are, and call what
 /// is then a piece or an uncut face a leaf.
@@ -50,6 +51,13 @@ struct NearPoint {
 /// So each leaf fares as it would if all had been cut. Faces that coincide do not bury each other, since the
 /// border of a core is not in it. A face of which some pairs are left out and none remains has a point in K.
 ///
+/// Of an intersection only faces of the second operand are left uncut with each other. With W the winding
+/// numbers of the operands: where a leaf has a point in K, the second's W is 1 at least on both of its sides,
+/// all along it, as in 2. If the leaf is of the second operand alone, the first's W is the same on both of
+/// its sides, so it goes. Any other leaf stays or goes by the first's W alone, and that is the same all along
+/// it and along what it is joined with, since faces of the first are cut along all others, and have the same
+/// nodes where they meet each other.
+///
 /// Decided by sums of doubles with a bound of their error: what is not sure is not buried. Solids smaller
 /// than 1e-60 or farther out than 1e100 bury nothing, so that no product is lost.
 class Buried {
@@ -60,6 +68,8 @@ class Buried {
            const TriangleFaces& triangles, const std::vector<Index>& first, const Operands* operands);
 
     bool empty() const { return cores_.empty(); }
+    /// Whether all leaves with a point in K go, also those of the first operand.
+    bool takes_all() const { return !only_second_; }
     /// For each pair whether all that the two faces, both of closed components, have in common is surely in
     /// K. Fastest where pairs of one first face come after each other. Parallel.
     std::vector<std::uint8_t> hold_meetings(std::span<const std::pair<Index, Index>> pairs) const;
@@ -99,8 +109,13 @@ class Buried {
     bool holds_box(const Box& box, const std::vector<Index>& cores, int& budget) const;
     Stretch stretch_of(const Core& core, const NearPoint& p, const NearPoint& q) const;
 
+    bool may_leave(Index face) const {
+        return !only_second_ || (*only_second_)[solids_.components.of_face[face]];
+    }
+
     const Mesh& mesh_;
     const Solids& solids_;
+    const std::vector<std::uint8_t>* only_second_ = nullptr; ///< [components] of an intersection
     const TriangleFaces& triangles_;
     const std::vector<Index>& first_;
     std::vector<Wall> walls_;

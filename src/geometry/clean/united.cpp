@@ -372,6 +372,7 @@ class Uniting {
 
     /// Whether the centre of a leaf is surely where nothing stays.
     bool is_buried(const Arrangement& arrangement, Index i) const {
+        if (!buried_->takes_all()) return false;
         const Leaf l = leaf(i);
         std::array<Vec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k) at[k] = arrangement.position(l.nodes[k]);

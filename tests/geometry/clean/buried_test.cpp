@@ -204,6 +204,28 @@ TEST_CASE("differences by many boxes are what counting says", "[geometry][combin
     }
 }
 
+TEST_CASE("intersections with many boxes are what counting says", "[geometry][combine][property]") {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        const auto boxes = random_blocks(seed + 200, 4 + seed, 1 + static_cast<int>(seed % 5));
+        LatticeCubes covered, both;
+        std::vector<Mesh> meshes{
+            IntegerBox{{1, 1, 2}, {lattice - 1, lattice, lattice - 1}}.mesh(seed % 2 == 0)};
+        for (const IntegerBox& b : boxes) {
+            covered.set(b, true);
+            meshes.push_back(b.mesh(seed % 3 == 0));
+        }
+        for (int i = 1; i < lattice - 1; ++i)
+            for (int j = 1; j < lattice; ++j)
+                for (int k = 2; k < lattice - 1; ++k)
+                    both.set({{i, j, k}, {i + 1, j + 1, k + 1}}, covered.at(i, j, k));
+        INFO("seed " << seed);
+        const Mesh mesh = sound_one(std::move(meshes), Task::intersect, 1).mesh;
+        CHECK(test::volume(mesh) == Approx(both.volume()).epsilon(1e-13));
+        CHECK(test::area(mesh) == Approx(both.area()).epsilon(1e-13));
+        if (const auto euler = both.euler()) CHECK(test::euler(mesh) == *euler);
+    }
+}
+
 TEST_CASE("turned solids are united at once as they are one by one", "[geometry][combine][property]") {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         std::vector<Mesh> meshes;
@@ -221,13 +243,13 @@ TEST_CASE("turned solids are united at once as they are one by one", "[geometry]
         CHECK(test::volume(all) == Approx(test::volume(one)).epsilon(1e-12));
         CHECK(test::area(all) == Approx(test::area(one)).epsilon(1e-12));
         CHECK(test::euler(all) == test::euler(one));
-        Mesh rest = block({-2, -2, -2}, {2, 2, 2});
+        const Mesh rest = block({-2, -2, -2}, {2, 2, 2});
         std::vector<Mesh> taken{rest};
         for (const Mesh& solid : meshes) taken.push_back(solid);
-        rest = sound_one({rest, all}, Task::subtract).mesh; // no second operand: it is the union
-        CHECK(test::volume(sound_one(std::move(taken), Task::subtract, 1).mesh) ==
-              Approx(test::volume(sound_one({block({-2, -2, -2}, {2, 2, 2}), all}, Task::subtract, 1).mesh))
-                  .epsilon(1e-12));
+        const std::vector<Mesh> two{rest, all};
+        for (const Task task : {Task::subtract, Task::intersect})
+            CHECK(test::volume(sound_one(taken, task, 1).mesh) ==
+                  Approx(test::volume(sound_one(two, task, 1).mesh)).epsilon(1e-12));
     }
 }
 
@@ -243,6 +265,10 @@ TEST_CASE("what meets within a third solid is not cut", "[geometry][combine]") {
     const auto hole = sound_one({around, one, other}, Task::subtract, 1);
     CHECK(hole.cut_faces > 0);
     CHECK(test::volume(hole.mesh) == Approx(1000 - 27 - 60 + 8));
+    CHECK(sound_one({one, other, around}, Task::intersect, 2).mesh.face_count() > 0);
+    const auto part = sound_one({block({-1, -1, -1}, {11, 11, 11}), around, one, other}, Task::intersect, 1);
+    CHECK(part.cut_faces == 0);
+    CHECK(part.mesh.face_count() == 12);
     // Two together are around what neither is around alone.
     const auto two = sound_one({block({0, 0, 0}, {6, 10, 10}), block({4, 0, 0}, {10, 10, 10}),
                                 block({1, 4, 4}, {9, 6, 6}), block({1, 5, 3}, {9, 7, 5})},
