@@ -127,7 +127,9 @@ TEST_CASE("inputs that are not there are refused", "[io]") {
     CHECK(failure([&] { Input::open(dir / "no"); }) ==
           fmt::format("missing [E-FILE] there is no file '{}'", (dir / "no").string()));
     CHECK(failure([&] { Input::open(dir.path()); }) ==
-          fmt::format("missing [E-DIRECTORY] '{}' is a directory, expected a file", dir.path().string()));
+          fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | name a file in it; load "
+                      "takes patterns, too: load: '{0}/*.ply'",
+                      dir.path().string()));
 }
 
 TEST_CASE("a device, and gzip that inflates as no mesh does, end at a limit", "[io]") {
