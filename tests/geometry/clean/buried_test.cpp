@@ -299,10 +299,10 @@ TEST_CASE("nothing is buried by its own faces, by cavities, or where solids only
     for (Vec3& p : eight.positions)
         if (p.x > 2) p = {p.x, 0.2 - 0.4 * p.y + 0.3, p.z}; // turned over, and smaller
     const auto r = combine({eight, block({-1, -1, -1}, {5, 2, 2}), block({1, -2, 0.2}, {3, 3, 0.8})}, {});
-    if (!r.failure) {
-        CHECK(test::closed(r.mesh));
-        CHECK(clean_steps::crossings(r.mesh).count == 0);
-    }
+    INFO(r.failure.value_or(CombineFailure{}).why);
+    REQUIRE(!r.failure);
+    CHECK(test::closed(r.mesh));
+    CHECK(clean_steps::crossings(r.mesh).count == 0);
 }
 
 TEST_CASE("a grid of cubes that overlap by a tenth is one box", "[geometry][combine]") {
