@@ -202,7 +202,7 @@ class Pages(Case):
         self.mill("pipe", "generate", "icosphere", "!", "write", "plain.glb")
         for files in (("ball.gltf", "plain.glb"), ("plain.glb", "ball.gltf")):
             run = self.mill("diff", *files, "--html", "d.html", "--report", "again.html", expect=1)
-            self.assertEqual(run.stderr.count("ball.gltf: warning[W-TEXTURE]: images[0]: not drawn: it is broken"), 1, run.stderr)
+            self.assertEqual(run.stderr.count("ball.gltf: warning[W-TEXTURE]: images[0] (broken.png): not drawn: it is broken"), 1, run.stderr)
             page = (self.dir / "d.html").read_text()
             self.assertEqual(page.count("not drawn: it is broken"), 1)
             self.assertIn("the plain colour is drawn in its place", page)
