@@ -64,8 +64,9 @@ std::string deviation_text(const RunRecord& record) {
     if (!(worst->diagonal > 0)) return fmt::format("{:.4g}{}", most, caps);
     constexpr double float_step = 1.0 / (1 << 24); // half the distance of floats of 32 bits, of their size
     return fmt::format(
-        "{} of the diagonal, from {}{}{}", percentage(100 * most / worst->diagonal), worst->from, caps,
-        most > 0 && most < float_step * worst->diagonal ? "; less than 32-bit floats hold" : "");
+        "{} of the diagonal, from {}{}{}{}", percentage(100 * most / worst->diagonal), worst->from, caps,
+        most > 0 && most < float_step * worst->diagonal ? "; less than 32-bit floats hold" : "",
+        "; what was left out of it does not count");
 }
 
 } // namespace facetmill::report

@@ -38,10 +38,11 @@ std::string command_line(const char* what, const std::string& command) {
     return fmt::format("<dt>{}</dt><dd><pre tabindex=\"0\">{}</pre></dd>\n", what, escaped(command));
 }
 
-/// What is known to change the property, on the first input alone; empty where nothing is.
+/// What is known to change the property, on the first input alone; empty where nothing is, or what is does
+/// not change it the way that is wanted.
 std::string mending(const RunRecord& record, const Check& c) {
     const Property* property = property_named(c.name);
-    if (!property || property->mend.empty() || record.inputs.empty()) return {};
+    if (!property || property->mend.empty() || c.hint.empty() || record.inputs.empty()) return {};
     return fmt::format("facetmill pipe load {} ! {} ! validate --{} {}",
                        for_shell(record.inputs.front().path), property->mend, c.name, for_shell(c.expected));
 }
@@ -56,12 +57,11 @@ std::string places(const Check& c) {
     constexpr std::size_t most = 8;
     if (!c.evidence || c.evidence->size() < 2) return {};
     std::string items;
-    for (std::size_t i = 0; i < std::min(most, c.evidence->size()); ++i)
+    const std::size_t shown = std::min(most, c.evidence->size());
+    for (std::size_t i = 0; i < shown; ++i)
         items += fmt::format("<li>{}</li>", escaped(evidence_text((*c.evidence)[i])));
-    const std::string more =
-        c.evidence->size() > most
-            ? fmt::format("<li>and {} more in the JSON report</li>", c.evidence->size() - most)
-            : "";
+    const std::size_t all = std::max(c.locations.value_or(0), c.evidence->size());
+    const std::string more = all > shown ? fmt::format("<li>and {} more</li>", grouped(all - shown)) : "";
     return fmt::format("<details><summary>places</summary><ul>{}{}</ul></details>\n", items, more);
 }
 
@@ -71,9 +71,13 @@ std::string term(const char* name, const std::string& text) {
 
 std::string picture_of_check(const Check& c, std::size_t number) {
     if (c.picture.empty()) return {};
-    const std::string caption = fmt::format("where '{}' does not hold: all places, and the first of them "
-                                            "magnified, its faces in red, without what would hide them",
-                                            c.name);
+    const std::size_t shown = failing_locations(c).size();
+    const std::string some = c.locations.value_or(0) > shown
+                                 ? fmt::format("the first {} of {} places", shown, grouped(*c.locations))
+                                 : "all places";
+    const std::string caption = fmt::format("where '{}' does not hold: {}, and the first of them magnified, "
+                                            "its faces in red, without what would hide them",
+                                            c.name, some);
     return figure(picture(fmt::format("check-{}", number), caption, c.picture), caption, true);
 }
 
@@ -83,7 +87,7 @@ std::string failure(const RunRecord& record, const Check& c, std::size_t number)
                         term("evidence", locations_text(c)) + term("where", to_string(c.where)) +
                         term("what helps", c.hint);
     if (const std::string mend = can_be_asked(c) ? mending(record, c) : ""; !mend.empty() && !c.passed)
-        terms += command_line("mend the input", mend);
+        terms += command_line("may help", mend);
     if (!record.command.empty()) terms += command_line("reproduce", record.command);
     return fmt::format("<section class=\"check {}\">\n<h3>{} {} <span class=\"soft\">in {}</span></h3>\n"
                        "<dl>{}</dl>\n{}{}</section>\n",

@@ -36,7 +36,7 @@ std::string times_section(const RunRecord& record) {
     row("<strong>all</strong>", record.seconds, record.peak_memory);
     return table("Time and memory", heads({"stage", "#time", "#share", "", "#peak memory so far"}), rows) +
            fmt::format("<p class=\"soft\">On {} {}. These numbers differ from run to run, so reports "
-                       "leave them out.</p>\n",
+                       "leave them out. What came from the cache took no time.</p>\n",
                        record.threads, record.threads == 1 ? "thread" : "threads");
 }
 

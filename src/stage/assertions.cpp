@@ -132,6 +132,17 @@ std::optional<bool> holds(const Assertion& assertion, const Properties& properti
     return holds(assertion.bound, *value);
 }
 
+namespace {
+/// Hints on smallest values are for those that are too small, on largest ones for those too large.
+bool hint_fits(const Property& property, const Bound& bound, const Properties& properties) {
+    if (property.join != Join::least && property.join != Join::most) return true;
+    const auto value = property.get(properties);
+    if (!value) return true;
+    return property.join == Join::least ? !(bound.max && *value > *bound.max)
+                                        : !(bound.min && *value < *bound.min);
+}
+} // namespace
+
 std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
                                     const std::string& stage) {
     std::vector<report::Check> checks;
@@ -148,7 +159,7 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
             check.max = assertion.bound.max;
         }
         check.passed = holds(assertion, properties).value_or(assertion.if_applies);
-        if (!check.passed) check.hint = property.hint;
+        if (!check.passed && hint_fits(property, assertion.bound, properties)) check.hint = property.hint;
         check.where = assertion.where;
         checks.push_back(std::move(check));
     }

@@ -344,8 +344,14 @@ TEST_CASE("a check that did not hold has its picture, its places and commands", 
     CHECK(to_html(record).find("did not hold") == std::string::npos);
     check.passed = false;
     CHECK(failing_locations(check) == std::vector<Vec3>{{1, 2.5, -3}});
+    CHECK(to_html(record).find("may help") == std::string::npos); // nothing is said to help
+    check.hint = "clean fills holes";
+    CHECK(to_html(record).find("does not hold: all places") != std::string::npos);
+    check.locations = 1234;
     const std::string html = to_html(record);
-    CHECK(html.find("where &#39;closed&#39; does not hold") != std::string::npos);
+    CHECK(html.find("where &#39;closed&#39; does not hold: the first 1 of 1,234 places") !=
+          std::string::npos);
+    CHECK(html.find("<li>and 1,232 more</li>") != std::string::npos);
     CHECK(html.find(
               "facetmill pipe load &#39;a b.ply&#39; ! clean --holes minimal ! orient ! validate --closed "
               "true</pre>") != std::string::npos);

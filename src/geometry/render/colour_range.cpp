@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace facetmill {
 
@@ -32,6 +33,23 @@ std::vector<double> finite_values(const Scene& scene, const std::string& attribu
     return values;
 }
 
+/// Those that are seen; none where there are more than a legend has room for.
+std::vector<std::uint64_t> few_identifiers(const Scene& scene, const std::string& attribute,
+                                           const std::function<bool(const Part&)>& shows) {
+    constexpr std::size_t most = 24;
+    std::set<std::uint64_t> all;
+    for (const Part& part : scene.parts) {
+        if (shows && !shows(part)) continue;
+        const Attribute* a = attribute_to_show(part.mesh, attribute);
+        if (!a || a->role != Role::index) continue;
+        for (std::size_t i = 0; i < a->size() && all.size() <= most; ++i)
+            if (const double x = a->value(i, 0); x >= 0 && x != none)
+                all.insert(static_cast<std::uint64_t>(x));
+    }
+    if (all.size() > most) return {};
+    return {all.begin(), all.end()};
+}
+
 /// Narrows the range to percentiles where they are wanted, or where outliers take up most of it.
 void leave_outliers_out(std::vector<double>& values, ColourRange::Kind wanted, ValueRange& range) {
     using Kind = ColourRange::Kind;
@@ -40,7 +58,7 @@ void leave_outliers_out(std::vector<double>& values, ColourRange::Kind wanted, V
         for (double& x : values) x = std::abs(x);
     const double high = percentile_of(values, 99), low = range.diverging ? -high : percentile_of(values, 1);
     // Halves, because the span of all doubles is none.
-    const bool outliers = high / 2 - low / 2 < (range.high / 2 - range.low / 2) / 4;
+    const bool outliers = high / 2 - low / 2 < (range.high / 2 - range.low / 2) / 2;
     if (!(low < high) || (wanted != Kind::percentile && !outliers)) return;
     range.low = low;
     range.high = high;
@@ -60,7 +78,10 @@ ValueRange value_range(const Scene& scene, const std::string& attribute, const C
     using Kind = ColourRange::Kind;
     ValueRange range;
     std::vector<double> values = finite_values(scene, attribute, shows, range.missing);
-    if (values.empty()) return range;
+    if (values.empty()) {
+        range.identifiers = few_identifiers(scene, attribute, shows);
+        return range;
+    }
     range.known = true;
     range.diverging = wanted.diverging;
     const auto [least, most] = std::minmax_element(values.begin(), values.end());

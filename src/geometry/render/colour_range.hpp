@@ -10,7 +10,7 @@ namespace facetmill {
 /// Which numbers get the first and the last colour; those beyond get the same as these.
 struct ColourRange {
     enum class Kind {
-        automatic,  ///< all, or the percentiles where less than a quarter of the span holds what lies between
+        automatic,  ///< all, or the percentiles where less than half of the span holds what lies between
                     ///< these
         percentile, ///< from the 1st to the 99th percentile
         all,        ///< the smallest and the largest
@@ -25,13 +25,14 @@ struct ColourRange {
 };
 
 struct ValueRange {
-    bool known = false;       ///< there are numbers at all
-    double low = 0, high = 0; ///< the first and the last colour
-    double min = 0, max = 0;  ///< of all numbers
-    bool diverging = false;   ///< of ColourRange
-    bool percentiles = false; ///< low and high are the 1st and 99th percentile, or
-                              ///< of diverging ones the 99th of the amounts
-    std::size_t missing = 0;  ///< elements whose value is not finite
+    bool known = false;                       ///< there are numbers at all
+    double low = 0, high = 0;                 ///< the first and the last colour
+    double min = 0, max = 0;                  ///< of all numbers
+    bool diverging = false;                   ///< of ColourRange
+    bool percentiles = false;                 ///< low and high are the 1st and 99th percentile, or
+                                              ///< of diverging ones the 99th of the amounts
+    std::size_t missing = 0;                  ///< elements whose value is not finite
+    std::vector<std::uint64_t> identifiers{}; ///< of an attribute of such, ascending; none where many differ
     bool beyond() const { return min < low || max > high; } ///< some numbers lie outside
 };
 

@@ -101,8 +101,12 @@ Picture widened(const Picture& picture, const PictureSettings& settings) {
 } // namespace
 
 int legend_width(const PictureSettings& settings, const ValueRange& range) {
-    if (!settings.legend || !range.known) return 0;
+    if (!settings.legend || (!range.known && range.identifiers.empty())) return 0;
     const int width = letters_wide * letter_width * letter_scale(settings);
+    if (!range.known) {
+        const int lines = 3 + static_cast<int>(range.identifiers.size());
+        return 2 * width <= settings.width && lines * line_height(settings) <= settings.height ? width : 0;
+    }
     const Bar bar = bar_of(settings, range);
     return 2 * width <= settings.width && bar.bottom - bar.top >= 2 * line_height(settings) ? width : 0;
 }
@@ -146,7 +150,26 @@ std::vector<std::string> number_texts(const std::vector<double>& numbers, std::s
     return texts;
 }
 
+namespace {
+/// The colour of each identifier, beside it.
+Picture with_identifiers(const Picture& picture, const PictureSettings& settings, const ValueRange& range) {
+    Picture out = widened(picture, settings);
+    const int scale = letter_scale(settings), line = line_height(settings);
+    const Ink ink = ink_for(settings);
+    const int left = picture.width, right = left + letter_width * scale * 2;
+    write_text(out, left, line, scale, shortened(settings.attribute), ink);
+    int y = 3 * line;
+    for (const std::uint64_t id : range.identifiers) {
+        fill(out, left, y, right, y + letter_height * scale, bytes_of(distinct_colour(id)));
+        write_text(out, right + 5 * scale, y, scale, fmt::format("{}", id), ink);
+        y += line;
+    }
+    return out;
+}
+} // namespace
+
 Picture with_legend(const Picture& picture, const PictureSettings& settings, const ValueRange& range) {
+    if (!range.known) return with_identifiers(picture, settings, range);
     Picture out = widened(picture, settings);
     const int scale = letter_scale(settings), line = line_height(settings);
     const Ink ink = ink_for(settings);

@@ -167,7 +167,7 @@ void declare_render(Declare<RenderOptions>& d) {
                          fmt::join(quantity_names(), ", ")));
     d.option("range", &RenderOptions::range,
              "The numbers at the ends of the scale: auto (the smallest and largest, or, if few outliers "
-             "take up more than three quarters of that, the 1st and 99th percentile), percentile, all (the "
+             "take up more than half of that, the 1st and 99th percentile), percentile, all (the "
              "smallest and largest), or two numbers.");
     d.option(
         "legend", &RenderOptions::legend,

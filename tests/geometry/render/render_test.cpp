@@ -4,6 +4,7 @@
 #include "geometry/render/font.hpp"
 #include "geometry/render/legend.hpp"
 #include "geometry/render/render.hpp"
+#include "geometry/render/srgb.hpp"
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"
 
@@ -391,12 +392,12 @@ TEST_CASE("outliers do not eat the range of colours", "[geometry]") {
     stored[0] = NAN;
     CHECK(range(ColourRange::Kind::automatic).low == 1);
     CHECK(range(ColourRange::Kind::automatic).missing == 1);
-    stored[1] = -2000;
+    stored[1] = -1500;
     const auto both_ways = [&](ColourRange::Kind kind) {
         return value_range(scene, "heat", {kind, 3, 4, true}, {});
     };
-    CHECK(both_ways(ColourRange::Kind::automatic).low == -2000);
-    CHECK(both_ways(ColourRange::Kind::automatic).high == 2000);
+    CHECK(both_ways(ColourRange::Kind::automatic).low == -1500);
+    CHECK(both_ways(ColourRange::Kind::automatic).high == 1500);
     CHECK(both_ways(ColourRange::Kind::percentile).low == -990);
     CHECK(both_ways(ColourRange::Kind::percentile).high == 990);
 }
@@ -447,6 +448,18 @@ TEST_CASE("a legend stands beside the scene", "[geometry]") {
     CHECK(ink > 20); // the numbers
     s.legend = false;
     CHECK(at(picture_of(scene, s), 290, 50).r > 200);
+    // Identifiers have their colours and numbers, if they are few.
+    scene.parts[0].mesh.attributes.push_back(
+        {"failed", Domain::face, Role::index, 1, false, std::vector<std::uint32_t>{1}});
+    s.attribute = "failed";
+    s.legend = true;
+    CHECK(value_range(scene, "failed", {}, {}).identifiers == std::vector<std::uint64_t>{1});
+    const Picture coloured = picture_of(scene, s);
+    const Colour one = distinct_colour(1);
+    CHECK(at(coloured, bar, 33).r == srgb_of(one[0]));
+    CHECK(at(coloured, bar, 33).b == srgb_of(one[2]));
+    s.height = 30;
+    CHECK(legend_width(s, value_range(scene, "failed", {}, {})) == 0);
 }
 
 TEST_CASE("a legend that does not fit is left out", "[geometry]") {
