@@ -255,20 +255,40 @@ bool is_closed(const Mesh& mesh) {
     return true;
 }
 
+namespace {
+/// Of rounded numbers half are odd multiples of their step: that none of so many is happens by 2^-24.
+constexpr std::size_t enough_numbers = 24;
+
+/// Whether along an axis whose floats are less than this far apart all are multiples of it, none of which
+/// rounding would have made.
+bool is_raster(const Mesh& mesh, double ulp) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto is_multiple = [&](const Vec3& p) {
+            return !is_float32(p) || (std::fabs(p[i]) < std::ldexp(ulp, 23) && std::fmod(p[i], ulp) == 0);
+        };
+        if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_multiple)) continue;
+        std::set<double> numbers;
+        for (std::size_t v = 0; v < mesh.positions.size() && numbers.size() < enough_numbers; ++v)
+            if (is_float32(mesh.positions[v])) numbers.insert(mesh.positions[v][i]);
+        if (numbers.size() == enough_numbers) return true;
+    }
+    return false;
+}
+} // namespace
+
 double float32_rounding(const Mesh& mesh) {
     const double ulp = float32_ulp(mesh.bounds());
-    // Of rounded numbers half are odd multiples of it: that none of so many is happens by 2^-24.
-    constexpr std::size_t enough = 24;
+    if (!(ulp > 0) || is_raster(mesh, ulp)) return 0;
     std::set<double> even;
     for (const Vec3& p : mesh.positions) {
         if (!is_float32(p)) continue;
         for (std::size_t i = 0; i < 3; ++i) {
             if (std::fabs(p[i]) < std::ldexp(ulp, 23)) continue; // its floats are less far apart
             if (std::fmod(p[i], 2 * ulp) != 0) return ulp;
-            if (even.size() < enough) even.insert(p[i]);
+            if (even.size() < enough_numbers) even.insert(p[i]);
         }
     }
-    return even.size() < enough ? ulp : 0;
+    return even.size() < enough_numbers ? ulp : 0;
 }
 
 double float32_ulp(const Box& bounds) {

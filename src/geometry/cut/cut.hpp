@@ -77,8 +77,9 @@ bool is_float32(const Vec3& p);
 /// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box.
 double float32_ulp(const Box& bounds);
 /// How far positions that are 32-bit floats may be from what they were before they were rounded: float32_ulp
-/// of the bounds, or 0 where the largest coordinates show that nothing was rounded. So it is with a terrain
-/// of whole metres in UTM, whose floats are half a metre apart.
+/// of the bounds, or 0 where the coordinates show that nothing was rounded: the largest are multiples of
+/// more, or those along another axis, whose floats are less far apart, are multiples of as much. So it is
+/// with a terrain of whole metres in UTM, whose floats are half a metre apart, or a metre far in the south.
 double float32_rounding(const Mesh& mesh);
 
 /// Makes points where a plane crosses edges.

@@ -406,18 +406,19 @@ TEST_CASE("a convex prism cropped by its own outline is all inside", "[geometry]
 }
 
 TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
-    // A raster of 2 m; floats are half a metre apart so far from the origin.
+    // A raster of 2 m, and one of whole metres where floats are a metre apart, in the south.
     constexpr Index side = 41;
-    const Vec3 corner{450000, 5400000, 0};
-    const Rings outline{
-        {{450001.3, 5400003.7}, {450070.1, 5400010.2}, {450062.5, 5400065.5}, {450010.2, 5400060.9}}};
+    const auto [north, step] = GENERATE(std::pair{5400000.0, 2.0}, std::pair{9400001.0, 1.0});
+    const Vec3 corner{450000, north, 0};
+    const auto at = [&](double x, double y) { return Vec2{450000 + x * step, north + y * step}; };
+    const Rings outline{{at(0.65, 1.85), at(35.05, 5.1), at(31.25, 32.75), at(5.1, 30.45)}};
     const double wanted =
         0.5 * std::fabs(cross(outline[0][2] - outline[0][0], outline[0][3] - outline[0][1]));
     for (const double height : {0.0, 1.0 / 3}) { // all floats, and none
         INFO(height);
         Mesh terrain;
         for (Index i = 0; i < side * side; ++i)
-            terrain.positions.push_back(corner + Vec3{2.0 * (i / side), 2.0 * (i % side), height});
+            terrain.positions.push_back(corner + Vec3{step * (i / side), step * (i % side), height});
         for (Index x = 0; x + 1 < side; ++x)
             for (Index y = 0; y + 1 < side; ++y) {
                 const Index a = x * side + y, b = a + side;
@@ -429,13 +430,13 @@ TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
         CHECK(in.snapped == 0);
         CHECK(std::fabs(test::area(in.mesh) - wanted) < 1e-5);
         settings.keep = polygon::Keep::outside;
-        const double all = 4.0 * (side - 1) * (side - 1);
+        const double all = step * step * (side - 1) * (side - 1);
         CHECK(std::fabs(test::area(crop(terrain, Footprint(outline), settings).mesh) - (all - wanted)) <
               1e-5);
     }
-    // Half metres are what floats there come to, so they may have been others.
+    // Half metres are what floats in the north come to, so they may have been others.
     Mesh rounded = shapes::cube();
-    for (Vec3& p : rounded.positions) p = p * 10.5 + corner;
+    for (Vec3& p : rounded.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
     CropSettings settings;
     settings.snap = true;
     const Rings beside{{{449990, 5399990}, {450010.7, 5399990}, {450010.7, 5400030}, {449990, 5400030}}};
