@@ -408,7 +408,8 @@ TEST_CASE("a convex prism cropped by its own outline is all inside", "[geometry]
 TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
     // A raster of 2 m, and one of whole metres where floats are a metre apart, in the south.
     constexpr Index side = 41;
-    const auto [north, step] = GENERATE(std::pair{5400000.0, 2.0}, std::pair{9400001.0, 1.0});
+    const auto place = GENERATE(std::pair{5400000.0, 2.0}, std::pair{9400001.0, 1.0});
+    const double north = place.first, step = place.second;
     const Vec3 corner{450000, north, 0};
     const auto at = [&](double x, double y) { return Vec2{450000 + x * step, north + y * step}; };
     const Rings outline{{at(0.65, 1.85), at(35.05, 5.1), at(31.25, 32.75), at(5.1, 30.45)}};
