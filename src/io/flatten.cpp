@@ -94,13 +94,11 @@ std::set<Index> materials_in_use(const Scene& scene) {
     return used;
 }
 
-} // namespace
-
-namespace {
 /// Of a material without a name: its number.
 std::string shown_name(const Material& material, std::size_t number) {
     return material.name.empty() ? std::to_string(number) : material.name;
 }
+
 } // namespace
 
 std::string some_of(const std::vector<std::string>& names) {

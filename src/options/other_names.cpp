@@ -111,15 +111,13 @@ std::vector<const OtherNames*> rows_of(std::string_view other_name, const std::v
     return rows;
 }
 
-} // namespace
-
-namespace {
 std::vector<std::string> options_in(const std::vector<const OtherNames*>& rows) {
     std::vector<std::string> names;
     names.reserve(rows.size());
     for (const OtherNames* row : rows) names.emplace_back(row->option);
     return names;
 }
+
 } // namespace
 
 std::vector<std::string> options_called(std::string_view other_name, const std::vector<std::string>& known) {

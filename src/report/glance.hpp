@@ -27,7 +27,7 @@ std::optional<FaceCounts> face_counts(const RunRecord& record);
 std::size_t warning_count(const RunRecord& record);
 
 /// How far the farthest of the outputs is from what it was made of: "0.1 % of the diagonal, from the scene as
-/// loaded"; empty when none was measured.
+/// loaded; ..."; empty when none was measured.
 std::string deviation_text(const RunRecord& record);
 
 } // namespace facetmill::report

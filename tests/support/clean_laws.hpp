@@ -1,7 +1,11 @@
 #pragma once
 // What clean promises for any mesh, checked in the plainest way.
 
+#include "support/catch.hpp"
+#include "support/measure.hpp"
+
 #include "geometry/clean/clean.hpp"
+#include "geometry/clean/steps.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/topology.hpp"
@@ -14,6 +18,14 @@
 #include <vector>
 
 namespace facetmill::test {
+
+/// Of what was united: it is closed, edge-manifold, and crosses nothing.
+inline void check_solid(const Mesh& mesh) {
+    CHECK(broken_invariants(mesh) == std::vector<std::string>{});
+    CHECK(closed(mesh));
+    CHECK(edge_manifold(mesh));
+    CHECK(clean_steps::crossings(mesh).count == 0);
+}
 
 using Shape = std::vector<std::array<double, 3>>;
 

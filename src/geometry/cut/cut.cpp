@@ -4,6 +4,7 @@
 #include "mesh/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <set>
@@ -256,39 +257,39 @@ bool is_closed(const Mesh& mesh) {
 }
 
 namespace {
-/// Of rounded numbers half are odd multiples of their step: that none of so many is happens by 2^-24.
-constexpr std::size_t enough_numbers = 24;
+/// Numbers that are 32-bit floats: whether all are multiples of a step, and enough of them differ that it
+/// does not happen to rounded ones, of which half are odd multiples of half of it: by 2^-24.
+struct Multiples {
+    bool all = true;
+    std::set<double> some{};
+    static constexpr std::size_t enough = 24;
 
-/// Whether along an axis whose floats are less than this far apart all are multiples of it, none of which
-/// rounding would have made.
-bool is_raster(const Mesh& mesh, double ulp) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto is_multiple = [&](const Vec3& p) {
-            return !is_float32(p) || (std::fabs(p[i]) < std::ldexp(ulp, 23) && std::fmod(p[i], ulp) == 0);
-        };
-        if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), is_multiple)) continue;
-        std::set<double> numbers;
-        for (std::size_t v = 0; v < mesh.positions.size() && numbers.size() < enough_numbers; ++v)
-            if (is_float32(mesh.positions[v])) numbers.insert(mesh.positions[v][i]);
-        if (numbers.size() == enough_numbers) return true;
+    void add(double x, double step) {
+        all = all && std::fmod(x, step) == 0;
+        if (all && some.size() < enough) some.insert(x);
     }
-    return false;
-}
+    bool are_not_rounded() const { return all && some.size() == enough; }
+};
 } // namespace
 
 double float32_rounding(const Mesh& mesh) {
-    const double ulp = float32_ulp(mesh.bounds());
-    if (!(ulp > 0) || is_raster(mesh, ulp)) return 0;
-    std::set<double> even;
+    const double ulp = float32_ulp(mesh.bounds()), far = std::ldexp(ulp, 23);
+    Multiples farthest;                 // whose floats are one ulp apart
+    std::array<Multiples, 3> of_axis{}; // whose floats are all less far apart
     for (const Vec3& p : mesh.positions) {
         if (!is_float32(p)) continue;
+        bool any = farthest.all;
         for (std::size_t i = 0; i < 3; ++i) {
-            if (std::fabs(p[i]) < std::ldexp(ulp, 23)) continue; // its floats are less far apart
-            if (std::fmod(p[i], 2 * ulp) != 0) return ulp;
-            if (even.size() < enough_numbers) even.insert(p[i]);
+            const bool is_far = std::fabs(p[i]) >= far;
+            if (is_far) farthest.add(p[i], 2 * ulp);
+            of_axis[i].all = of_axis[i].all && !is_far;
+            if (of_axis[i].all) of_axis[i].add(p[i], ulp);
+            any |= of_axis[i].all;
         }
+        if (!any) return ulp;
     }
-    return even.size() < enough_numbers ? ulp : 0;
+    const auto shows_it = [](const Multiples& m) { return m.are_not_rounded(); };
+    return shows_it(farthest) || std::any_of(of_axis.begin(), of_axis.end(), shows_it) ? 0 : ulp;
 }
 
 double float32_ulp(const Box& bounds) {

@@ -9,16 +9,6 @@
 
 namespace facetmill {
 
-/// Samples on triangles are rounded, and so is what is closest to them: the distance up to which coordinates
-/// of that size cannot be told from there (16 units of the last place).
-inline double distance_of_none(const Vec3& p) {
-    return 16 * 2.220446049250313e-16 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-}
-/// Such a distance is 0, so that a surface is 0 from itself.
-inline double told_from_zero(double distance, const Vec3& p) {
-    return distance <= distance_of_none(p) ? 0 : distance;
-}
-
 /// Sets d.bound, and raises d.maximum where a point found on the way is farther. d holds what the samples
 /// said; order: the triangles, each near the one before. Over a triangle the distance to a convex set is
 /// greatest at a corner, so the greatest distance of its corners to one triangle of the other surface bounds

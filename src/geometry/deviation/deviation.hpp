@@ -4,6 +4,8 @@
 
 #include "geometry/spatial/face_tree.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace facetmill {
@@ -74,5 +76,15 @@ struct SurfaceSample {
 };
 /// So many points spread over the area as described above; none when there is no area.
 std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count, std::uint64_t seed);
+
+/// Samples on triangles are rounded, and so is what is closest to them: the distance up to which coordinates
+/// of that size cannot be told from there (16 units of the last place).
+inline double distance_of_none(const Vec3& p) {
+    return 16 * 2.220446049250313e-16 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+}
+/// Such a distance is 0, so that a surface is 0 from itself.
+inline double told_from_zero(double distance, const Vec3& p) {
+    return distance <= distance_of_none(p) ? 0 : distance;
+}
 
 } // namespace facetmill

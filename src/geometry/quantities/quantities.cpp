@@ -1,6 +1,7 @@
 #include "geometry/quantities/quantities.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/deviation/deviation.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/measure/measure.hpp"
 #include "geometry/spatial/signed_distances.hpp"
@@ -44,8 +45,6 @@ std::vector<double> gaussian_curvatures(const Quantity&, const Mesh& world, cons
     return measure_curvature(world).gaussian;
 }
 
-/// What the coordinates, rounded as they are, cannot tell from 0 is 0, as in every deviation
-/// (DirectedDeviation).
 std::vector<double> distances(const Quantity&, const Mesh& world, const FaceTree* other) {
     std::vector<double> values(world.vertex_count(), not_there);
     if (!other || other->empty()) return values;
@@ -53,9 +52,7 @@ std::vector<double> distances(const Quantity&, const Mesh& world, const FaceTree
     parallel_for(values.size(), [&](std::size_t v) {
         const Vec3& p = world.positions[v];
         if (!is_finite(p)) return;
-        const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        const double d = found[v];
-        values[v] = std::abs(d) <= 16 * std::numeric_limits<double>::epsilon() * largest ? 0 : d;
+        values[v] = told_from_zero(std::abs(found[v]), p) > 0 ? found[v] : 0;
     });
     return values;
 }

@@ -23,10 +23,7 @@ CombineResult sound_one(std::vector<Mesh> meshes, Task operation, Index second =
     CombineResult r = combine(std::move(meshes), {operation, second});
     INFO(r.failure.value_or(CombineFailure{}).why);
     REQUIRE(!r.failure);
-    CHECK(broken_invariants(r.mesh) == std::vector<std::string>{});
-    CHECK(test::closed(r.mesh));
-    CHECK(test::edge_manifold(r.mesh));
-    CHECK(clean_steps::crossings(r.mesh).count == 0);
+    check_solid(r.mesh);
     return r;
 }
 

@@ -23,10 +23,7 @@ Mesh combined(const Mesh& a, const Mesh& b, Operation operation) {
     const auto r = combine({a, b}, {operation, 1});
     INFO(r.failure.value_or(CombineFailure{}).why);
     REQUIRE(!r.failure);
-    CHECK(broken_invariants(r.mesh) == std::vector<std::string>{});
-    CHECK(test::closed(r.mesh));
-    CHECK(test::edge_manifold(r.mesh));
-    CHECK(clean_steps::crossings(r.mesh).count == 0);
+    check_solid(r.mesh);
     CHECK(r.mesh_of_face.size() == r.mesh.face_count());
     return r.mesh;
 }
