@@ -19,7 +19,7 @@ struct Quantity {
     Domain domain = Domain::face;
     Measure measure = Measure::number;
     std::string_view help;
-    std::string_view missing;                    ///< where there is none, in words: "on boundaries"
+    std::string_view missing{};                  ///< where there is none, in words: "on boundaries"
     std::vector<std::string_view> other_names{}; ///< what else people call it
     bool is_signed = false;                      ///< both sides of 0 are told apart
     bool compares = false;                       ///< it is from another surface
