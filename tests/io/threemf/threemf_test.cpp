@@ -163,7 +163,7 @@ TEST_CASE("3MF writes instances once, triangles only, and says what it leaves ou
     both.materials.push_back({.name = "red"});
     Mesh& coloured = both.parts.emplace_back().mesh;
     coloured = shapes::cube();
-    coloured.primitives.push_back({.material = 0});
+    coloured.primitives.emplace_back().material = 0;
     coloured.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 3, false,
                                    std::vector<float>(3 * coloured.wedge_count(), 0.25F)});
     const Loaded hidden = trip(both);
