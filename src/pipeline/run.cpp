@@ -7,8 +7,8 @@
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/early_folders.hpp"
-#include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
+#include "pipeline/between_stages.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
 #include "pipeline/page.hpp"
@@ -20,7 +20,6 @@
 #include "stage/known_surfaces.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <fmt/format.h>
 #include <set>
 #include <sys/resource.h>
@@ -364,19 +363,25 @@ class Runner {
                 page_.after(step, flow.scene, stage, outputs);
                 show_failures(step, flow.scene, checks);
             });
-        if (done && measures_ && page_.is_measured(step, outputs) && fetch(step.where, "the deviation", flow))
-            failures_.guarded({}, "the deviation", [&] {
-                const Share share = beside_stages(fmt::format("deviation after {}", step.name));
-                page_.measure(step, flow.scene, outputs);
-            });
-        if (done && measures_ && record().checks.size() > checks && fetch(step.where, "the deviation", flow))
-            failures_.guarded({}, "the deviation", [&] { show_failures(step, flow.scene, checks); });
+        if (done && measures_) measure_stage(step, flow, outputs, checks);
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
         if (done && takes_pictures_)
             failures_.guarded({}, "the 3D view", [&] { view_.after(step, flow.scene, record(), outputs); });
         return done;
+    }
+
+    /// For Markdown: how far what the stage wrote is off, and what its checks found.
+    void measure_stage(const Step& step, Flow& flow, std::size_t first_output, std::size_t first_check) {
+        const bool measured = page_.is_measured(step, first_output);
+        const bool judged = record().checks.size() > first_check;
+        if (!(measured || judged) || !fetch(step.where, "the deviation", flow)) return;
+        failures_.guarded({}, "the deviation", [&] {
+            const Share share = beside_stages(fmt::format("deviation after {}", step.name));
+            if (measured) page_.measure(step, flow.scene, first_output);
+            if (judged) show_failures(step, flow.scene, first_check);
+        });
     }
 
     /// Runs the stage on the scene, and remembers what it did.
@@ -413,52 +418,6 @@ class Runner {
     Share beside_stages(const std::string& what) const {
         if (settings_.progress) settings_.progress->beside_stages(what);
         return Share(settings_.progress);
-    }
-
-    static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {
-        for (const auto& part : scene.parts)
-            if (step.only.selects(part, scene)) return;
-        context.warn("W-ONLY", fmt::format("'only' selects none of the {} parts", scene.parts.size()),
-                     names_hint(scene));
-    }
-
-    static std::string names_hint(const Scene& scene) {
-        std::string names;
-        for (const auto& part : scene.parts) append_item(names, part.name);
-        return names.empty() ? "the scene is empty" : "their names: " + names.substr(0, 300);
-    }
-
-    /// Files with other numbers are refused; stages make them of very large ones.
-    static void require_finite(const Scene& scene) {
-        if (const auto what = not_finite(scene))
-            throw Error(ErrorKind::stage, "E-RANGE",
-                        fmt::format("{} came out beyond 1.8e308, the largest number", *what),
-                        "bring the scene near 1 in size first: transform: {scale: ...}");
-    }
-
-    static void check_invariants(const Step& step, const Scene& scene) {
-        const auto broken = broken_invariants(scene);
-        if (!broken.empty())
-            throw Error(
-                ErrorKind::bug, "E-INVARIANT",
-                fmt::format("'{}' left a scene that breaks an invariant: {}", step.name, broken.front()));
-    }
-
-    static void check_left(const Step& step, const Flow::Left& left, const Scene& scene) {
-        const auto same = [](const PartSurface& a, const PartSurface& b) {
-            const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); }; // it may be no number
-            return a.name == b.name && a.faces == b.faces && bits(a.area) == bits(b.area);
-        };
-        const auto surfaces = left.surfaces ? surfaces_of_parts(scene) : std::vector<PartSurface>();
-        const report::Brief brief = report::brief_of(scene);
-        if (left.brief.parts == brief.parts && left.brief.vertices == brief.vertices &&
-            left.brief.faces == brief.faces && left.brief.bounds.min == brief.bounds.min &&
-            left.brief.bounds.max == brief.bounds.max &&
-            (!left.surfaces || std::equal(surfaces.begin(), surfaces.end(), left.surfaces->begin(),
-                                          left.surfaces->end(), same)))
-            return;
-        throw Error(ErrorKind::bug, "E-INVARIANT",
-                    fmt::format("before '{}' the scene is no longer as the stage before left it", step.name));
     }
 
     /// The surface that a contract on the deviation compares with.
