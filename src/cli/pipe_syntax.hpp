@@ -14,13 +14,4 @@ namespace facetmill::cli {
 Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems,
                  const Arguments* own = nullptr);
 
-/// An argument as a value of that option (null: unknown): "@{x}" is "${x}", "50pct" is "50%", vectors and
-/// lists are split at commas (lists of paths are not: a path may hold a comma), and what stands in braces, or
-/// in brackets within brackets, is read as YAML where the option may be such a thing. Problems of that YAML
-/// are added.
-Value pipe_value(std::string text, const Option* option, const Mark& mark, Problems& problems);
-
-/// The options of a stage by dotted name: "plane.normal". Null when there is none.
-const Option* find_dotted(const Declaration& declaration, std::string_view name);
-
 } // namespace facetmill::cli
