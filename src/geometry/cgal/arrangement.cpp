@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
 #include "geometry/cgal/plane_cut.hpp"
+#include "geometry/cgal/region_fill.hpp"
 #include "geometry/intersect/plane_crossing.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
@@ -370,6 +371,14 @@ std::size_t Arrangement::node_count() const { return own_->nodes.size(); }
 std::optional<int> Arrangement::side_of(Index triangle, Index node) const {
     const auto at = own_->sides.find({triangle, node});
     return at == own_->sides.end() ? std::nullopt : std::optional(at->second);
+}
+
+std::vector<std::optional<std::vector<std::array<Index, 3>>>>
+Arrangement::fill(const std::vector<Region>& regions) const {
+    std::vector<std::optional<std::vector<std::array<Index, 3>>>> filled(regions.size());
+    parallel_for(
+        regions.size(), [&](std::size_t i) { filled[i] = fill_region(own_->nodes, regions[i]); }, 16);
+    return filled;
 }
 
 namespace {

@@ -54,6 +54,18 @@ class Arrangement {
     /// on; none for nodes inside.
     std::optional<int> side_of(Index triangle, Index node) const;
 
+    /// A part of a plane, between nodes. Seen from where the triangle, which is of the plane and has area,
+    /// turns left, it is on the left of each edge of its border.
+    struct Region {
+        Index triangle = none;
+        std::vector<std::array<Index, 2>> border; ///< nodes; they do not cross, and are not along each other
+        std::vector<Index> points;                ///< nodes in the region or on its border
+    };
+    /// Each region as triangles between all of its nodes, which turn as its triangle does: a constrained
+    /// Delaunay triangulation, or one of nearly so good angles. None where a border does not close. Parallel.
+    std::vector<std::optional<std::vector<std::array<Index, 3>>>>
+    fill(const std::vector<Region>& regions) const;
+
     /// A ray from the centre of three nodes, which are not on one line, along an axis.
     struct Look {
         std::array<Index, 3> nodes;

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
+#include "geometry/cgal/region_fill.hpp"
 #include "geometry/intersect/plane_crossing.hpp"
 #include "geometry/polygon/certain_triangulation.hpp"
 
@@ -33,16 +34,6 @@ using Constraint = Triangulation::Constraint_id;
 using Point2 = ExactKernel::Point_2;
 using Point3 = ExactKernel::Point_3;
 
-/// The axes, from the one along which a plane is seen best by its normal as doubles.
-std::array<int, 3> axes_by(const Vec3& rough_normal) {
-    std::array<int, 3> axes{0, 1, 2};
-    std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
-        return std::abs(rough_normal[static_cast<std::size_t>(i)]) >
-               std::abs(rough_normal[static_cast<std::size_t>(j)]);
-    });
-    return axes;
-}
-
 /// The plane of a triangle, seen along an axis from where the triangle turns left.
 class Frame {
   public:
@@ -52,7 +43,9 @@ class Frame {
         : origin_(a) {
         normal_ = CGAL::cross_product(b - a, c - a);
         const auto axes = axes_by(rough_normal);
-        drop_ = *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal_[i]); });
+        drop_ = static_cast<int>(*std::find_if(axes.begin(), axes.end(), [&](std::size_t i) {
+            return !CGAL::is_zero(normal_[static_cast<int>(i)]);
+        }));
         is_level_ = is_level[static_cast<std::size_t>(drop_)];
         u_ = (drop_ + 1) % 3;
         v_ = (drop_ + 2) % 3;
@@ -92,7 +85,8 @@ class QuickCutter {
 
     /// The first; false where that is not sure to be right.
     bool triangulate() {
-        if (group_.triangles.size() != 1 || !choose_view()) return false;
+        if (group_.triangles.size() != 1) return false;
+        view_ = view_of(nodes_.corners(triangle_));
         for (const Index n : corners_) add(n);
         for (const Index n : group_.points) add(n);
         for (const Segment& s : group_.segments) {
@@ -131,17 +125,6 @@ class QuickCutter {
         Vec3 place;
     };
 
-    /// As Frame does.
-    bool choose_view() {
-        const Vec3 &p = nodes_.rounded(corners_[0]), &q = nodes_.rounded(corners_[1]),
-                   &r = nodes_.rounded(corners_[2]);
-        const auto drop = static_cast<std::size_t>(axes_by(cross(q - p, r - p))[0]);
-        u_ = (drop + 1) % 3;
-        v_ = (drop + 2) % 3;
-        const int way = orientation_2d(p[u_], p[v_], q[u_], q[v_], r[u_], r[v_]);
-        if (way < 0) std::swap(u_, v_);
-        return way != 0;
-    }
     Index add(Index node) {
         const auto known = std::find(here_.begin(), here_.end(), node);
         if (known != here_.end()) return static_cast<Index>(known - here_.begin());
@@ -150,7 +133,7 @@ class QuickCutter {
         return static_cast<Index>(here_.size() - 1);
     }
     void add_point(const Vec3& p, std::uint8_t sides) {
-        cut_.points.push_back({p[u_], p[v_]});
+        cut_.points.push_back(view_.flat(p));
         cut_.sides.push_back(sides);
     }
     /// Those that the node is on because it is a corner or was made on one: no other is known to be.
@@ -208,7 +191,7 @@ class QuickCutter {
     const ExactNodes& nodes_;
     Index triangle_;
     std::array<Index, 3> corners_;
-    std::size_t u_ = 0, v_ = 1;
+    PlaneView view_;
     polygon::CutTriangle cut_;
     std::vector<std::array<Index, 3>> triangles_; ///< of its points
     std::vector<Index> here_;                     ///< nodes, of its points

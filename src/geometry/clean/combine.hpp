@@ -47,10 +47,11 @@ struct CombineResult {
 /// equal positions; or there is a failure. It is empty where the solids have nothing in common.
 ///
 /// Faces that are not cut stay polygons; first those of the first mesh, in order; pieces are triangles and
-/// come last. Where faces of several meshes coincide, the first mesh's stays. Faces of the second operand
-/// that bound what is taken away are turned round, with their normals. Attributes that only some meshes have
-/// are added to the others as `append` does; new corners get theirs by interpolation within the face that
-/// they are cut from. Throws never for valid meshes. The same for any number of threads.
+/// come last. Of cut faces only those vertices stay that they had or that others need
+/// (geometry/clean/redrawn.hpp). Where faces of several meshes coincide, the first mesh's stays. Faces of the
+/// second operand that bound what is taken away are turned round, with their normals. Attributes that only
+/// some meshes have are added to the others as `append` does; new corners get theirs by interpolation within
+/// the face that they are cut from. Throws never for valid meshes. The same for any number of threads.
 CombineResult combine(std::vector<Mesh> meshes, const CombineSettings& settings);
 
 } // namespace facetmill

@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "geometry/clean/buried.hpp"
+#include "geometry/clean/redrawn.hpp"
 #include "geometry/clean/united_mesh.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
@@ -426,6 +427,10 @@ class Uniting {
         }
     }
 
+    static OuterPiece piece_of(const std::array<Index, 3>& nodes, Index triangle) {
+        return {nodes, {triangle, triangle, triangle}};
+    }
+
     void assemble(const Arrangement& arrangement) {
         std::vector<std::uint8_t> goes = cut_;
         for (Index f = 0; f < goes.size(); ++f)
@@ -443,14 +448,13 @@ class Uniting {
             const Leaf& leaf = pieces_[i];
             const Fate fate = fate_[uncut_.size() + i];
             const auto& [a, b, c] = leaf.nodes;
-            if (fate == Fate::stays) pieces.push_back({leaf.nodes, leaf.first});
-            if (fate == Fate::stays_turned) pieces.push_back({{a, c, b}, leaf.against});
+            if (fate == Fate::stays) pieces.push_back(piece_of(leaf.nodes, leaf.first));
+            if (fate == Fate::stays_turned) pieces.push_back(piece_of({a, c, b}, leaf.against));
         }
-        std::stable_sort(pieces.begin(), pieces.end(),
-                         [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
         const auto uncut = faces_without(goes);
         result_.uncut_faces = uncut.size();
+        pieces = redrawn(mesh_, uncut, std::move(pieces), arrangement, triangles_);
         UnitedMesh united = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, rounding_);
         result_.settled = settled(goes, united);
         result_.mesh = std::move(united.mesh);

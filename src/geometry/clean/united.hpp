@@ -32,11 +32,12 @@ struct Operands {
 /// Cuts the faces of the clusters that intersect along each other, asks for the winding number on both sides
 /// of every patch between cuts (Q. Zhou et al., "Mesh arrangements for solid geometry", 2016), and keeps what
 /// has at most 0 on one side and at least 1 on the other, facing out. Faces that are not cut stay polygons
-/// and keep their order; the pieces of cut ones are triangles and come last. Vertices at one place where
-/// faces are cut become one. Attributes of new corners are mixed within the face that they are part of, those
-/// on an edge between its ends only, so that seams stay seams. Coordinates are rounded, and new vertices
-/// within the tolerance of others become them: the result may intersect again. With operands there is one
-/// cluster, of all components; solids are as before the second was turned inside out.
+/// and keep their order; the pieces of cut ones are triangles and come last, without vertices that only the
+/// cutting needed (redrawn). Vertices at one place where faces are cut become one. Attributes of new corners
+/// are mixed within the face that they are part of, those on an edge between its ends only, so that seams
+/// stay seams. Coordinates are rounded, and new vertices within the tolerance of others become them: the
+/// result may intersect again. With operands there is one cluster, of all components; solids are as before
+/// the second was turned inside out.
 ///
 /// The mesh is as it was but for the vertices that became one.
 United unite(Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,

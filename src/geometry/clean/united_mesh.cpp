@@ -170,11 +170,11 @@ class Assembly {
 
     void add(const OuterPiece& p) {
         std::array<Index, 3> wedges{}, vertices{};
-        for (std::size_t i = 0; i < 3; ++i) vertices[i] = vertex_of_node(p.nodes[i], p.triangle);
+        for (std::size_t i = 0; i < 3; ++i) vertices[i] = vertex_of_node(p.nodes[i], p.triangles[i]);
         if (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]) return;
-        for (std::size_t i = 0; i < 3; ++i) wedges[i] = wedge_of(p.nodes[i], vertices[i], p.triangle);
+        for (std::size_t i = 0; i < 3; ++i) wedges[i] = wedge_of(p.nodes[i], vertices[i], p.triangles[i]);
         fresh_corners_.insert(fresh_corners_.end(), wedges.begin(), wedges.end());
-        descent_.faces.push_back(triangles_.face[p.triangle]);
+        descent_.faces.push_back(triangles_.face[p.triangles[0]]);
     }
 
     Index vertex_of_node(Index node, Index triangle) {

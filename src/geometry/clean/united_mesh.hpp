@@ -6,11 +6,11 @@
 
 namespace facetmill::clean_steps {
 
-/// A piece on the outside, and the triangle (of the face) that it takes its attributes from: both turn the
-/// same way.
+/// A piece on the outside, and the triangles (of the face) that its corners take their attributes from, which
+/// hold these and turn as it does. It has the face attributes of the first.
 struct OuterPiece {
     std::array<Index, 3> nodes;
-    Index triangle;
+    std::array<Index, 3> triangles;
 };
 
 /// What the arrangement's triangles are in the mesh. Its first points are the mesh's vertices.

@@ -13,6 +13,22 @@ namespace {
 constexpr std::size_t most_points = 48;
 constexpr double unit = 0x1p-52;
 
+/// A determinant of points, and the size of what it was made from.
+struct Sized {
+    double det, size;
+};
+double size_of(std::initializer_list<double> differences) {
+    double size = 0;
+    for (const double d : differences) size = std::max(size, std::abs(d));
+    return size;
+}
+Sized turn_of(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const Vec2 u = b - a, v = c - a;
+    return {u.x * v.y - u.y * v.x, size_of({u.x, u.y, v.x, v.y})};
+}
+/// What a determinant must exceed for its sign to be sure.
+double bound_of(double size, double off) { return 16 * size * (2 * off + unit * size); }
+
 class CertainTriangulation {
   public:
     explicit CertainTriangulation(const CutTriangle& cut) : cut_(cut), count_(cut.points.size()) {}
@@ -69,37 +85,18 @@ class CertainTriangulation {
         return true;
     }
 
-    /// A determinant of points, and the size of what it was made from.
-    struct Sized {
-        double det, size;
-    };
-    static double size_of(std::initializer_list<double> differences) {
-        double size = 0;
-        for (const double d : differences) size = std::max(size, std::abs(d));
-        return size;
-    }
-    Sized turn(Index a, Index b, Index c) const {
-        const Vec2 u = at(b) - at(a), v = at(c) - at(a);
-        return {u.x * v.y - u.y * v.x, size_of({u.x, u.y, v.x, v.y})};
-    }
+    Sized turn(Index a, Index b, Index c) const { return turn_of(at(a), at(b), at(c)); }
     /// Positive with d in the circle of a, b, c, which turn left.
     Sized circle(Index a, Index b, Index c, Index d) const {
         const Vec2 u = at(a) - at(d), v = at(b) - at(d), w = at(c) - at(d);
         return {dot(u, u) * cross(v, w) + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v),
                 size_of({u.x, u.y, v.x, v.y, w.x, w.y})};
     }
-    /// A difference of coordinates is wrong by at most d = 2 off + unit / 2 * size: by both ends and by
-    /// rounding. Then a product of two is by at most 2 size d + d^2, and a turn by 10 size d. (Where d is not
-    /// small beside the size, the bound exceeds any determinant.)
-    double error(double size) const { return 2 * off_ + unit * size; }
-    bool turns_left(Index a, Index b, Index c) const {
-        const auto [det, size] = turn(a, b, c);
-        return det > 16 * size * error(size);
-    }
+    bool turns_left(Index a, Index b, Index c) const { return surely_left(at(a), at(b), at(c), off_); }
     /// 1: left, -1: right, 0: not sure.
     int sure_turn(Index a, Index b, Index c) const {
         const auto [det, size] = turn(a, b, c);
-        const double bound = 16 * size * error(size);
+        const double bound = bound_of(size, off_);
         return det > bound ? 1 : det < -bound ? -1 : 0;
     }
     std::optional<bool> do_cross(const std::array<Index, 2>& one, const std::array<Index, 2>& other) const {
@@ -184,6 +181,11 @@ class CertainTriangulation {
 };
 
 } // namespace
+
+bool surely_left(const Vec2& a, const Vec2& b, const Vec2& c, double off) {
+    const auto [det, size] = turn_of(a, b, c);
+    return det > bound_of(size, off);
+}
 
 std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const CutTriangle& cut) {
     return CertainTriangulation(cut).run();

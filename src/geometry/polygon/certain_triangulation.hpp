@@ -11,6 +11,12 @@
 
 namespace facetmill::polygon {
 
+/// Whether the points surely turn left, where each coordinate may differ by `off` from the true one. A
+/// difference of two is wrong by at most d = 2 off + 2^-53 of it, by both ends and by rounding; then a
+/// product of two of at most `size` is by 2 size d + d^2, and a turn by 10 size d. (Where d is not small
+/// beside the size, the bound exceeds any determinant.)
+bool surely_left(const Vec2& a, const Vec2& b, const Vec2& c, double off);
+
 /// What is to be triangulated. Coordinates may differ from the true ones by 2^-52 of their size, those of the
 /// corners not at all.
 struct CutTriangle {

@@ -22,8 +22,11 @@ are united again, up to eight times. The result is closed, edge-manifold and wit
 self-intersections, or the stage fails: solids that touch at an edge or a vertex are separate
 there. A part of which nothing remains has no faces (W-COMBINE-NOTHING).
 
-Faces that are not cut stay as they are; cut faces become triangles. Materials stay with their
-faces, and where faces of two parts coincide, those of the first part stay. New vertices get
+Faces that are not cut stay as they are; cut faces become triangles, between the corners that they
+had and the points where something else borders on them: what cutting leaves where the cut does not
+show is taken out. Triangles that are one flat face (exactly in one plane, with equal face
+attributes, and others that go on evenly, as texture coordinates do across a flat quad) are drawn
+together, so no vertex stays where a cut crosses their diagonal. Materials stay with their faces, and where faces of two parts coincide, those of the first part stay. New vertices get
 interpolated attributes, within the face that they are cut from. Faces of `with` that bound a
 difference are turned round, with their normals. Where an attribute exists only in some parts, the
 others get white (colours), the normal of the face, or zero. After union, the face attribute group

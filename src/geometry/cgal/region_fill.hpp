@@ -1,0 +1,48 @@
+#pragma once
+// Regions of a plane, given by their borders, into triangles. Only for the files in this folder.
+
+#include "geometry/cgal/plane_cut.hpp"
+#include "geometry/polygon/polygon.hpp"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace facetmill {
+
+/// The two axes that a plane is drawn by: seen along the third, from where a triangle of it turns left.
+struct PlaneView {
+    std::size_t u = 0, v = 1;
+    Vec2 flat(const Vec3& p) const { return {p[u], p[v]}; }
+};
+
+/// The axes, from the one along which a plane is seen best by its normal as doubles.
+std::array<std::size_t, 3> axes_by(const Vec3& rough_normal);
+/// Of the plane of a triangle with area.
+PlaneView view_of(const std::array<Vec3, 3>& corners);
+
+/// A region between points of the plane.
+struct FlatRegion {
+    using Edge = std::array<Index, 2>;
+    std::vector<Vec2> points; ///< each coordinate within 2^-52 of the largest one
+    std::vector<Edge> border; ///< the region is on the left of each; truly they do not cross
+    std::vector<Edge> lines;  ///< in it, likewise
+};
+
+using FlatTriangles = std::vector<std::array<Index, 3>>;
+
+/// The constrained Delaunay triangulation of the region, all of whose points are in it or on its border, by
+/// rounded coordinates. That it is one for the true coordinates is proved by signs that doubles are sure of,
+/// or, for the few triangles where they are not, by what `turns_left` says; else none, which says nothing.
+/// However they are found, this makes them right: they turn left; their edges pair up but for those of the
+/// border, so that they cover the region once; each line is an edge, and each point a corner.
+std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
+                                            const std::function<bool(Index, Index, Index)>& turns_left);
+
+/// Likewise of a region of the arrangement; corners are nodes. Where doubles prove nothing, by exact numbers.
+/// None only where the border is none.
+std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangement::Region& region);
+
+} // namespace facetmill
