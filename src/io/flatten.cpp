@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 
 namespace facetmill::io {
@@ -125,9 +126,12 @@ void warn_of_colours(Written& written, const Scene& scene, const char* format) {
              "glTF, OBJ and 3MF keep them"});
 }
 
-void warn_of_textures(Written& written, const Scene& scene, const char* format) {
+namespace {
+
+/// Calls with each material that faces have and that a document describes: its name, and what is said there.
+void for_each_described(const Scene& scene,
+                        const std::function<void(const std::string& name, const Json& said)>& body) {
     std::map<int, Json> documents;
-    std::vector<std::string> textured;
     for (const Index m : materials_in_use(scene)) {
         const Material& material = scene.materials[m];
         if (material.document < 0 || material.index < 0) continue;
@@ -136,11 +140,58 @@ void warn_of_textures(Written& written, const Scene& scene, const char* format) 
             at->second = parse_json(scene.documents[static_cast<std::size_t>(material.document)]->json,
                                     Broken::discarded);
         const Json::json_pointer place(fmt::format("/materials/{}", material.index));
-        if (at->second.is_object() && at->second.contains(place) &&
-            at->second[place].dump(-1, ' ', false, Json::error_handler_t::replace).find("Texture\":") !=
-                std::string::npos)
-            textured.push_back(shown_name(material, static_cast<std::size_t>(material.index)));
+        if (at->second.is_object() && at->second.contains(place))
+            body(shown_name(material, static_cast<std::size_t>(material.index)), at->second[place]);
     }
+}
+
+/// The number that is said there.
+double number_at(const Json& said, const char* place, double otherwise) {
+    const Json::json_pointer at(place);
+    return said.contains(at) && said[at].is_number() ? said[at].get<double>() : otherwise;
+}
+
+bool emits(const Json& said) {
+    const auto at = said.find("emissiveFactor");
+    return at != said.end() && at->is_array() && std::any_of(at->begin(), at->end(), [](const Json& c) {
+               return c.is_number() && c.get<double>() > 0;
+           });
+}
+
+} // namespace
+
+void warn_of_looks(Written& written, const Scene& scene, const char* format) {
+    std::vector<std::string> names;
+    bool metal = false, rough = false, light = false;
+    for_each_described(scene, [&](const std::string& name, const Json& said) {
+        const bool is_metal = number_at(said, "/pbrMetallicRoughness/metallicFactor", 1) > 0,
+                   is_rough = number_at(said, "/pbrMetallicRoughness/roughnessFactor", 1) < 1,
+                   is_light = emits(said);
+        metal |= is_metal;
+        rough |= is_rough;
+        light |= is_light;
+        if (is_metal || is_rough || is_light) names.push_back(name);
+    });
+    if (names.empty()) return;
+    std::vector<std::string> lost;
+    if (metal) lost.emplace_back("metalness");
+    if (rough) lost.emplace_back("roughness");
+    if (light) lost.emplace_back("emission");
+    written.warnings.push_back({Severity::warning,
+                                "W-MATERIAL",
+                                fmt::format("the {} of {} {} not written to {}, which has colours only: {}",
+                                            join_texts(lost), counted(names.size(), "material"),
+                                            lost.size() == 1 ? "is" : "are", format, some_of(names)),
+                                {},
+                                "glTF and OBJ keep them"});
+}
+
+void warn_of_textures(Written& written, const Scene& scene, const char* format) {
+    std::vector<std::string> textured;
+    for_each_described(scene, [&](const std::string& name, const Json& said) {
+        if (said.dump(-1, ' ', false, Json::error_handler_t::replace).find("Texture\":") != std::string::npos)
+            textured.push_back(name);
+    });
     if (!textured.empty())
         written.warnings.push_back(
             {Severity::warning,

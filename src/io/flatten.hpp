@@ -40,6 +40,10 @@ void leave_documents(Written& written, const Scene& scene, const char* format,
 /// textures.
 void warn_of_textures(Written& written, const Scene& scene, const char* format);
 
+/// Warns (W-MATERIAL) of materials that the scene's faces have whose metalness, roughness or emission their
+/// document states, by a format that holds colours only.
+void warn_of_looks(Written& written, const Scene& scene, const char* format);
+
 /// Warns (W-MATERIAL) of materials with a colour that the scene's faces have, by a format without materials.
 void warn_of_colours(Written& written, const Scene& scene, const char* format);
 

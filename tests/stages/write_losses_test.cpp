@@ -88,6 +88,33 @@ TEST_CASE("textures that a format does not get are said", "[stages]") {
     CHECK(warnings_of(plain, (dir / "b.obj").string()).empty());
 }
 
+TEST_CASE("what a format of colours has no words for in a material is said", "[stages]") {
+    const TemporaryDirectory dir;
+    const auto warned = [&](const std::string& material, const char* name) {
+        put(dir / "a.gltf",
+            R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+ "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[)" +
+                material + R"(],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+        io::ReadLog log;
+        return warnings_of(io::read_scene(io::Input::open(dir / "a.gltf"), {}, log), (dir / name).string());
+    };
+    const std::string lamp = R"({"name":"lamp","emissiveFactor":[0,0.5,0],
+ "pbrMetallicRoughness":{"metallicFactor":0.5,"roughnessFactor":0.2}})";
+    CHECK(warned(lamp, "b.3mf") ==
+          "W-MATERIAL the metalness, roughness, emission of 1 material are not written to 3MF, which has "
+          "colours only: lamp (glTF and OBJ keep them)\n");
+    CHECK(warned(R"({"emissiveFactor":[0,0,1],"pbrMetallicRoughness":{"metallicFactor":0}})", "b.3mf") ==
+          "W-MATERIAL the emission of 1 material is not written to 3MF, which has colours only: 0 (glTF and "
+          "OBJ keep them)\n");
+    CHECK(
+        warned(R"({"emissiveFactor":[0,0,0],"pbrMetallicRoughness":{"metallicFactor":0}})", "b.3mf").empty());
+    CHECK(warned(lamp, "b.glb").empty());
+    CHECK(warned(lamp, "b.obj").empty());
+}
+
 TEST_CASE("instances that stages do not see are said, and points without faces", "[stages]") {
     const char* const start = R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing"],
  "scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"tree","mesh":0,"extensions":{"EXT_mesh_gpu_instancing":

@@ -311,6 +311,7 @@ class ModelWriter {
                                         counted(written_.dropped_faces, "face")));
         leave_documents(written_, scene_, "3MF");
         warn_of_textures(written_, scene_, "3MF");
+        warn_of_looks(written_, scene_, "3MF");
     }
 
     const Scene& scene_;
