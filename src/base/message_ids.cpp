@@ -851,7 +851,7 @@ std::span<const MessageId> message_ids() {
         {"W-UNITS",
          {},
          "A scene without a unit meets one that has a unit, or a format or an option that means one; numbers "
-         "are used as they are.",
+         "are used as they are. Or a comment of a file states a unit that is none.",
          "Give the unit of the file: `load: {unit: mm}`."},
         {"W-UNORIENTED",
          {},

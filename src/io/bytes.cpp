@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/sandbox.hpp"
 #include "base/storage.hpp"
+#include "io/other_formats.hpp"
 #include "io/packing.hpp"
 
 #include <algorithm>
@@ -33,7 +34,8 @@ struct Descriptor {
 
 [[noreturn]] void cannot_read(const std::string& name, int error) {
     if (error == ENOENT || error == ENOTDIR)
-        throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no file '{}'", name));
+        throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no file '{}'", name),
+                    hint_for_reading(name));
     if (error == EACCES || error == EPERM)
         throw Error(ErrorKind::missing, "E-PERMISSION", fmt::format("'{}' may not be read", name),
                     sandbox_hint(name, error));

@@ -2,6 +2,7 @@
 
 #include "base/spelling.hpp"
 #include "base/words.hpp"
+#include "io/flatten.hpp"
 
 #include <fmt/format.h>
 #include <optional>
@@ -57,17 +58,25 @@ std::optional<std::string_view> value_of(std::string_view comment, std::string_v
 
 } // namespace
 
-void take_comment(std::string_view comment, Convention& stated) {
+void take_comment(std::string_view comment, Stated& stated) {
     for (const std::string_view word : {"unit", "units"})
-        if (const auto value = value_of(comment, word))
-            if (const auto known = unit_spelled(*value)) stated.unit = *known;
-    if (const auto axis = value_of(comment, "up"))
+        if (const auto value = value_of(comment, word)) {
+            const auto known = unit_spelled(*value);
+            if (known) stated.unit = *known;
+            stated.no_unit = known ? std::string_view() : *value;
+        }
+    if (const auto axis = value_of(comment, "up")) {
+        stated.no_up = *axis;
         for (const UpAxis known : {UpAxis::y, UpAxis::z})
-            if (same_word(*axis, to_string(known))) stated.up = known;
+            if (same_word(*axis, to_string(known))) {
+                stated.up = known;
+                stated.no_up.clear();
+            }
+    }
 }
 
-Convention stated_in_lines(std::string_view text, std::string_view keyword) {
-    Convention stated;
+Stated stated_in_lines(std::string_view text, std::string_view keyword) {
+    Stated stated;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
         const std::string_view line = trimmed(text.substr(0, end));
@@ -84,7 +93,23 @@ Convention stated_in_lines(std::string_view text, std::string_view keyword) {
     return stated;
 }
 
-void take_stated(Scene& scene, const Convention& stated) { take(scene, stated); }
+void take_stated(Scene& scene, const Stated& stated, const std::string& file, const ReadSettings& settings,
+                 ReadLog& log) {
+    take(scene, stated);
+    const auto warn = [&](const char* id, std::string_view what, const std::string& value, std::string hint) {
+        constexpr std::size_t most = 40; // of a comment in a message
+        log.warnings.push_back({Severity::warning, id,
+                                fmt::format("'{}' states the {} '{}', which is none: it does not count", file,
+                                            what, one_line(value.substr(0, most))),
+                                file_mark(file), std::move(hint), false});
+    };
+    if (!stated.no_unit.empty() && !settings.unit)
+        warn("W-UNITS", "unit", stated.no_unit,
+             "give the unit: load: {unit: mm}; units are um, mm, cm, m, km, in and ft");
+    if (!stated.no_up.empty() && !settings.up)
+        warn("W-UP", "up axis", stated.no_up, "give the up axis: load: {up: z}; it is y or z");
+}
+
 void take_stated(FileHeader& header, const Convention& stated) { take(header, stated); }
 
 std::vector<ReadWarning> overridden(const std::string& file, const Convention& stated,

@@ -5,24 +5,32 @@
 #include "io/codec.hpp"
 #include "io/convert.hpp"
 
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace facetmill::io {
+
+/// What comments state, and what stands there in the place of a unit or an axis and is none.
+struct Stated : Convention {
+    std::string no_unit, no_up;
+};
 
 /// The comments of a scene, each behind `before`: one for its unit and one for what is up, where they are
 /// known. Those of a reader: "# unit: m\n# up: y\n".
 std::string stated_comments(const Scene& scene, std::string_view before, std::string_view after = "\n");
 
 /// Takes what a comment states; the last one counts, and other comments say nothing.
-void take_comment(std::string_view comment, Convention& stated);
+void take_comment(std::string_view comment, Stated& stated);
 
 /// What the comments (#) at the beginning of a text state, before its first line of anything else. keyword:
 /// what the first such line may end with, but for a comment, for comments to go on behind it.
-Convention stated_in_lines(std::string_view text, std::string_view keyword = {});
+Stated stated_in_lines(std::string_view text, std::string_view keyword = {});
 
-/// What the reader of a file takes for the scene's.
-void take_stated(Scene& scene, const Convention& stated);
+/// What the reader of a file takes for the scene's. Warns (W-UNITS, W-UP) of what is no unit or no axis,
+/// unless load is given one.
+void take_stated(Scene& scene, const Stated& stated, const std::string& file, const ReadSettings& settings,
+                 ReadLog& log);
 void take_stated(FileHeader& header, const Convention& stated);
 
 /// W-OVERRIDDEN for the unit and for the axis, where a file states another one than load is given.

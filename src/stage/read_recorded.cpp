@@ -48,11 +48,33 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
     return {std::move(scene), std::move(log)};
 }
 
+namespace {
+
+/// Warns (W-UNITS) where one of the scenes states no unit and one is so small beside the other that nothing
+/// of it can be seen or compared.
+void warn_of_sizes(const std::string& name, Unit others, const Scene& other, const Scene& scene,
+                   Context& context) {
+    constexpr double apart = 100; // in a picture of 800 pixels the smaller one has 8
+    const double mine = diagonal(scene.bounds()), its = diagonal(other.bounds());
+    if (!(mine > 0 && its > 0) || (mine < apart * its && its < apart * mine)) return;
+    if (others != Unit::unknown && scene.unit != Unit::unknown) return;
+    context.warn(
+        "W-UNITS",
+        fmt::format("{}: '{}' is {:.4g} times as large as the scene: are they in different units?",
+                    context.name(), name, its / mine),
+        fmt::format("transform: {{scale: {:.4g}}} before this stage gives the scene the size of '{}'",
+                    its / mine, name));
+}
+
+} // namespace
+
 Scene read_beside(const PathText& path, const Scene& scene, Context& context) {
     io::ReadSettings settings;
     settings.asset_roots = context.places().asset_roots;
     Scene other = read_recorded(context.places().input(path.text), settings, nullptr, context).first;
+    const Unit unit = other.unit;
     io::convert(other, {scene.unit, scene.up});
+    warn_of_sizes(path.text, unit, other, scene, context);
     return other;
 }
 

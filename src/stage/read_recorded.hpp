@@ -20,7 +20,8 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
                                             const io::ReadSettings& settings, const io::Codec* codec,
                                             Context& context);
 
-/// Reads the mesh file that an option names, in the scene's unit and up axis. Throws as above.
+/// Reads the mesh file that an option names, in the scene's unit and up axis. Warns (W-UNITS) where
+/// one of them states no unit and is a hundred times as large as the other. Throws as above.
 Scene read_beside(const PathText& path, const Scene& scene, Context& context);
 
 } // namespace facetmill

@@ -126,6 +126,10 @@ TEST_CASE("inputs that are not there are refused", "[io]") {
     const TemporaryDirectory dir;
     CHECK(failure([&] { Input::open(dir / "no"); }) ==
           fmt::format("missing [E-FILE] there is no file '{}'", (dir / "no").string()));
+    CHECK(
+        failure([&] {
+            io::Input::open("no.step");
+        }).starts_with("missing [E-FILE] there is no file 'no.step' | it is a CAD file of curved surfaces"));
     CHECK(failure([&] { Input::open(dir.path()); }) ==
           fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | name a file in it; load "
                       "takes patterns, too: load: '{0}/*.ply'",

@@ -57,6 +57,30 @@ TEST_CASE("both shadings make a picture of twice the width", "[stages]") {
     CHECK(run.record.result["height"] == 80);
 }
 
+TEST_CASE("another file of a hundred times the size, in an unknown unit, is told", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto warned = [&](double factor, Unit unit, Unit others) {
+        const auto other = folder / "other.off";
+        Scene large = scene_of(shapes::cube(), others);
+        for (Vec3& p : large.parts[0].mesh.positions) p = p * factor;
+        io::write_now(other, io::codec_for(other)->write(large, {}).files.front().bytes);
+        const auto run =
+            run_stage("render", options({{"path", (folder / "p.png").string()}, {"with", other.string()}}),
+                      scene_of(shapes::cube(), unit));
+        std::string all;
+        for (const auto& w : run.record.warnings)
+            if (w.id == "W-UNITS")
+                all += w.message.substr(w.message.find("is ")) + " | " + w.hint.substr(0, 23);
+        return all;
+    };
+    CHECK(warned(1000, Unit::unknown, Unit::unknown) ==
+          "is 1000 times as large as the scene: are they in different units? | transform: {scale: 1000");
+    CHECK(warned(0.001, Unit::m, Unit::unknown).starts_with("is 0.001 times as large"));
+    CHECK(warned(1000, Unit::mm, Unit::mm).empty());
+    CHECK(warned(1000, Unit::m, Unit::mm).empty()); // which are alike
+    CHECK(warned(99, Unit::unknown, Unit::unknown).empty());
+}
+
 TEST_CASE("another file is drawn beside the scene by one camera", "[stages]") {
     const test::TemporaryDirectory folder;
     const auto other = folder / "other.off";

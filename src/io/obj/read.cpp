@@ -479,7 +479,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     if (const std::size_t groups = lost_groups_of_lines(s); groups > 0) s.skipped["groups of l"] = groups;
     report_skipped(s, input.name(), log);
     Scene scene;
-    take_stated(scene, stated_in_lines(as_text(input.bytes())));
+    take_stated(scene, stated_in_lines(as_text(input.bytes())), input.name(), settings, log);
     Mesh mesh;
     const bool any_lines = s.lines() > 0;
     if (any_lines) mesh.attributes.push_back(marked_ends(s));

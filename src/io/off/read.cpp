@@ -333,7 +333,8 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     else
         TextReader(out, text, kind).read();
     Scene scene = out.finish(log);
-    if (!kind.binary) take_stated(scene, stated_in_lines(as_text(input.bytes()), "OFF"));
+    if (!kind.binary)
+        take_stated(scene, stated_in_lines(as_text(input.bytes()), "OFF"), input.name(), settings, log);
     return scene;
 }
 

@@ -2,7 +2,7 @@
 // PLY, in pieces: the header, the elements as typed columns, and the mesh that they make.
 
 #include "io/codec.hpp"
-#include "io/convert.hpp"
+#include "io/stated.hpp"
 
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ struct Header {
     std::size_t size = 0;              ///< bytes up to the first element
     std::int64_t lines = 0;            ///< lines it takes
     std::vector<std::string> textures; ///< what comments 'TextureFile' name, as some programs write them
-    Convention stated{};               ///< what comments state of the unit and of what is up
+    Stated stated{};                   ///< what comments state of the unit and of what is up
 };
 
 /// Reads the header; malformed (E-PLY) at its line.

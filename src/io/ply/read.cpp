@@ -300,7 +300,7 @@ Scene Builder::read() {
         fail(*strips_.element, "faces and strips in one file cannot be read");
     add_strips();
     Scene scene;
-    take_stated(scene, header.stated);
+    take_stated(scene, header.stated, input_.name(), settings_, log_);
     add_textures(scene, header);
     if (faces_.count() > 0) {
         add_colours(faces_, mesh_, Domain::face);

@@ -256,10 +256,10 @@ bool is_text(Span bytes) {
 namespace {
 
 /// What the words between semicolons state, of the bytes before the count.
-Convention stated_in_head(Span bytes) {
+Stated stated_in_head(Span bytes) {
     std::string_view words = as_text(bytes.first(std::min(bytes.size(), head - sizeof(std::uint32_t))));
     words = words.substr(0, words.find('\0'));
-    Convention stated;
+    Stated stated;
     while (!words.empty()) {
         const std::size_t end = std::min(words.find(';'), words.size());
         take_comment(words.substr(0, end), stated);
@@ -274,7 +274,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     if (is_text(input.bytes())) return TextReader(input).read(input, settings);
     Scene scene;
     scene.parts.push_back(read_binary(input, settings, log));
-    take_stated(scene, stated_in_head(input.bytes()));
+    take_stated(scene, stated_in_head(input.bytes()), input.name(), settings, log);
     return scene;
 }
 
