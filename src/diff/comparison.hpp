@@ -35,8 +35,9 @@ struct Difference {
     std::string section, name;
     Json a, b;
     bool same = true;
-    std::string note;     ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
-    bool compared = true; ///< false: it could not be, and the note says why
+    std::string note;       ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
+    bool compared = true;   ///< false: it could not be, and the note says why
+    bool of_places = false; ///< of a material: where it is, and not what it is
 };
 
 /// Something of a file that was not read, so that nothing is known of it.

@@ -139,6 +139,7 @@ void compare_places(const Comparing& with) {
             "materials", material == none ? "faces of none" : fmt::format("{} faces", material),
             finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
             fmt::format("how far {} are from those of the other file", elements_of(with, "faces", material)));
+        with.result.lines.back().of_places = true;
         steps.next();
     }
 }
@@ -166,6 +167,7 @@ void compare_places_of_lines(const Comparing& with) {
             "materials", material == none ? "lines of none" : fmt::format("{} lines", material),
             finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
             fmt::format("how far {} are from those of the other file", elements_of(with, "lines", material)));
+        with.result.lines.back().of_places = true;
     }
 }
 

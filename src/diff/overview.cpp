@@ -85,6 +85,17 @@ std::vector<const ItemChange*> items_of(const Comparison& c, bool parts) {
     return all;
 }
 
+/// Of how many materials, which may be the same themselves, the faces or lines lie elsewhere: "; 2 of them
+/// lie elsewhere".
+std::string elsewhere(const Comparison& c) {
+    const auto count = std::count_if(c.lines.begin(), c.lines.end(), [](const Difference& d) {
+        return d.section == "materials" && !d.same && d.compared && d.of_places;
+    });
+    return count == 0
+               ? ""
+               : fmt::format("; where they are differs for {}, see the section materials below", count);
+}
+
 /// Those that are not the same, as far as they fit.
 std::vector<const ItemChange*> told_items(const std::vector<const ItemChange*>& all) {
     constexpr std::size_t most = 100;
@@ -105,9 +116,10 @@ std::string item_table(const Comparison& c, bool parts) {
                             cell(code(item->name)), cell(escaped(item->before)), cell(escaped(item->after)),
                             cell(escaped(item->note)));
     const char* title = parts ? "Parts by name" : "Materials by name";
-    if (rows.empty()) return fmt::format("<h2>{}</h2>\n<p>{}</p>\n", title, tally(all));
+    const std::string counts = tally(all) + (parts ? std::string() : elsewhere(c));
+    if (rows.empty()) return fmt::format("<h2>{}</h2>\n<p>{}</p>\n", title, counts);
     return table(title, heads({"change", "name", "first", "second", "how"}), rows) +
-           fmt::format("<p class=\"soft\">{}</p>\n", tally(all));
+           fmt::format("<p class=\"soft\">{}</p>\n", counts);
 }
 
 void add_markdown_items(const Comparison& c, bool parts, std::string& out) {
@@ -138,10 +150,10 @@ std::string soundness_text(const Properties& properties) {
 
 std::string overview_html(const Comparison& c) {
     std::string rows = fmt::format("<tr><th scope=\"row\">verdict</th>{}{}</tr>\n",
-                                   number_cell(escaped_path(soundness_text(c.properties_a))),
-                                   number_cell(escaped_path(soundness_text(c.properties_b))));
+                                   number_cell(escaped(soundness_text(c.properties_a))),
+                                   number_cell(escaped(soundness_text(c.properties_b))));
     for (const SideRow& row : rows_of(c))
-        rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped_path(row.name),
+        rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(row.name),
                             side_cell(row.a, row.good_a), side_cell(row.b, row.good_b));
     return table("Beside each other", heads({"", "#first", "#second"}), rows) + item_table(c, true) +
            item_table(c, false);

@@ -149,6 +149,11 @@ std::string section_title(const Comparison& comparison, const char* section) {
            (comparison.ignored.contains(section) ? " (ignored)" : "");
 }
 
+/// Paths in documents may be broken at slashes, names of properties nowhere.
+std::string name_code(const std::string& name) {
+    return name.find('/') == std::string::npos ? code(name) : path_code(name);
+}
+
 std::string difference_rows(const Comparison& comparison, const char* section) {
     std::string rows;
     for (const auto* d : of_section(comparison, section))
@@ -156,7 +161,7 @@ std::string difference_rows(const Comparison& comparison, const char* section) {
             rows += fmt::format(
                 "<tr>{}{}{}{}{}</tr>\n",
                 cell(fmt::format("<span class=\"{}\">{}</span>", outcome_of(*d).kind, outcome_of(*d).text)),
-                cell(path_code(d->name)), cell(escaped(text_of(d->a))), cell(escaped(text_of(d->b))),
+                cell(name_code(d->name)), cell(escaped(text_of(d->a))), cell(escaped(text_of(d->b))),
                 cell(escaped(d->note)));
     return rows;
 }

@@ -507,6 +507,19 @@ class Pages(Case):
             self.assertRegex(text, words)
         self.assertIn("| removed | left |", (self.dir / "d.md").read_text())
 
+    def test_a_comparison_tells_what_materials_are_from_where_they_are(self):
+        def obj(height):
+            return (f"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 {height}\nusemtl red\nf 1 2 3\nusemtl blue\nf 2 4 3\n"
+                    "usemtl red\nf 1 3 2\n" + ("f 1 2 4\n" if height else ""))
+        self.write("a.obj", obj(0))
+        self.write("b.obj", obj(1))
+        for other, words in (("b.obj", "2 same; where they are differs for 2, see"), ("a.obj", "2 same ")):
+            self.mill("diff", "a.obj", other, "--html", "d.html", expect=1 if other == "b.obj" else 0)
+            page = (self.dir / "d.html").read_text()
+            self.assertRegex(" ".join(shown(page).split()), "Materials by name " + words)
+            self.assertIn('<th scope="row">edge_manifold</th>', page)  # which a phone does not break
+            self.assertNotIn("_<wbr>", page)
+
     def test_a_comparison_says_how_a_material_differs(self):
         self.mill("pipe", "generate", "icosphere", "!", "write", "a.gltf")
         scene = json.loads((self.dir / "a.gltf").read_text())
