@@ -1,3 +1,4 @@
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
@@ -36,6 +37,23 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
     const io::Bytes other(1);
     CHECK(test::failure([&] { run.state->outputs.add(file, other); }).find("would overwrite an input") !=
           std::string::npos);
+}
+
+TEST_CASE("crop leaves triangles only on request", "[stages]") {
+    const char* outline = "{footprint: [[0.4, -1], [2, -1], [2, 2], [0.5, 2]], cap: true, keep: both}";
+    const auto polygons = run_stage("crop", outline, scene_of(shapes::cube()));
+    CHECK_FALSE(polygons.scene.parts[0].mesh.all_triangles());
+    std::string given = outline;
+    given.insert(given.size() - 1, ", triangulate: true");
+    const auto run = run_stage("crop", given, scene_of(shapes::cube()));
+    REQUIRE(run.scene.parts.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Mesh& mesh = run.scene.parts[i].mesh;
+        CHECK(mesh.all_triangles());
+        CHECK(inspect(mesh).closed);
+        CHECK(test::volume(mesh) == Approx(test::volume(polygons.scene.parts[i].mesh)));
+    }
+    CHECK(run.record.result["faces_after"] == run.scene.face_count());
 }
 
 TEST_CASE("crop stands walls on the outline on request", "[stages]") {

@@ -177,7 +177,7 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
     b.scene.parts.emplace_back().mesh = touching_cubes();
     CHECK(told_of(b, Value::scalar("c.stl")) == "stl has no shared vertices, so corners at the same position "
                                                 "are one when it is read (2 fewer): write "
-                                                "PLY, OBJ or OFF");
+                                                "3MF, PLY, OBJ or OFF, where they stay apart");
     b.record.warnings.clear();
     CHECK(told_of(b, Value::scalar("c.glb")) ==
           "vertices of glb at the same position are merged when it is read (2 fewer): mesh_manifold: true, "
@@ -206,6 +206,35 @@ TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lin
     b.record.warnings.clear();
     CHECK(told_of(b, Value::scalar("l.ply")) ==
           "32-bit floats moved points onto lines of others: precision: full keeps all bits");
+}
+
+TEST_CASE("write makes triangles for readers of no other faces, and leaves the scene its own", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::y;
+    Mesh& mesh = b.scene.parts.emplace_back().mesh;
+    mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 3, 0}, {0, 2, 0}, {4, 0, 0}};
+    mesh.corners = {0, 1, 2, 3, 4, 1, 5, 2};
+    mesh.face_offsets = {0, 5, 8};
+    b.run("write", Value::scalar("mixed.ply"));
+    REQUIRE(b.record.said.size() == 1);
+    CHECK(b.record.said[0].find("faces of 3 to 5 corners") == 0);
+    CHECK(b.record.warnings.empty());
+    CHECK(b.state.record.outputs.back().read_back["faces"] == 2);
+    b.record.said.clear();
+    b.run("write", options({{"path", "text.ply"}, {"ascii", "true"}})); // which all read
+    CHECK(b.record.said.empty());
+    for (const char* path : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+        INFO(path);
+        b.record.said.clear();
+        b.run("write", options({{"path", path}, {"triangulate", "true"}}));
+        CHECK(b.record.warnings.empty());
+        CHECK(b.state.record.outputs.back().read_back["faces"] == 4);
+        CHECK(b.record.said ==
+              std::vector<std::string>{"1 face of more than three corners written as triangles"});
+        CHECK(b.scene.parts[0].mesh.face_count() == 2);
+        CHECK_FALSE(b.scene.parts[0].changed);
+    }
 }
 
 TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages]") {

@@ -308,6 +308,30 @@ void write_binary(Bytes& bytes, const Layout& l) {
               static_cast<std::int32_t>(l.row(l.mesh.lines[i])), swap);
 }
 
+/// The fewest and the most corners of a face; 0 and 0 where there are no faces.
+std::pair<Index, Index> face_sizes(const Mesh& mesh) {
+    if (mesh.face_count() == 0) return {};
+    std::pair<Index, Index> sizes(none, 0);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        sizes.first = std::min(sizes.first, mesh.face_size(f));
+        sizes.second = std::max(sizes.second, mesh.face_size(f));
+    }
+    return sizes;
+}
+
+/// Notes faces of several sizes in a binary file: readers that take it for a table of rows of one length
+/// cannot read it. It is no loss: MeshLab and Blender read them.
+void note_polygons(Written& written, Index smallest, Index largest) {
+    if (smallest == largest) return;
+    written.warnings.push_back({Severity::note,
+                                {},
+                                fmt::format("faces of {} to {} corners: for trimesh and other programs that "
+                                            "read no such binary PLY, write with triangulate: true",
+                                            smallest, largest),
+                                {},
+                                {}});
+}
+
 } // namespace
 
 Written write(const Scene& scene, const WriteSettings& settings) {
@@ -321,8 +345,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         l.corner_uvs = only_uv_seams(*world, first);
         l.split = !l.corner_uvs;
     }
-    Index largest = 0;
-    for (Index f = 0; f < world->face_count(); ++f) largest = std::max(largest, world->face_size(f));
+    const auto [smallest, largest] = face_sizes(*world);
     if (largest > (l.corner_uvs ? 127 : 255)) l.count_type = Type::uint32;
     add_positions(l);
     add_attributes(l, first, written);
@@ -332,6 +355,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
              fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY");
+    if (!settings.ascii) note_polygons(written, smallest, largest);
     warn_of_parts(written, scene, "PLY");
     warn_of_textures(written, scene, "PLY");
     warn_of_colours(written, scene, "PLY");

@@ -17,6 +17,13 @@ void declare_cap(Declare<S>& d, bool S::*cap, std::string S::*material) {
              "Name of the caps' material; made when the scene has none of that name.");
 }
 
+/// Declares `triangulate`, of a stage that cuts faces.
+template <class S>
+void declare_triangulate(Declare<S>& d, bool S::*triangulate) {
+    d.option("triangulate", triangulate,
+             "Cut all faces into triangles; without this, a cut triangle may become a larger face.");
+}
+
 /// Where the material of that name is or will be.
 Index material_number(const Scene& scene, const std::string& name);
 

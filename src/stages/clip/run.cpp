@@ -60,8 +60,7 @@ void declare(Declare<ClipOptions>& d) {
           "is everything that is not in front of all of them"}},
         "Which side is kept.");
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
-    d.option("triangulate", &ClipOptions::triangulate,
-             "Cut all faces into triangles; without this, a cut triangle may become a quad.");
+    declare_triangulate(d, &ClipOptions::triangulate);
     d.choice<Space>(
         "space", &ClipOptions::space,
         {{"world", Space::world, "planes and boxes stand in the scene"},

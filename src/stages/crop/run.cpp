@@ -18,7 +18,8 @@ namespace {
 
 struct PartsToCrop {
     CropSettings
-        settings;      ///< the same for all; transform, memory and the caps' primitive are set part by part
+        settings; ///< the same for all; transform, memory and the caps' primitive are set part by part
+    bool triangulate = false;
     bool both = false; ///< the inside and, behind it as a part of its own, the outside
     std::string cap_material;
 };
@@ -42,6 +43,7 @@ struct CropOptions {
     InsideBy inside_by = InsideBy::crossings;
     bool cap = false;
     std::string cap_material = "cap";
+    bool triangulate = false;
     Snap snap = Snap::automatic;
 };
 
@@ -79,6 +81,7 @@ void declare(Declare<CropOptions>& d) {
          {"angles_3d", InsideBy::angles_3d, "the sum of unsigned angles; for one convex ring"}},
         "How points are tested; all methods give the same result.");
     declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
+    declare_triangulate(d, &CropOptions::triangulate);
     declare_snap(d, &CropOptions::snap, "the outline");
 }
 
@@ -104,8 +107,8 @@ void declare_report(DeclareFields<CropReport>& d) {
 class CropRun {
   public:
     CropRun(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context)
-        : scene_(scene), footprint_(footprint), both_(how.both), settings_(how.settings), context_(context),
-          sides_(scene) {
+        : scene_(scene), footprint_(footprint), triangulate_(how.triangulate), both_(how.both),
+          settings_(how.settings), context_(context), sides_(scene) {
         if (settings_.cap) set_cap(settings_, scene, how.cap_material);
     }
 
@@ -137,6 +140,7 @@ class CropRun {
         report_.snapped += sides[0].snapped;
         CutMemory memory;
         for (CropResult& r : sides) {
+            if (triangulate_ && !r.mesh.all_triangles()) r.mesh = triangulated(r.mesh);
             report_.faces_after += r.mesh.face_count();
             report_.cap_faces += r.cap_faces;
             report_.open_contours += r.open.size();
@@ -213,7 +217,7 @@ class CropRun {
 
     Scene& scene_;
     const Footprint& footprint_;
-    bool both_;
+    bool triangulate_, both_;
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
@@ -234,6 +238,7 @@ Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& repor
     how.settings.keep = o.keep == CropKeep::outside ? polygon::Keep::outside : polygon::Keep::inside;
     how.settings.cap = o.cap;
     how.settings.snap = o.snap == Snap::automatic;
+    how.triangulate = o.triangulate;
     how.both = o.keep == CropKeep::both;
     how.cap_material = o.cap_material;
     report = crop_parts(scene, resolve_footprint(o.footprint, context), how, context);

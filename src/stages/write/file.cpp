@@ -101,7 +101,7 @@ std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::W
     if (changes.merged > 0 && !codec.can.shares_vertices)
         reasons.push_back(
             fmt::format("{} has no shared vertices, so corners at the same position are one when "
-                        "it is read ({} fewer): write PLY, OBJ or OFF",
+                        "it is read ({} fewer): write 3MF, PLY, OBJ or OFF, where they stay apart",
                         codec.name, changes.merged));
     else if (changes.merged > 0)
         reasons.push_back(

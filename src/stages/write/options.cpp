@@ -224,6 +224,10 @@ void declare_write(Declare<WriteOptions>& d) {
         "the scene, to which the parts' nodes move; keep, the origin that they have; or auto: keep, unless "
         "float32 would move points by more than a millionth of the scene's diagonal, as with geographic "
         "coordinates, then a point near the centre.");
+    d.option(
+        "triangulate", &WriteOptions::triangulate,
+        "Writes triangles to PLY, OBJ and OFF, for programs that read no larger faces; other formats have "
+        "triangles in any case. The scene keeps its faces.");
     d.choice<NormalKind>(
         "normals", &WriteOptions::normals,
         {{"keep", NormalKind::keep,

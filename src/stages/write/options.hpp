@@ -51,7 +51,7 @@ struct WriteOptions {
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
     bool ascii = false, big_endian = false, mesh_manifold = false, lods = false, drop_names = false,
-         interleave = false;
+         interleave = false, triangulate = false;
     Precision precision = Precision::single;
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals

@@ -1,12 +1,14 @@
 #include "base/portable_math.hpp"
 #include "base/progress.hpp"
 #include "base/words.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/help.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace facetmill::write_stage {
 
@@ -22,12 +24,23 @@ struct Lent {
 };
 
 /// The scene's own meshes stay with what was lent.
+void make_triangles(Scene& out, std::vector<Lent>& lent) {
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Part& part = out.parts[k];
+        if (part.mesh.all_triangles()) continue;
+        Mesh triangles = triangles_of(part.mesh);
+        lent[k].mesh = std::exchange(part.mesh, std::move(triangles));
+        part.changed = true;
+    }
+}
+
+/// The same for normals.
 void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.normals == NormalKind::keep) return;
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
         if (part.mesh.face_count() == 0 && o.normals != NormalKind::none) continue; // points and lines
-        lent[k].mesh = part.mesh;
+        if (!lent[k].mesh) lent[k].mesh = part.mesh;
         context.attribute_changes(
             part, give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
         part.changed = true;
@@ -133,6 +146,18 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
         context.where());
 }
 
+/// Says how many faces the file has as triangles, unless none is larger.
+void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
+    if (codec.can.polygons && !o.triangulate) return;
+    std::size_t larger = 0;
+    for (const Part& part : scene.parts)
+        if (!part.mesh.all_triangles())
+            for (Index f = 0; f < part.mesh.face_count(); ++f) larger += part.mesh.face_size(f) > 3;
+    if (larger > 0)
+        context.say(
+            fmt::format("{} of more than three corners written as triangles", counted(larger, "face")));
+}
+
 } // namespace
 
 void declare_write_report(DeclareFields<WriteReport>& d) {
@@ -181,6 +206,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     tell_lines(scene, out, o, *codec, context);
     if (out.face_count() == 0) check_points(out, o, *codec, context);
     ShareOfSteps steps({1, 4, 5});
+    say_of_triangles(out, o, *codec, context);
+    if (o.triangulate && codec->can.polygons) make_triangles(out, lent);
     give_normals(out, lent, o, context);
     give_tangents_to_all(out, lent, o, context);
     if (codec->can.transforms && o.precision == WriteOptions::Precision::single) {
@@ -197,7 +224,11 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (written.cache.triangles > 0) report.order = written.cache;
     report.tiles = written.tiles;
     steps.next();
-    for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
+    for (const auto& w : written.warnings)
+        if (w.severity == Severity::note)
+            context.say(w.message);
+        else
+            context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
     stage_files(written, o.path.text, *codec, out, settings, context);
     for (std::size_t k = 0; k < lent.size(); ++k) {
@@ -213,7 +244,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
 /// A file of polygons has them as they are.
 CrossingFacePolicy crossing_faces(const WriteOptions& o) {
     const io::Codec* codec = codec_of(o);
-    return codec && !codec->can.polygons ? CrossingFacePolicy::name : CrossingFacePolicy::keep;
+    return codec && (o.triangulate || !codec->can.polygons) ? CrossingFacePolicy::name
+                                                            : CrossingFacePolicy::keep;
 }
 
 const RegisterStage registered = make_stage<WriteOptions>(
