@@ -71,7 +71,8 @@ void raise_maximum(DirectedDeviation& d, const Surface& from, const Farthest& fa
 }
 
 /// Of a surface without an area: the distances of its vertices, which are all that there is.
-void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWalk& walk, const FaceTree& to) {
+void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWalk& walk, const FaceTree& to,
+                      const DeviationSettings& settings) {
     const std::vector<Vec3> vertices = walk.vertices();
     const auto found = closest_points(to, vertices);
     std::vector<double> distances(found.size());
@@ -79,7 +80,7 @@ void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWal
         distances[i] = found[i].distance;
         raise_maximum(d, from, {vertices[i], found[i].point, found[i].distance});
     }
-    set_means(d, sums_of(distances));
+    if (settings.means) set_means(d, sums_of(distances));
 }
 
 /// How many parts of the samples to measure next, when the error of `parts` is so many times what is wanted.
@@ -95,9 +96,11 @@ std::size_t next_parts(std::size_t parts, double times) {
 void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk& walk,
                      MeasuredSamples& samples, const DeviationSettings& settings) {
     ShareOfSteps steps({2, 12, 2});
+    std::vector<Index> near;
     raise_maximum(d, from,
-                  walk.farthest_vertex(0)); // first: what is next to nothing beside it is soon measured
+                  walk.farthest_vertex(0, near)); // first: what is next to nothing beside it is soon measured
     steps.next();
+    if (!settings.means) return raise_maximum(d, from, walk.farthest_sample(samples, d.maximum, near));
     DistanceSums sums;
     {
         ShareOfRounds rounds;
@@ -134,7 +137,7 @@ DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order
     d.samples = samples.points.size();
     steps.next();
     if (samples.points.size() == 0)
-        measure_vertices(d, from, walk, to);
+        measure_vertices(d, from, walk, to, settings);
     else
         measure_samples(d, from, walk, samples, settings);
     steps.next();

@@ -18,7 +18,7 @@ DirectedDeviation deviation_from_itself(const Surface& surface, const DeviationS
     for (const Index v : surface.corners) used[v] = 1;
     d.vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
     d.samples = AreaSamples(surface, settings.samples, settings.seed).size();
-    d.averaged = d.samples > 0 ? d.samples : d.vertices;
+    if (settings.means) d.averaged = d.samples > 0 ? d.samples : d.vertices;
     return d;
 }
 

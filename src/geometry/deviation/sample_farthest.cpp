@@ -61,6 +61,7 @@ struct SampleWalk::Candidates {
         Vec3 point;
         Index triangle; ///< that it is on, none for vertices
         Index near;     ///< a triangle of the other surface, if one is known
+        Index vertex;   ///< that it is, none for samples
     };
 
     const SampleWalk& walk;
@@ -69,11 +70,13 @@ struct SampleWalk::Candidates {
     std::vector<Waiting> waiting{};
     std::vector<Vec3> points{};
     Index hint = none;
-    Attempts attempts{};
+    std::span<Index> found{};             ///< [vertices] to be set to what is near them
+    std::span<const Index> near_corner{}; ///< the same, that was set
+    Attempts attempts{}, corner_attempts{};
     Known known{};
 
-    void add_vertex(const Vec3& p) {
-        waiting.push_back({p, none, none});
+    void add_vertex(Index v) {
+        waiting.push_back({walk.from_.positions[v], none, none, v});
         if (waiting.size() == GroupDistances::most) finish();
     }
 
@@ -82,7 +85,7 @@ struct SampleWalk::Candidates {
         const std::size_t begin = samples.points.first(t), end = samples.points.first(t + std::size_t{1});
         if (begin == end) return;
         const bool together = end - begin >= many;
-        add_known(samples, t);
+        if (samples.parts > 0) add_known(samples, t);
         if (together && is_within(t)) return;
         const AreaSamples::OnTriangle on = samples.points.on(t);
         MeasuredSamples::each_of(samples.parts, MeasuredSamples::all_parts, begin, end,
@@ -114,9 +117,26 @@ struct SampleWalk::Candidates {
 
     void add_sample(const Vec3& p, Index t, bool together) {
         Index near = none;
+        if (!together && is_near_corners(p, t)) return;
         if (known.show_within(p, best.distance, near)) return;
         if (together || near == none || !(closest_on(walk.to_, near, p).distance <= best.distance))
-            waiting.push_back({p, t, near});
+            waiting.push_back({p, t, near, none});
+    }
+
+    /// Whether one of the triangles that are near the corners of the sample's shows that it is within the
+    /// farthest.
+    bool is_near_corners(const Vec3& p, Index t) {
+        if (near_corner.empty() || !corner_attempts.next()) return false;
+        Index tried = none;
+        bool is_near = false;
+        for (std::size_t k = 0; k < 3 && !is_near; ++k) {
+            const Index near = near_corner[walk.from_.corners[3 * std::size_t{t} + k]];
+            if (near == none || near == tried) continue;
+            tried = near;
+            is_near = closest_on(walk.to_, near, p).distance <= best.distance;
+        }
+        corner_attempts.note(is_near);
+        return is_near;
     }
 
     /// What was measured of a sample may be off.
@@ -145,15 +165,23 @@ struct SampleWalk::Candidates {
         std::uint32_t left = ~std::uint32_t{0} >> (GroupDistances::most - some.size());
         double laid_out = 0;
         if (some[0].near != none) hint = some[0].near;
-        if (hint != none) left &= ~within(left, laid_out);
+        if (hint != none) leave_out(within(left, laid_out), some, left);
         while (left != 0) {
             const Waiting& w = some[static_cast<std::size_t>(std::countr_zero(left))];
             const Closest c = walk.consider(w.point, w.triangle, w.near == none ? hint : w.near, best);
             hint = c.triangle;
             known.add(w.point, c.distance, c.triangle);
-            left &= left - 1;
-            left &= ~within(left, laid_out);
+            leave_out(left & ~(left - 1), some, left);
+            leave_out(within(left, laid_out), some, left);
         }
+    }
+
+    /// Those that the triangle `hint` is near.
+    void leave_out(std::uint32_t those, std::span<const Waiting> some, std::uint32_t& left) {
+        left &= ~those;
+        if (found.empty()) return;
+        for (; those != 0; those &= those - 1)
+            found[some[static_cast<std::size_t>(std::countr_zero(those))].vertex] = hint;
     }
 
     /// Which of them are within the farthest of the triangle `hint`, as far as that is tried.
@@ -181,18 +209,23 @@ Farthest SampleWalk::farthest(double least, std::size_t chunk, const Add& add) c
         farther_of, chunk);
 }
 
-Farthest SampleWalk::farthest_vertex(double least) const {
+Farthest SampleWalk::farthest_vertex(double least, std::vector<Index>& near) const {
+    near.assign(from_.positions.size(), none);
     return farthest(least, 4096, [&](Index t, Candidates& candidates) {
+        candidates.found = near;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = from_.corners[3 * std::size_t{t} + k];
-            if (first_uses_[v] == t) candidates.add_vertex(from_.positions[v]);
+            if (first_uses_[v] == t) candidates.add_vertex(v);
         }
     });
 }
 
-Farthest SampleWalk::farthest_sample(const MeasuredSamples& samples, double least) const {
-    return farthest(least, samples_chunk(),
-                    [&](Index t, Candidates& candidates) { candidates.add_unmeasured(samples, t); });
+Farthest SampleWalk::farthest_sample(const MeasuredSamples& samples, double least,
+                                     std::span<const Index> near) const {
+    return farthest(least, samples_chunk(), [&](Index t, Candidates& candidates) {
+        candidates.near_corner = near;
+        candidates.add_unmeasured(samples, t);
+    });
 }
 
 } // namespace facetmill

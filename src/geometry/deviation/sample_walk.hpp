@@ -74,10 +74,13 @@ class SampleWalk {
 
     // Those that turn out nearer than one before are not searched to the end:
 
-    /// The farthest vertex, when it is beyond `least`.
-    Farthest farthest_vertex(double least) const;
-    /// The farthest of the samples that have not been measured, likewise.
-    Farthest farthest_sample(const MeasuredSamples& samples, double least) const;
+    /// The farthest vertex, when it is beyond `least`. near: set to, [vertices], a triangle of the other
+    /// surface's tree that was found near each, or none.
+    Farthest farthest_vertex(double least, std::vector<Index>& near) const;
+    /// The farthest of the samples that have not been measured, likewise. near: as set by farthest_vertex,
+    /// tried first where samples are few in a triangle; or empty.
+    Farthest farthest_sample(const MeasuredSamples& samples, double least,
+                             std::span<const Index> near = {}) const;
 
   private:
     class Known;

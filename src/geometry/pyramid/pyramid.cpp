@@ -191,6 +191,7 @@ CoarserTile coarser_tile(const Mesh& joined, const std::vector<std::uint8_t>& he
     put_on_steps(r.mesh, settings.step);
     DeviationSettings measured;
     measured.samples = joined.face_count();
+    measured.means = false;
     const double own = r.unchanged ? 0 : deviation(joined, r.mesh, measured).maximum();
     return {std::move(r.mesh), error_below + own, std::move(r.sources)};
 }

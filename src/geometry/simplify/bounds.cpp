@@ -359,7 +359,7 @@ void hand_over_points(State& s, const Around& around) {
 
 Judge::Judge(const Mesh& from, double bound, std::size_t samples)
     : surface_(surface_of(bare_used(from))), tree_(surface_, FaceTree::Use::near),
-      bound_(bound), settings_{.samples = samples} {}
+      bound_(bound), settings_{.samples = samples, .means = false} {}
 
 bool Judge::within(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);

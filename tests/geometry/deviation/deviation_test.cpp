@@ -322,6 +322,14 @@ TEST_CASE("a deviation is what each point by itself says, by any number of threa
             CHECK(again.backward.mean == d.backward.mean);
             CHECK(again.forward.from == d.forward.from);
             CHECK(again.backward.to == d.backward.to);
+            const auto without = deviation(x, y, {.samples = samples, .means = false});
+            for (const auto& [way, with] :
+                 {std::pair(without.forward, d.forward), std::pair(without.backward, d.backward)}) {
+                CHECK(way.maximum == with.maximum);
+                CHECK(length(way.from - way.to) == Approx(way.maximum));
+                CHECK(way.samples == samples);
+                CHECK((way.rms == 0 && way.mean == 0 && way.averaged == 0));
+            }
         }
         set_threads(0);
     }
