@@ -14,39 +14,72 @@ namespace facetmill::cells {
 
 namespace {
 
+/// What is below each node of the tree.
+struct BelowNodes {
+    std::vector<std::uint64_t> faces;      ///< [nodes]
+    std::vector<std::uint32_t> first_leaf; ///< [nodes]
+    std::vector<std::uint32_t> end_leaf;   ///< [nodes] after the last
+
+    explicit BelowNodes(const Partition& partition) {
+        const std::vector<Tree::Node>& nodes = partition.tree().nodes;
+        faces.resize(nodes.size());
+        first_leaf.resize(nodes.size());
+        end_leaf.resize(nodes.size());
+        for (std::size_t n = nodes.size(); n-- > 0;) { // children come after their node
+            const Tree::Node& node = nodes[n];
+            const auto [low, high] = node.child;
+            faces[n] = node.is_leaf() ? partition.faces_of(node.leaf) : faces[low] + faces[high];
+            first_leaf[n] = node.is_leaf() ? node.leaf : first_leaf[low];
+            end_leaf[n] = node.is_leaf() ? node.leaf + 1 : end_leaf[high];
+        }
+    }
+};
+
 class StationMaker {
   public:
-    explicit StationMaker(const Partition& partition) : partition_(partition) { add(0, 0); }
+    /// together: see stations_of; 0: each leaf by itself.
+    StationMaker(const Partition& partition, std::uint64_t together)
+        : tree_(partition.tree()), below_(partition), together_(together) {
+        add(0, 0, together > 0 && height_of(0) % 2 == 1);
+    }
     std::vector<Station> all;
 
   private:
-    std::size_t add(std::uint32_t node, std::size_t level) {
+    bool is_end(std::uint32_t node) const {
+        return tree_.nodes[node].is_leaf() || below_.faces[node] <= together_;
+    }
+
+    std::size_t height_of(std::uint32_t node) const {
+        if (is_end(node)) return 0;
+        const auto [low, high] = tree_.nodes[node].child;
+        return 1 + std::max(height_of(low), height_of(high));
+    }
+
+    std::size_t add(std::uint32_t node, std::size_t level, bool two = false) {
         Station station;
         station.node = node;
         station.level = level;
-        collect(node, true, station);
+        station.faces = below_.faces[node];
+        if (is_end(node)) {
+            station.leaf = below_.first_leaf[node];
+            station.end_leaf = below_.end_leaf[node];
+        } else
+            collect(node, two ? 1 : 2, station);
         all.push_back(std::move(station));
         return all.size() - 1;
     }
 
-    void collect(std::uint32_t node, bool first, Station& station) {
-        const Tree::Node& n = partition_.tree().nodes[node];
-        if (n.is_leaf() && first) {
-            station.leaf = n.leaf;
-            station.faces = partition_.faces_of(n.leaf);
-            return;
-        }
-        for (const std::uint32_t child : n.child) {
-            if (first && !partition_.tree().nodes[child].is_leaf()) {
-                collect(child, false, station);
-                continue;
-            }
-            station.children.push_back(add(child, station.level + 1));
-            station.faces += all[station.children.back()].faces;
-        }
+    void collect(std::uint32_t node, int levels, Station& station) {
+        for (const std::uint32_t child : tree_.nodes[node].child)
+            if (levels > 1 && !is_end(child))
+                collect(child, levels - 1, station);
+            else
+                station.children.push_back(add(child, station.level + 1));
     }
 
-    const Partition& partition_;
+    const Tree& tree_;
+    BelowNodes below_;
+    std::uint64_t together_;
 };
 
 /// What goes before a cell. left: of LeftCells.
@@ -115,7 +148,11 @@ std::string kept_name(const std::string& key, std::size_t station) {
 
 } // namespace
 
-std::vector<Station> stations_of(const Partition& partition) { return StationMaker(partition).all; }
+std::vector<Station> stations_of(const Partition& partition) { return StationMaker(partition, 0).all; }
+
+std::vector<Station> stations_of(const Partition& partition, std::uint64_t together) {
+    return StationMaker(partition, together).all;
+}
 
 std::size_t levels_of(const std::vector<Station>& stations) {
     std::size_t deepest = 0;

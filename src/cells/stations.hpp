@@ -1,6 +1,6 @@
 #pragma once
-// The order in which cells are worked on, and joined: a station for each cell, and for each two to four
-// stations below a node of every other level of the tree.
+// The order in which cells are worked on, and joined: a station for each cell, or a few beside each other,
+// and for each two to four stations below a node of every other level of the tree.
 
 #include "cells/partition.hpp"
 
@@ -8,9 +8,10 @@
 
 namespace facetmill::cells {
 
-/// What is worked on as one: a leaf of the tree, or what is left of up to four stations below.
+/// What is worked on as one: a leaf of the tree, or several, or what is left of up to four stations below.
 struct Station {
-    std::uint32_t node = 0, leaf = Tree::no_node;
+    std::uint32_t node = 0;
+    std::uint32_t leaf = Tree::no_node, end_leaf = Tree::no_node; ///< from the first to before the last
     std::vector<std::size_t> children;
     std::size_t level = 0;   ///< 0: the root
     std::uint64_t faces = 0; ///< of the mesh as it came
@@ -19,6 +20,9 @@ struct Station {
 
 /// Each after its children; the root is the last.
 std::vector<Station> stations_of(const Partition& partition);
+/// The same, but that all leaves below a node are one station where they have at most so many faces together,
+/// and that it is at the root, not below, where the tree's height makes two stations out of four.
+std::vector<Station> stations_of(const Partition& partition, std::uint64_t together);
 
 std::size_t levels_of(const std::vector<Station>& stations);
 

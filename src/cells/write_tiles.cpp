@@ -23,6 +23,8 @@ namespace {
 
 using io::tileset::TreeTile;
 
+constexpr std::uint64_t children_of_tile = 4; // at most
+
 // Measured: what simplifying, measuring and encoding take at their peak for each triangle and vertex that is
 // joined, and what the process has beside.
 constexpr std::uint64_t bytes_of_tile_face = 180, bytes_of_tile_vertex = 340,
@@ -53,8 +55,9 @@ class TileMaker {
     TileMaker(const Partition& partition, const Transform& transform, const io::WriteSettings& settings,
               const Means& means, const std::function<void(const io::OutputFile&)>& put)
         : partition_(partition), transform_(transform), settings_(io::tileset::settings_of_tiles(settings)),
-          means_(means), put_(put), stations_(stations_of(partition)), left_(stations_, means, false),
-          names_(stations_.size()), tiles_(stations_.size()) {
+          means_(means), put_(put),
+          stations_(stations_of(partition, children_of_tile * settings.tiles.faces)),
+          left_(stations_, means, false), names_(stations_.size()), tiles_(stations_.size()) {
         for (std::size_t s = stations_.size(); s-- > 0;)
             for (std::size_t c = 0; c < stations_[s].children.size(); ++c)
                 names_[stations_[s].children[c]] = names_[s] + static_cast<char>('0' + c);
@@ -146,10 +149,20 @@ class TileMaker {
             join(station);
     }
 
-    /// A cell as a pyramid of its own.
+    /// The cells of a leaf as one, what they have in common with others by its place.
+    Cell whole(const Station& s) const {
+        std::vector<Cell> cells;
+        for (std::uint32_t leaf = s.leaf; leaf < s.end_leaf; ++leaf) {
+            cells.push_back(in_frame(leaf));
+            cells.back().home = borders_->homes(leaf, keys_of_places(cells.back().mesh));
+        }
+        if (cells.size() == 1) return std::move(cells.front());
+        return joined(std::move(cells), partition_.tree().nodes[s.node].depth);
+    }
+
+    /// A cell, or a few, as a pyramid of its own.
     void settle_cell(std::size_t station) {
-        Cell cell = in_frame(stations_[station].leaf);
-        cell.home = borders_->homes(stations_[station].leaf, keys_of_places(cell.mesh));
+        Cell cell = whole(stations_[station]);
         std::vector<PyramidTile> pyramid =
             make_pyramid(cell.mesh, {settings_.tiles.faces, frame_.step}, held_of(cell));
         cell.mesh = {};
@@ -231,7 +244,7 @@ class TileMaker {
 } // namespace
 
 std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile) {
-    const std::uint64_t joined = std::min(faces, std::max(faces_of_cell, 4 * tile));
+    const std::uint64_t joined = std::min(faces, std::max(faces_of_cell, children_of_tile * tile));
     return bytes_beside_tiles + joined * bytes_of_tile_face + joined / 2 * bytes_of_tile_vertex;
 }
 

@@ -150,6 +150,24 @@ TEST_CASE("every cut of tiles from cells is closed, and as near as its tiles say
     }
 }
 
+TEST_CASE("cells of fewer faces than four tiles are tiled together", "[cells]") {
+    const test::TemporaryDirectory folder;
+    const auto path = ply_of(folder, test::noisy_torus(320, 128, 0.002, 3)); // 81,920 faces
+    // 32 cells of 2,560, 16 of 5,120 or 64 of 1,280: 64 leaves of 1,280 and four below each tile either way.
+    for (const std::uint64_t cell : {2600, 5200, 1300}) {
+        const Written all = written(path, {.cell = cell, .tile = 1500});
+        CAPTURE(cell);
+        CHECK(all.tiles.told.leaves == 64);
+        CHECK(all.tiles.told.tiles == 64 + 16 + 4 + 1);
+        CHECK(all.tiles.told.levels == 4);
+    }
+    // 128 cells of 640: two at the root, four below the others.
+    const Written odd = written(path, {.cell = 700, .tile = 700});
+    CHECK(odd.tiles.told.leaves == 128);
+    CHECK(odd.tiles.told.tiles == 128 + 32 + 8 + 2 + 1);
+    CHECK(odd.tileset["root"]["children"].size() == 2);
+}
+
 TEST_CASE("tiles from cells: errors fall to 0 at the leaves, which have all faces", "[cells]") {
     const test::TemporaryDirectory folder;
     const Mesh mesh = test::noisy_icosphere(5, 0.02, 7);
