@@ -149,6 +149,12 @@ class Ready(Case):
         self.assertEqual(sorted(self.files()), ["a.bin", "a.gltf"])
 
 
+def nodes_of(path):
+    """The nodes of a GLB."""
+    data = path.read_bytes()
+    return json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])["nodes"]
+
+
 class Tilesets(Case):
     def tiled(self, threads, *more, expect=0):
         out = self.dir / f"{threads}"
@@ -168,6 +174,22 @@ class Tilesets(Case):
         self.assertEqual(set(files), named | {"tileset.json"})
         self.assertRegex(run.stderr, rf"wrote {len(named)} files in .*/tileset/: r\.glb \.\.\. ")
         self.mill("pipe", "load", "1/tileset.json", "!", "validate", "--closed", "--edge_manifold", "--vertex_manifold")
+
+    def test_the_grid_is_no_finer_than_keeps_vertices_apart_in_memory_or_in_cells(self):
+        # 1.9 long: 14 bits are steps of 1.9 / 16,383, rounded down to the power of two 2^-14, which 9.5e-5 exceeds.
+        points = [f"{x:.7f} {y} 0" for n in range(200) for x in (n * 0.0095, n * 0.0095 + 9.5e-5) for y in (0, 1)]
+        points += ["1.9 0 0", "1.9 1 0"]
+        strip = [f"3 {k} {k + 2} {k + 1}\n3 {k + 1} {k + 2} {k + 3}" for k in range(0, len(points) - 2, 2)]
+        faces = 2 * len(strip)
+        header = (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n"
+                  f"property double z\nelement face {faces}\nproperty list uchar int vertex_indices\nend_header\n")
+        self.write("strip.ply", header + "\n".join(points + strip) + "\n")
+        for place in ((), ("--memory", "64M", "--partition", "always")):
+            for compressed in ("--draco", "--quantize"):
+                self.mill("pipe", *place, "load", "strip.ply", "--unit", "m", "--up", "z", "!", "write", "o/tileset.json",
+                          compressed)
+                self.assertEqual(nodes_of(self.dir / "o/tileset/r.glb")[0]["scale"], [2**-14] * 3)
+                self.mill("pipe", "load", "o/tileset.json", "!", "validate", "--vertices", len(points), "--faces", faces)
 
     def test_an_implicit_tileset_is_read_with_the_files_that_say_what_it_has(self):
         files = self.tiled(1, "--tiles.tiling", "implicit")[1]

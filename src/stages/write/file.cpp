@@ -183,9 +183,9 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::scene
                       : o.quantize ? o.quantize->grid
                                    : Grid::scene;
-    const std::optional<int> limit =
-        given ? std::nullopt : std::optional(s.draco.on || codec.can.tiles ? 24 : 16);
+    const std::optional<int> limit = given ? std::nullopt : std::optional(s.draco.on ? 24 : 16);
     s.tiles.given_bits = given;
+    if (codec.can.tiles) return; // which have one grid, and choose it: io/tileset/frame.hpp
     bool enough = true;
     if (codec.can.transforms) {
         s.part_bits =
@@ -209,8 +209,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     if (*least < *most) bits.least = *least;
     if (!given) bits.why = why(usual, grid, *limit, enough);
     (s.draco.on ? s.draco.position_bits : s.quantize.position_bits) = *most;
-    if (!codec.can.tiles) // which have one grid, and choose it
-        (s.draco.on ? report.draco : report.quantize) = bits;
+    (s.draco.on ? report.draco : report.quantize) = bits;
 }
 
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
