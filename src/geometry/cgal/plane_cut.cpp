@@ -15,6 +15,7 @@
 #include <iterator>
 #include <memory>
 #include <set>
+#include <unordered_map>
 
 namespace facetmill {
 
@@ -95,6 +96,7 @@ class QuickCutter {
         }
         if (!cross_lines()) return false;
         auto triangles = polygon::certain_triangulation(cut_);
+        if (!triangles) triangles = filled();
         if (triangles) triangles_ = std::move(*triangles);
         return triangles.has_value();
     }
@@ -126,25 +128,68 @@ class QuickCutter {
     };
 
     Index add(Index node) {
-        const auto known = std::find(here_.begin(), here_.end(), node);
-        if (known != here_.end()) return static_cast<Index>(known - here_.begin());
+        const auto place = static_cast<Index>(here_.size());
+        constexpr std::size_t few = 32; // are found as fast without
+        if (here_.size() < few) {
+            const auto known = std::find(here_.begin(), here_.end(), node);
+            if (known != here_.end()) return static_cast<Index>(known - here_.begin());
+        } else {
+            if (here_.size() == few)
+                for (Index i = 0; i < place; ++i) place_of_.emplace(here_[i], i);
+            const auto [known, fresh] = place_of_.try_emplace(node, place);
+            if (!fresh) return known->second;
+        }
         add_point(nodes_.rounded(node), sides_of(node));
         here_.push_back(node);
-        return static_cast<Index>(here_.size() - 1);
+        return place;
     }
     void add_point(const Vec3& p, std::uint8_t sides) {
         cut_.points.push_back(view_.flat(p));
         cut_.sides.push_back(sides);
     }
-    /// Those that the node is on because it is a corner or was made on one: no other is known to be.
+    /// Those that the node is on. It is in the triangle.
     std::uint8_t sides_of(Index node) const {
         const SideCrossing made = nodes_.crossing_of(node);
         unsigned found = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(corners_[k], corners_[(k + 1) % 3]);
-            if (node == low || node == high || (made.low == low && made.high == high)) found |= 1u << k;
+            const Index from = corners_[k], to = corners_[(k + 1) % 3];
+            const auto [low, high] = std::minmax(from, to);
+            if (node == low || node == high || (made.low == low && made.high == high) ||
+                (!is_surely_beside(from, to, node) && !turns_left(from, to, node)))
+                found |= 1u << k;
         }
         return static_cast<std::uint8_t>(found);
+    }
+    bool is_surely_beside(Index from, Index to, Index node) const {
+        const auto at = [&](Index n) { return view_.flat(nodes_.rounded(n)); };
+        double most = 0;
+        for (const Index n : corners_) most = std::max({most, std::abs(at(n).x), std::abs(at(n).y)});
+        return most > 1e-60 && most < 1e60 &&
+               polygon::surely_left(at(from), at(to), at(node), most * 0x1p-52);
+    }
+    Point2 exact(Index node) const {
+        const auto p = nodes_.at(node);
+        return {p[static_cast<int>(view_.u)], p[static_cast<int>(view_.v)]};
+    }
+    bool turns_left(Index a, Index b, Index c) const {
+        return CGAL::orientation(exact(a), exact(b), exact(c)) == CGAL::LEFT_TURN;
+    }
+
+    /// However many points there are.
+    std::optional<FlatTriangles> filled() const {
+        auto border = polygon::certain_border(cut_);
+        if (!border) return {};
+        FlatRegion region{cut_.points, std::move(*border), {}};
+        for (const auto& [a, b] : cut_.lines)
+            if (!(cut_.sides[a] & cut_.sides[b])) region.lines.push_back({a, b});
+        auto found = proved_filling(region, [&](Index a, Index b, Index c) {
+            if (std::max({a, b, c}) >= here_.size()) return false; // where segments cross
+            return turns_left(here_[a], here_[b], here_[c]);
+        });
+        if (found || !crossings_.empty()) return found;
+        std::vector<Point2> points;
+        for (const Index node : here_) points.push_back(exact(node));
+        return exact_filling(region, points);
     }
 
     /// Divides lines where they cross. False where that is not sure.
@@ -195,6 +240,7 @@ class QuickCutter {
     polygon::CutTriangle cut_;
     std::vector<std::array<Index, 3>> triangles_; ///< of its points
     std::vector<Index> here_;                     ///< nodes, of its points
+    std::unordered_map<Index, Index> place_of_;   ///< in here_, where those are many
     std::vector<Crossing> crossings_;             ///< its points behind those, until they are named
 };
 

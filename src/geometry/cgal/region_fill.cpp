@@ -166,6 +166,13 @@ std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
     return found;
 }
 
+std::optional<FlatTriangles> exact_filling(const FlatRegion& region,
+                                           const std::vector<ExactKernel::Point_2>& points) {
+    RegionFilling<ExactKernel>::Points numbered;
+    for (Index i = 0; i < points.size(); ++i) numbered.push_back({points[i], i});
+    return RegionFilling<ExactKernel>(numbered, region.border, region.lines).run();
+}
+
 std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangement::Region& region) {
     std::vector<Index> here = region.points;
     for (const auto& [a, b] : region.border) here.insert(here.end(), {a, b});
@@ -186,9 +193,9 @@ std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangem
         return CGAL::orientation(exact(a), exact(b), exact(c)) == CGAL::LEFT_TURN;
     });
     if (!found) {
-        RegionFilling<ExactKernel>::Points points;
-        for (Index i = 0; i < here.size(); ++i) points.push_back({exact(i), i});
-        found = RegionFilling<ExactKernel>(points, flat.border, flat.lines).run();
+        std::vector<ExactKernel::Point_2> points;
+        for (Index i = 0; i < here.size(); ++i) points.push_back(exact(i));
+        found = exact_filling(flat, points);
     }
     if (!found) return {};
     for (auto& triangle : *found) {

@@ -41,8 +41,12 @@ using FlatTriangles = std::vector<std::array<Index, 3>>;
 std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
                                             const std::function<bool(Index, Index, Index)>& turns_left);
 
+/// Likewise by exact numbers: points are in the place of the region's. None only where the border does not
+/// close, or what should not cross does.
+std::optional<FlatTriangles> exact_filling(const FlatRegion& region,
+                                           const std::vector<ExactKernel::Point_2>& points);
+
 /// Likewise of a region of the arrangement; corners are nodes. Where doubles prove nothing, by exact numbers.
-/// None only where the border is none.
 std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangement::Region& region);
 
 } // namespace facetmill

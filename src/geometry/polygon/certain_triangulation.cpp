@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace facetmill::polygon {
 
@@ -29,12 +31,21 @@ Sized turn_of(const Vec2& a, const Vec2& b, const Vec2& c) {
 /// What a determinant must exceed for its sign to be sure.
 double bound_of(double size, double off) { return 16 * size * (2 * off + unit * size); }
 
+/// How wrong any coordinate may be; none where a product could overflow, or underflow where it matters.
+std::optional<double> error_of(const CutTriangle& cut) {
+    double most = 0;
+    for (const Vec2& p : cut.points) most = std::max({most, std::abs(p.x), std::abs(p.y)});
+    return most > 1e-60 && most < 1e60 ? std::optional(most * unit) : std::nullopt;
+}
+
 class CertainTriangulation {
   public:
     explicit CertainTriangulation(const CutTriangle& cut) : cut_(cut), count_(cut.points.size()) {}
 
     std::optional<std::vector<std::array<Index, 3>>> run() {
-        if (count_ > most_points || !in_range() || !mark_sides()) return {};
+        const auto off = error_of(cut_);
+        if (count_ > most_points || !off || !mark_sides()) return {};
+        off_ = *off;
         for (const auto& [a, b] : cut_.lines)
             if (!(cut_.sides[a] & cut_.sides[b])) lines_.push_back({a, b});
         for (const auto& [a, b] : lines_) fixed_[a][b] = fixed_[b][a] = 1;
@@ -42,46 +53,14 @@ class CertainTriangulation {
         return std::move(triangles_);
     }
 
-    std::optional<std::vector<std::array<Index, 2>>> crossings() {
-        std::vector<std::array<Index, 2>> found;
-        if (!in_range()) return {};
-        for (Index i = 0; i < cut_.lines.size(); ++i)
-            for (Index j = i + 1; j < cut_.lines.size(); ++j) {
-                const auto cross = do_cross(cut_.lines[i], cut_.lines[j]);
-                if (!cross) return {};
-                if (*cross) found.push_back({i, j});
-            }
-        return found;
-    }
-
   private:
     const Vec2& at(Index i) const { return cut_.points[i]; }
 
-    bool in_range() {
-        for (const Vec2& p : cut_.points) most_ = std::max({most_, std::abs(p.x), std::abs(p.y)});
-        off_ = most_ * unit;
-        return most_ > 1e-60 && most_ < 1e60; // so that no product overflows, nor underflows where it matters
-    }
-
-    /// The edges along the sides: the points there in their order, which is sure.
     bool mark_sides() {
-        for (Index k = 0; k < 3; ++k) {
-            const Index from = k, to = (k + 1) % 3;
-            const Vec2 way = at(to) - at(from);
-            const bool by_x = std::abs(way.x) >= std::abs(way.y);
-            const double sign = (by_x ? way.x : way.y) > 0 ? 1 : -1;
-            const auto place = [&](Index i) { return sign * (by_x ? at(i).x : at(i).y); };
-            std::vector<Index> along;
-            for (Index i = 0; i < count_; ++i)
-                if (cut_.sides[i] >> k & 1) along.push_back(i);
-            std::sort(along.begin(), along.end(), [&](Index i, Index j) { return place(i) < place(j); });
-            if (along.size() < 2 || along.front() != from || along.back() != to) return false;
-            for (std::size_t i = 0; i + 1 < along.size(); ++i) {
-                if (!(place(along[i + 1]) - place(along[i]) > 8 * off_)) return false;
-                border_[along[i]][along[i + 1]] = 1;
-                border_edges_.push_back({along[i], along[i + 1]});
-            }
-        }
+        auto border = certain_border(cut_);
+        if (!border) return false;
+        border_edges_ = std::move(*border);
+        for (const auto& [a, b] : border_edges_) border_[a][b] = 1;
         return true;
     }
 
@@ -93,24 +72,6 @@ class CertainTriangulation {
                 size_of({u.x, u.y, v.x, v.y, w.x, w.y})};
     }
     bool turns_left(Index a, Index b, Index c) const { return surely_left(at(a), at(b), at(c), off_); }
-    /// 1: left, -1: right, 0: not sure.
-    int sure_turn(Index a, Index b, Index c) const {
-        const auto [det, size] = turn(a, b, c);
-        const double bound = bound_of(size, off_);
-        return det > bound ? 1 : det < -bound ? -1 : 0;
-    }
-    std::optional<bool> do_cross(const std::array<Index, 2>& one, const std::array<Index, 2>& other) const {
-        const auto& [a, b] = one;
-        const auto& [c, d] = other;
-        if (a == c || a == d || b == c || b == d) return false;
-        if ((cut_.sides[a] & cut_.sides[b]) != 0 || (cut_.sides[c] & cut_.sides[d]) != 0) return false;
-        const int across_one = sure_turn(a, b, c) * sure_turn(a, b, d);
-        if (across_one > 0) return false;
-        const int across_other = sure_turn(c, d, a) * sure_turn(c, d, b);
-        if (across_other > 0) return false;
-        return across_one < 0 && across_other < 0 ? std::optional(true) : std::nullopt;
-    }
-
     // --- finding triangles: nothing here has to be sure
 
     bool is_crossed(Index p, Index q) const {
@@ -173,14 +134,96 @@ class CertainTriangulation {
 
     const CutTriangle& cut_;
     std::size_t count_;
-    double most_ = 0, off_ = 0; ///< the largest coordinate, and how wrong any may be
+    double off_ = 0; ///< how wrong any coordinate may be
     std::vector<std::array<Index, 2>> lines_, border_edges_;
     Matrix<std::uint8_t> fixed_{}, border_{}; ///< by ends: a line; an edge along a side, inside on its left
     Matrix<Index> across_{};                  ///< the corner left of an edge
     std::vector<std::array<Index, 3>> triangles_;
 };
 
+/// Which lines cross: those whose boxes meet are looked at, from left to right.
+class CertainCrossings {
+  public:
+    CertainCrossings(const CutTriangle& cut, double off) : cut_(cut), off_(off) {
+        for (Index i = 0; i < cut.lines.size(); ++i) {
+            const auto& [a, b] = cut.lines[i];
+            const auto [left, right] = std::minmax({at(a).x, at(b).x});
+            const auto [below, above] = std::minmax({at(a).y, at(b).y});
+            spans_.push_back({left - off, right + off, below - off, above + off, i});
+        }
+        std::sort(spans_.begin(), spans_.end(), [](const Span& s, const Span& t) {
+            return std::pair(s.left, s.line) < std::pair(t.left, t.line);
+        });
+    }
+
+    std::optional<std::vector<std::array<Index, 2>>> run() const {
+        std::vector<std::array<Index, 2>> found;
+        for (auto s = spans_.begin(); s != spans_.end(); ++s)
+            for (auto t = s + 1; t != spans_.end() && t->left <= s->right; ++t) {
+                if (t->below > s->above || s->below > t->above) continue;
+                const auto cross = do_cross(cut_.lines[s->line], cut_.lines[t->line]);
+                if (!cross) return {};
+                if (*cross) found.push_back({std::min(s->line, t->line), std::max(s->line, t->line)});
+            }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+  private:
+    struct Span {
+        double left, right, below, above;
+        Index line;
+    };
+    const Vec2& at(Index i) const { return cut_.points[i]; }
+
+    /// 1: left, -1: right, 0: not sure.
+    int sure_turn(Index a, Index b, Index c) const {
+        const auto [det, size] = turn_of(at(a), at(b), at(c));
+        const double bound = bound_of(size, off_);
+        return det > bound ? 1 : det < -bound ? -1 : 0;
+    }
+    std::optional<bool> do_cross(const std::array<Index, 2>& one, const std::array<Index, 2>& other) const {
+        const auto& [a, b] = one;
+        const auto& [c, d] = other;
+        if (a == c || a == d || b == c || b == d) return false;
+        if ((cut_.sides[a] & cut_.sides[b]) != 0 || (cut_.sides[c] & cut_.sides[d]) != 0) return false;
+        const int across_one = sure_turn(a, b, c) * sure_turn(a, b, d);
+        if (across_one > 0) return false;
+        const int across_other = sure_turn(c, d, a) * sure_turn(c, d, b);
+        if (across_other > 0) return false;
+        return across_one < 0 && across_other < 0 ? std::optional(true) : std::nullopt;
+    }
+
+    const CutTriangle& cut_;
+    double off_;
+    std::vector<Span> spans_;
+};
+
 } // namespace
+
+std::optional<std::vector<std::array<Index, 2>>> certain_border(const CutTriangle& cut) {
+    const auto at = [&](Index i) { return cut.points[i]; };
+    const auto off = error_of(cut);
+    if (!off) return {};
+    std::vector<std::array<Index, 2>> border;
+    for (Index k = 0; k < 3; ++k) {
+        const Index from = k, to = (k + 1) % 3;
+        const Vec2 way = at(to) - at(from);
+        const bool by_x = std::abs(way.x) >= std::abs(way.y);
+        const double sign = (by_x ? way.x : way.y) > 0 ? 1 : -1;
+        const auto place = [&](Index i) { return sign * (by_x ? at(i).x : at(i).y); };
+        std::vector<Index> along;
+        for (Index i = 0; i < cut.points.size(); ++i)
+            if (cut.sides[i] >> k & 1) along.push_back(i);
+        std::sort(along.begin(), along.end(), [&](Index i, Index j) { return place(i) < place(j); });
+        if (along.size() < 2 || along.front() != from || along.back() != to) return {};
+        for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+            if (!(place(along[i + 1]) - place(along[i]) > 8 * *off)) return {};
+            border.push_back({along[i], along[i + 1]});
+        }
+    }
+    return border;
+}
 
 bool surely_left(const Vec2& a, const Vec2& b, const Vec2& c, double off) {
     const auto [det, size] = turn_of(a, b, c);
@@ -192,7 +235,8 @@ std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const Cut
 }
 
 std::optional<std::vector<std::array<Index, 2>>> certain_crossings(const CutTriangle& cut) {
-    return CertainTriangulation(cut).crossings();
+    const auto off = error_of(cut);
+    return off ? CertainCrossings(cut, *off).run() : std::nullopt;
 }
 
 } // namespace facetmill::polygon

@@ -32,6 +32,10 @@ struct CutTriangle {
 /// triangle once; and each line is an edge. For a few points: none for more than 48.
 std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const CutTriangle& cut);
 
+/// The edges along the sides, anticlockwise, from point to point: those that sides tells, in an order that is
+/// sure; else none.
+std::optional<std::vector<std::array<Index, 2>>> certain_border(const CutTriangle& cut);
+
 /// The pairs of lines that cross between their ends, lower one first, ascending, as signs prove for the true
 /// coordinates; none where they do not prove of every pair whether it does. Those along one side, and those
 /// with an end in common, do not cross.

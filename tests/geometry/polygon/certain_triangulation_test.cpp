@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "base/predicates.hpp"
 #include "base/random.hpp"
 #include "geometry/polygon/certain_triangulation.hpp"
 
@@ -160,4 +161,43 @@ TEST_CASE("lines that cross are told where that is sure", "[geometry]") {
     CHECK(certain_crossings(cut) == Pairs{{0, 1}, {0, 3}, {1, 3}});
     cut.lines = {{add(cut, {1, 0}, 1), add(cut, {3, 0}, 1)}, {add(cut, {2, 0}, 1), c}};
     CHECK(certain_crossings(cut) == Pairs{}); // the first is along a side
+}
+
+TEST_CASE("the border is the sides in the order of their points, where that is sure", "[geometry]") {
+    CutTriangle cut = plain();
+    const Index far = add(cut, {3, 0}, 1), near = add(cut, {1, 0}, 1), slope = add(cut, {2, 1.5}, 2);
+    add(cut, {1, 1});
+    const auto border = certain_border(cut);
+    REQUIRE(border);
+    CHECK(*border == std::vector<std::array<Index, 2>>{
+                         {0, near}, {near, far}, {far, 1}, {1, slope}, {slope, 2}, {2, 0}});
+    add(cut, {std::nextafter(3.0, 4.0), 0}, 1);
+    CHECK(!certain_border(cut));
+}
+
+TEST_CASE("of many lines those cross that do, and lines that touch are not sure", "[geometry]") {
+    const auto coordinate = [](std::uint64_t key) { return 0.1 + 1.2 * uniform(hashed(7, key)); };
+    CutTriangle cut = plain();
+    for (std::uint64_t i = 0; i < 200; ++i) {
+        const Vec2 p{coordinate(4 * i), coordinate(4 * i + 1)};
+        const Vec2 by = {0.2 * (coordinate(4 * i + 2) - 0.7), 0.2 * (coordinate(4 * i + 3) - 0.7)};
+        cut.lines.push_back({add(cut, p), add(cut, p + by)});
+    }
+    const auto side = [&](Index a, Index b, Index c) {
+        const Vec2 &p = cut.points[a], &q = cut.points[b], &r = cut.points[c];
+        return orientation_2d(p.x, p.y, q.x, q.y, r.x, r.y);
+    };
+    std::vector<std::array<Index, 2>> wanted;
+    for (Index i = 0; i < cut.lines.size(); ++i)
+        for (Index j = i + 1; j < cut.lines.size(); ++j) {
+            const auto& [a, b] = cut.lines[i];
+            const auto& [c, d] = cut.lines[j];
+            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0)
+                wanted.push_back({i, j});
+        }
+    CHECK(wanted.size() > 50);
+    CHECK(certain_crossings(cut) == wanted);
+    const Vec2 middle = (cut.points[cut.lines[0][0]] + cut.points[cut.lines[0][1]]) * 0.5;
+    cut.lines.push_back({add(cut, middle), add(cut, middle + Vec2{0.1, 0.3})});
+    CHECK(!certain_crossings(cut));
 }
