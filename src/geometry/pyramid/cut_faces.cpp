@@ -33,50 +33,68 @@ class FaceSetCutter {
     using Faces = std::span<Index>;
 
     std::size_t add(Faces faces, const std::string& name) {
-        const std::size_t at = cuts_.tiles.size();
+        const std::size_t at = cuts_.tiles.size(), leaves = (faces.size() + most_ - 1) / most_;
         cuts_.tiles.push_back({name, {}, static_cast<Index>(cuts_.leaves), 0});
-        if (faces.size() <= most_) {
+        if (leaves <= 1) {
             for (const Index f : faces) cuts_.leaf_of_face[f] = static_cast<Index>(cuts_.leaves);
             ++cuts_.leaves;
         } else {
             std::vector<std::size_t> children;
-            const auto child = [&](Faces some) {
-                children.push_back(add(some, name + static_cast<char>('0' + children.size())));
-            };
-            const bool two = halvings(faces.size()) % 2 == 1; // so that all below have four
-            for (const Faces half : halves(faces)) {
-                if (two)
-                    child(half);
-                else
-                    for (const Faces quarter : halves(half)) child(quarter);
-            }
+            for (const Faces part : parts_of(faces, leaves_of_children(leaves)))
+                children.push_back(add(part, name + static_cast<char>('0' + children.size())));
             cuts_.tiles[at].children = std::move(children);
         }
         cuts_.tiles[at].last_leaf = static_cast<Index>(cuts_.leaves);
         return at;
     }
 
-    /// Until none has more than most.
-    int halvings(std::size_t faces) const {
-        int n = 0;
-        for (; faces > most_; faces = (faces + 1) / 2) ++n;
-        return n;
+    /// The leaves of up to four children of a node with so many, about as many in each. A tree of n leaves
+    /// whose nodes all have four children has (n - 1) / 3 of these, so all but the last are 1 more than a
+    /// multiple of 3: then no tree has fewer nodes.
+    static std::vector<std::size_t> leaves_of_children(std::size_t leaves) {
+        if (leaves <= most_children) return std::vector<std::size_t>(leaves, 1);
+        std::vector<std::size_t> children;
+        for (std::size_t left = most_children; left > 1; --left) {
+            const std::size_t even = (leaves + left / 2) / left;
+            children.push_back(even / 3 * 3 + 1);
+            leaves -= children.back();
+        }
+        children.push_back(leaves);
+        return children;
     }
 
-    std::array<Faces, 2> halves(Faces faces) const {
+    /// The faces in parts for so many leaves each: halved along the longest side, by those.
+    std::vector<Faces> parts_of(Faces faces, std::span<const std::size_t> leaves) {
+        if (leaves.size() == 1) return {faces};
+        const std::size_t first = (leaves.size() + 1) / 2;
+        const auto sum = [](std::span<const std::size_t> some) {
+            return std::accumulate(some.begin(), some.end(), std::size_t{0});
+        };
+        const std::size_t middle = share_of(faces.size(), sum(leaves.first(first)), sum(leaves));
+        part_at(faces, middle);
+        std::vector<Faces> parts = parts_of(faces.first(middle), leaves.first(first));
+        for (const Faces part : parts_of(faces.subspan(middle), leaves.subspan(first))) parts.push_back(part);
+        return parts;
+    }
+
+    /// n * part / whole, rounded down, without overflow.
+    static std::size_t share_of(std::size_t n, std::size_t part, std::size_t whole) {
+        return n / whole * part + n % whole * part / whole;
+    }
+
+    void part_at(Faces faces, std::size_t middle) const {
         Box box;
         for (const Index f : faces) box.add(centres_[f]);
         const Vec3 e = box.extent();
         const std::size_t axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-        const std::size_t middle = faces.size() / 2;
         std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(middle), faces.end(),
                          [&](Index a, Index b) {
                              const double x = centres_[a][axis], y = centres_[b][axis];
                              return x != y ? x < y : a < b;
                          });
-        return {faces.first(middle), faces.subspan(middle)};
     }
 
+    static constexpr std::size_t most_children = 4;
     std::size_t most_;
     std::vector<Vec3> centres_;
     std::vector<Index> order_;

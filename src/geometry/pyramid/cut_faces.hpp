@@ -21,9 +21,10 @@ struct FaceCuts {
     std::size_t leaves = 0;
 };
 
-/// Halves the faces by their centres along the longest side of those, twice for the four children of a node,
-/// until no leaf has more than `most` (1 or more); the root has two children where the number of halvings is
-/// odd. Ties go by the order of the faces.
+/// Parts the faces by their centres, along the longest side of those, among up to four children of a node,
+/// and so on, into as few leaves of at most `most` (1 or more) as there can be, each about as full. Most
+/// nodes have four children, so there are no more of them, and no more levels, than so many leaves need. Ties
+/// go by the order of the faces.
 FaceCuts cut_faces(const Mesh& mesh, std::size_t most);
 
 } // namespace facetmill

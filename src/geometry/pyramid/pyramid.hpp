@@ -22,15 +22,15 @@ struct PyramidTile {
     /// How far the tile and the faces that it stands for are apart at most: the deviation from the tiles
     /// below it, measured both ways, plus the largest error of those; 0 for a leaf. In the mesh's units.
     double error = 0;
-    std::vector<std::size_t> children; ///< four, or two of the root; none for a leaf
+    std::vector<std::size_t> children; ///< four of most, two or three of others; none for a leaf
     std::string name;                  ///< the way from the root, a digit for each child: "" for the root
     /// [vertices] Their numbers in the mesh that came in; none: made above, and no other tile has them.
     std::vector<Index> numbers;
 };
 
-/// Cuts a mesh of triangles into whole faces, halved by count along the longest side until `faces` are
-/// enough, and joins up to four tiles at a time and simplifies them, up to one tile: the first of the result;
-/// each tile stands before its children.
+/// Cuts a mesh of triangles into whole faces, along the longest side again and again, as few leaves of up to
+/// `faces` as there can be, and joins up to four tiles at a time and simplifies them, up to one tile: the
+/// first of the result; each tile stands before its children.
 ///
 /// Vertices at one place that tiles have in common are held until all tiles that have them are joined. So
 /// whichever tiles are chosen such that each face that came in is represented once, their common borders are

@@ -111,6 +111,31 @@ TEST_CASE("errors fall from the root to 0 at the leaves, which have all faces", 
     CHECK_FALSE(tiles[0].mesh.has_seams()); // what tiles had in common is no seam above
 }
 
+TEST_CASE("a pyramid has as few tiles as its faces need, and as even ones", "[pyramid]") {
+    const Mesh mesh = on_steps(shapes::icosphere(4));
+    const std::size_t faces = mesh.face_count();
+    REQUIRE(faces == 5120);
+    for (const std::size_t most : {5120, 5119, 2000, 1100, 1000, 800, 640, 400, 300, 100}) {
+        const auto tiles = make_pyramid(mesh, {most, step});
+        std::size_t leaves = 0, fewest = faces, deepest = 0, room = 1;
+        for (const PyramidTile& tile : tiles) {
+            deepest = std::max(deepest, tile.name.size());
+            CHECK(tile.children.size() <= 4);
+            CHECK(tile.children.size() != 1);
+            if (!tile.children.empty()) continue;
+            ++leaves;
+            CHECK(tile.mesh.face_count() <= most);
+            fewest = std::min(fewest, tile.mesh.face_count());
+        }
+        CAPTURE(most, leaves);
+        CHECK(leaves == (faces + most - 1) / most);
+        CHECK(tiles.size() == leaves + (leaves + 1) / 3); // four below each but perhaps one
+        CHECK(fewest + 8 >= faces / leaves);
+        for (std::size_t level = 0; level < deepest; ++level) room *= 4;
+        CHECK((leaves <= room && 4 * leaves > room));
+    }
+}
+
 TEST_CASE("borders are held by place, whoever has the vertices", "[pyramid]") {
     const Mesh mesh = test::touching_sides(16);
     REQUIRE_FALSE(inspect(mesh).closed);
