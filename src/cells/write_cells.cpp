@@ -256,6 +256,12 @@ std::optional<std::string> why_not_written(const io::Codec& codec, const io::Wri
     return {};
 }
 
+double rounding_of(const Partition& partition, const Transform& transform) {
+    double most = 0;
+    each_cell(partition, [&](const Cell& cell) { most = std::max(most, rounding_of(cell.mesh, transform)); });
+    return most;
+}
+
 double write_cells(const Partition& partition, const WritePlace& place, const io::Codec& codec,
                    const io::WriteSettings& settings, const std::function<void(io::Span)>& put) {
     double rounding = 0;

@@ -18,6 +18,9 @@ struct WritePlace {
     io::Convention convention; ///< of the file's numbers
 };
 
+/// How far rounding to float32 would move a coordinate of the file at most. The cells are read.
+double rounding_of(const Partition& partition, const Transform& transform);
+
 /// Hands the file over to put, piece by piece: as the codec writes it, but in the order of the cells, and of
 /// a GLB positions only. The cells are read twice, of a GLB three times. Returns
 /// how far rounding to float32 moved a coordinate at most. Throws stage (E-RANGE, as the codec), output

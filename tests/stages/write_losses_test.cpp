@@ -43,8 +43,24 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
     // Its grid stands in the node, in 64 bits.
     CHECK(warnings_of(scene, fmt::format("{{path: {}, quantize: true}}", glb)).empty());
     CHECK(draco.find("draco.position_bits") == std::string::npos);
-    CHECK(warnings_of(scene, ply).find("precision: full keeps all digits") != std::string::npos);
+    CHECK(warnings_of(scene, fmt::format("{{path: {}, precision: single}}", ply))
+              .find("precision: full keeps all digits") != std::string::npos);
     CHECK(warnings_of(scene, fmt::format("{{path: {}, precision: full}}", ply)).empty());
+    for (const char* name : {"b.ply", "b.obj", "b.off"}) { // which have all digits where they need them
+        INFO(name);
+        const auto run = run_stage("write", (dir / name).string(), scene);
+        CHECK(run.record.warnings.empty());
+        REQUIRE(run.record.said.size() == 1);
+        CHECK(run.record.said[0].find("positions with 64 bits: float32 would move them by up to 0.2") == 0);
+        CHECK(run.state->record.outputs.at(0).read_back["position_error"].get<double>() < 1e-9);
+        CHECK(run_stage("write", (dir / ("near_" + std::string(name))).string(), far_away(0))
+                  .record.said.empty());
+    }
+    Scene rounded = scene; // float32 moves no point of it
+    for (Vec3& p : rounded.parts[0].mesh.positions)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<double>(static_cast<float>(p[axis]));
+    CHECK(run_stage("write", (dir / "c.ply").string(), rounded).record.said.empty());
     for (const char* options : {"{{path: {}}}", "{{path: {}, draco: true}}"})
         for (const Scene& one : {far_away(0), scene}) // which gets an origin of its own
             CHECK(warnings_of(one, fmt::format(fmt::runtime(options), glb)).empty());

@@ -121,6 +121,9 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
     }
     const cells::WritePlace place{
         outline.parts.front().transform, origin_of(o, codec, flow), {outline.unit, outline.up}};
+    if (may_need_full(o, codec, outline.bounds()))
+        settings.double_positions = needs_full(
+            cells::rounding_of(*flow.partition, outline.parts.front().transform), outline.bounds(), context);
     double rounding = 0;
     const auto& staged = context.run().outputs.add(
         target,

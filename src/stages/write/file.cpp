@@ -13,7 +13,9 @@
 #include "stages/write/lattice.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace facetmill::write_stage {
@@ -134,6 +136,41 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
                      "give both when it is loaded: load: {path: ..., unit: mm, up: z}");
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
+}
+
+namespace {
+constexpr double tolerable_rounding =
+    1e-6; // of the diagonal, as for the origin of glTF and what is read back
+} // namespace
+
+bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds) {
+    if (o.precision != WriteOptions::Precision::automatic || bounds.empty()) return false;
+    if (!codec.can.full_precision || codec.can.transforms) return false;
+    double farthest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        farthest = std::max({farthest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
+    constexpr double step = 1.0 / (1 << 24); // the largest rounding of a float32, of its size
+    return farthest <= std::numeric_limits<float>::max() &&
+           farthest * step > tolerable_rounding * diagonal(bounds);
+}
+
+double moved_by_floats(const Scene& scene) {
+    double most = 0;
+    for (const Part& part : scene.parts)
+        for (const Vec3& local : part.mesh.positions) {
+            const Vec3 p = part.transform.point(local);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                most = std::max(most, std::abs(static_cast<double>(static_cast<float>(p[axis])) - p[axis]));
+        }
+    return most;
+}
+
+bool needs_full(double rounding, const Box& bounds, Context& context) {
+    if (rounding <= tolerable_rounding * diagonal(bounds)) return false;
+    context.say(fmt::format(
+        "positions with 64 bits: float32 would move them by up to {:.2g} (precision: single does)",
+        rounding));
+    return true;
 }
 
 std::vector<std::optional<int>> normal_map_uvs(const Scene& scene) {

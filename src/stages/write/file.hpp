@@ -26,6 +26,14 @@ void declare_write_report(DeclareFields<WriteReport>& d);
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
                    WriteReport& report);
 
+/// Whether precision is automatic, the format can have all digits and no origin of its own, and coordinates
+/// may be too far from the origin for float32.
+bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds);
+/// How far float32 moves a coordinate of the scene, in the world, at most. O(vertices).
+double moved_by_floats(const Scene& scene);
+/// Whether that is more than a millionth of the diagonal; says so.
+bool needs_full(double rounding, const Box& bounds, Context& context);
+
 /// By material of the scene, the set of texture coordinates that its map of normals reads, if it has one.
 std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
 /// Gives a part tangents where a material of it has a map of normals. False, and nothing changed, where it

@@ -213,10 +213,14 @@ void declare_write(Declare<WriteOptions>& d) {
                      "The axis that points up in the file.");
     d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.");
     d.option("big_endian", &WriteOptions::big_endian, "Binary PLY with the most significant byte first.");
-    d.choice<Precision>("precision", &WriteOptions::precision,
-                        {{"single", Precision::single, "rounded to 32-bit floats"},
-                         {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF, 3MF)"}},
-                        "How positions are written.");
+    d.choice<Precision>(
+        "precision", &WriteOptions::precision,
+        {{"auto", Precision::automatic,
+          "single, but full in PLY, OBJ and OFF where float32 would move points by more than a "
+          "millionth of the scene's diagonal, as with geographic coordinates"},
+         {"single", Precision::single, "rounded to 32-bit floats"},
+         {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF, 3MF)"}},
+        "How positions are written.");
     d.option(
         "origin", &WriteOptions::origin,
         "Where coordinates in the file count from, in formats whose parts have places (glTF, 3MF): a point "

@@ -44,7 +44,7 @@ struct TilesOptions {
 enum class Tangents { keep, missing, all };
 
 struct WriteOptions {
-    enum class Precision { single, full };
+    enum class Precision { automatic, single, full };
 
     PathText path;
     std::string format;
@@ -52,7 +52,7 @@ struct WriteOptions {
     UpAxis up = UpAxis::unknown;
     bool ascii = false, big_endian = false, mesh_manifold = false, lods = false, drop_names = false,
          interleave = false, triangulate = false;
-    Precision precision = Precision::single;
+    Precision precision = Precision::automatic;
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals
     OriginOption origin;

@@ -210,7 +210,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (o.triangulate && codec->can.polygons) make_triangles(out, lent);
     give_normals(out, lent, o, context);
     give_tangents_to_all(out, lent, o, context);
-    if (codec->can.transforms && o.precision == WriteOptions::Precision::single) {
+    if (codec->can.transforms && o.precision != WriteOptions::Precision::full) {
         std::map<std::size_t, std::vector<Vec3>> moved;
         report.origin = move_origin(out, o.origin, context, moved);
         for (auto& [k, positions] : moved) lent[k].positions = std::move(positions);
@@ -218,6 +218,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     to_convention(out, o, *codec, context, report);
     const std::filesystem::path target = context.places().output(o.path.text);
     io::WriteSettings settings = settings_of(o, *codec, target);
+    if (may_need_full(o, *codec, out.bounds()))
+        settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
     choose_bits(settings, o, *codec, out, report);
     steps.next();
     const io::Written written = codec->write(out, settings);
