@@ -17,8 +17,7 @@ struct DeviationSettings {
     /// RMS, estimated from samples side by side, to be at most this part of it; else of all. The maximum is
     /// of all even then.
     double mean_error = 0.005;
-    /// Without them rms, mean and averaged stay 0, and the maximum, which is the same, takes half of the
-    /// time.
+    /// Without them rms, mean and averaged stay 0, and the maximum, which is the same, is found sooner.
     bool means = true;
     std::uint64_t seed = 1;
     bool certify = false; ///< also compute DirectedDeviation::bound
