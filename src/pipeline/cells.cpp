@@ -66,6 +66,34 @@ std::uint64_t estimated_faces(const std::vector<PlannedFile>& inputs) {
     return faces;
 }
 
+/// How large the mesh is that cells are to hold.
+struct Faces {
+    std::uint64_t read = 0, most = 0; ///< of the files; at the largest of the steps that may work on cells
+
+    std::uint64_t memory() const { return cells::memory_in_core(most); }
+    std::string needs(const CellSettings& settings) const {
+        const std::string growth = most > read ? fmt::format(", and the {} they become,", grouped(most)) : "";
+        return fmt::format("about {} faces{} need about {} in memory, --memory gives {}", grouped(read),
+                           growth, sized(memory()), sized(settings.memory));
+    }
+};
+
+/// Steps multiply them until one makes the mesh small.
+Faces faces_of(const Steps& steps, const std::vector<PlannedFile>& inputs) {
+    Faces faces;
+    faces.read = estimated_faces(inputs);
+    constexpr double countable = 1e15; // more is refused where it is made
+    double now = static_cast<double>(faces.read), most = now;
+    for (const Step& step : steps) {
+        if (step.kind != Step::Kind::stage || step.stage->ends_cells) break;
+        if (step.when && step.when->known && !*step.when->known) continue;
+        if (step.stage->triangles_of_one) now *= step.stage->triangles_of_one(step.options.get());
+        most = std::max(most, now);
+    }
+    faces.most = std::max(faces.read, static_cast<std::uint64_t>(std::min(most, countable)));
+    return faces;
+}
+
 std::vector<PlannedFile> mesh_inputs(const Plan& plan) {
     std::vector<PlannedFile> inputs;
     for (const PlannedFile& file : planned_files(plan.steps, plan.places))
@@ -83,18 +111,13 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     using When = CellSettings::When;
     if (settings.when == When::never || (settings.memory == 0 && settings.when == When::automatic)) return {};
     const std::vector<PlannedFile> inputs = mesh_inputs(plan);
-    const std::uint64_t faces = estimated_faces(inputs);
-    const std::string needed = sized(cells::memory_in_core(faces));
+    const Faces faces = faces_of(plan.steps, inputs);
     CellPlan cells;
-    if (settings.when == When::automatic && cells::memory_in_core(faces) <= settings.memory) {
-        cells.why = fmt::format("in memory: about {} faces need about {}, --memory gives {}", grouped(faces),
-                                needed, sized(settings.memory));
+    if (settings.when == When::automatic && faces.memory() <= settings.memory) {
+        cells.why = "in memory: " + faces.needs(settings);
         return cells;
     }
-    const std::string what = settings.when == When::always
-                                 ? "--partition always"
-                                 : fmt::format("about {} faces need about {} in memory, --memory gives {}",
-                                               grouped(faces), needed, sized(settings.memory));
+    const std::string what = settings.when == When::always ? "--partition always" : faces.needs(settings);
     const std::string way_out = settings.when == When::always
                                     ? "use --partition auto"
                                     : "give more memory, or --partition never to try it all the same";

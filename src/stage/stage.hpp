@@ -91,6 +91,8 @@ struct StageInfo {
     Function<void(const void* options, CellFlow&, Context&)> on_cells = {};
     /// Why these options need the mesh in memory, in words. May be empty.
     Function<std::optional<std::string>(const void* options)> why_not_on_cells = {};
+    /// How many triangles these options make of one, where they can work on cells. Empty: no more than one.
+    Function<double(const void* options)> triangles_of_one = {};
 };
 
 struct RegisterStage {
@@ -115,6 +117,7 @@ struct StageHooks {
     bool (*compares_with_load)(const Options&) = nullptr;
     void (*on_cells)(const Options&, CellFlow&, Context&) = nullptr;
     std::optional<std::string> (*why_not_on_cells)(const Options&) = nullptr;
+    double (*triangles_of_one)(const Options&) = nullptr;
 };
 
 /// The hook, of any options; none where there is none.
@@ -147,6 +150,7 @@ void add_options(StageInfo& info, DeclareFunction declare, const StageHooks<Opti
     info.compares_with_load = of_any_options(hooks.compares_with_load);
     info.on_cells = of_any_options(hooks.on_cells);
     info.why_not_on_cells = of_any_options(hooks.why_not_on_cells);
+    info.triangles_of_one = of_any_options(hooks.triangles_of_one);
 }
 
 /// Of a stage that has nothing to report.

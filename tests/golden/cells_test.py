@@ -59,6 +59,18 @@ class Cells(LargeCase):
         self.assertNotIn("in cells", self.mill("run", "p.yaml", "--memory", "2G").stderr)
         self.assertNotIn("in cells", self.mill("run", "p.yaml", "--memory", "64M", "--partition", "never").stderr)
 
+    def test_a_run_decides_by_what_the_mesh_becomes_on_the_way(self):
+        self.large()
+        for grows, factor in (("split: {method: midpoint, passes: 2}", 16), ("crumple: {amplitude: 0.001%, grid: 5}", 25)):
+            self.write("p.yaml", f"facetmill: 1\nstages:\n  - load: large.ply\n  - {grows}\n  - simplify: {{faces: 9000}}\n"
+                                 "  - write: o.glb\n")
+            self.assertIn(f"in cells on disk up to 'simplify': about 280,000 faces, and the {280_000 * factor:,} they become, "
+                          "need about", self.mill("plan", "p.yaml", "--memory", "256M").stdout)
+            self.assertIn("memory: in memory", self.mill("plan", "p.yaml", "--memory", "2G").stdout)
+        self.write("p.yaml", "facetmill: 1\nstages:\n  - load: large.ply\n  - simplify: {faces: 9000}\n"
+                             "  - split: {method: midpoint, passes: 3}\n  - write: o.glb\n")
+        self.assertIn("memory: in memory: about 280,000 faces need", self.mill("plan", "p.yaml", "--memory", "256M").stdout)
+
     def test_what_needs_the_whole_mesh_is_refused_with_the_way_out(self):
         self.large()
         cases = (("relax 3 ! simplify 10%", "'relax' cannot work on a mesh in cells", "put it after simplify or clip"),

@@ -40,10 +40,15 @@ std::optional<std::string> why_not_on_cells(const CrumpleOptions& o) {
     return {};
 }
 
+double triangles_of_one(const CrumpleOptions& o) {
+    const auto grid = static_cast<double>(o.grid);
+    return grid * grid;
+}
+
 void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context) {
     const std::uint64_t before = flow.partition->faces();
-    const auto grid = static_cast<double>(o.grid);
-    cells::require_countable("crumple", static_cast<double>(before) * grid * grid, "use a smaller grid");
+    cells::require_countable("crumple", static_cast<double>(before) * triangles_of_one(o),
+                             "use a smaller grid");
     const Scene outline = world_outline(flow);
     const Part& part = outline.parts.front();
     CrumpleSettings settings = crumple_settings(o, outline);

@@ -7,6 +7,7 @@ namespace facetmill::crumple_stage {
 
 /// Why the options need the mesh in memory, in words; none when they do not.
 std::optional<std::string> why_not_on_cells(const CrumpleOptions& o);
+double triangles_of_one(const CrumpleOptions& o);
 void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context);
 
 } // namespace facetmill::crumple_stage

@@ -20,7 +20,7 @@ using Intersections = CrumpleOptions::Intersections;
 SplitResult split_part(const Part& part, std::int64_t grid) {
     return grid_split(part.mesh, static_cast<int>(grid),
                       {fmt::format("crumple: part '{}', every face split {} x {}", part.name, grid, grid),
-                       "use a smaller grid, or simplify first"});
+                       "use a smaller grid, simplify first, or give --memory: it can work on cells on disk"});
 }
 
 /// Refuses before anything is split what could not be kept apart afterwards.
@@ -103,7 +103,10 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
                   "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
     declare_crumple, declare_crumple_report, run,
-    {.verify = verify_crumple, .on_cells = crumple_on_cells, .why_not_on_cells = why_not_on_cells});
+    {.verify = verify_crumple,
+     .on_cells = crumple_on_cells,
+     .why_not_on_cells = why_not_on_cells,
+     .triangles_of_one = triangles_of_one});
 
 } // namespace
 

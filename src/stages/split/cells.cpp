@@ -28,11 +28,14 @@ std::optional<std::string> why_not_on_cells(const SplitOptions& o) {
     return {};
 }
 
+double triangles_of_one(const SplitOptions& o) {
+    return why_not_on_cells(o) ? 1 : std::ldexp(1.0, 2 * split_settings(o).passes);
+}
+
 void split_on_cells(const SplitOptions& o, CellFlow& flow, Context& context) {
     const int passes = split_settings(o).passes;
     const std::uint64_t before = flow.partition->faces();
-    cells::require_countable("split", std::ldexp(static_cast<double>(before), 2 * passes),
-                             "use fewer passes");
+    cells::require_countable("split", static_cast<double>(before) * triangles_of_one(o), "use fewer passes");
     SplitResult result;
     result.changes = passes > 0 ? changes_of(*flow.partition) : AttributeChanges{};
     SplitPart told;

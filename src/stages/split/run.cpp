@@ -79,7 +79,8 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
      .may_lose = may_lose,
      .crossing_faces = crossing_faces,
      .on_cells = split_on_cells,
-     .why_not_on_cells = why_not_on_cells});
+     .why_not_on_cells = why_not_on_cells,
+     .triangles_of_one = triangles_of_one});
 
 } // namespace
 
