@@ -2,6 +2,7 @@
 
 import json
 import os
+import pathlib
 import resource
 import struct
 import subprocess
@@ -162,9 +163,11 @@ class Bombs(Case):
         for method in (0, 1):
             for faces, points in ((2**32 - 1, 3), (2**31, 2**31), (1, 2**32 - 1)):
                 self.check("few.drc", draco(method, faces, points, 100), MALFORMED, "E-DRACO")
-                self.check("many.drc", draco(method, faces, points, 1 << 20), BEYOND, "E-MEMORY")
-            self.check("zeros.drc", draco(method, 5000000, 5000000, 4096), MALFORMED, "E-DRACO")
-        data = draco(1, 2**31, 2**31, 1 << 20)
+                self.check("many.drc", draco(method, faces, points, 1 << 22), BEYOND, "E-MEMORY")
+            self.check("zeros.drc", draco(method, 5000000, 5000000, 8192), MALFORMED, "E-DRACO")
+        cloud = pathlib.Path(__file__).parent.parent / "data/fuzz/drc/points-of-few-bytes.drc"
+        self.check("cloud.drc", cloud.read_bytes(), MALFORMED, "cannot hold")
+        data = draco(1, 2**31, 2**31, 1 << 22)
         compressed = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
         content = document([accessor()], [{"attributes": {"POSITION": 0}, "extensions": compressed}],
                            [{"buffer": 0, "byteLength": len(data)}], len(data))

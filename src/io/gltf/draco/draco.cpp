@@ -192,13 +192,15 @@ std::size_t check_counts(::draco::DecoderBuffer buffer, bool is_mesh) {
         points = decode_count(buffer, variable);
         faces = decode_count(buffer, variable);
     }
-    // The entropy coding may give much for a byte, yet 65,536 faces or points in each are no mesh.
-    constexpr std::size_t most = 65536;
+    // The entropy coding gives much for a byte, 40 faces of a flat grid of two million; a thousand are no
+    // mesh.
+    constexpr std::size_t most = 1024;
     if (faces > most * bytes || points > most * bytes)
         fail(fmt::format("{} bytes cannot hold {} faces and {} points", bytes, faces, points));
     require_memory(150.0 * faces + 100.0 * points, "decoding Draco data", "use a machine with more memory");
     constexpr std::size_t point_bytes = 512; // 127 components of four bytes, as many as are written
-    return (std::size_t{1} << 20) + 64 * std::size_t{faces} + point_bytes * points + 256 * bytes;
+    return std::min<std::size_t>(memory_there(), (std::size_t{1} << 20) + 64 * std::size_t{faces} +
+                                                     point_bytes * points + 256 * bytes);
 }
 
 /// A draco::Mesh where is_mesh says so.
