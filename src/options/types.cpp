@@ -239,7 +239,8 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     const bool percent = !parts->second.empty();
     if (!percent && value.text.find('.') == std::string::npos && parts->first != 0) {
         const auto hint =
-            parts->first <= 100
+            parts->first < 0 ? "a ratio is not below 0"
+            : parts->first <= 100
                 ? fmt::format("write {}%, or name the option that counts (faces: {})",
                               parts->first == 1 ? "100" : value.text, value.text)
                 : fmt::format("a ratio has a point or a % (50%); for a count write faces: {}", value.text);

@@ -79,6 +79,8 @@ TEST_CASE("a bare whole number is no ratio, and both meanings are offered", "[op
           "that counts (faces: 1))");
     CHECK(complaint<Ratio>("10k") ==
           "E-TYPE expected a ratio (25% or 0.25), found '10k' (name the option that counts (faces: 10000))");
+    CHECK(complaint<Ratio>("-5") ==
+          "E-TYPE expected a ratio (25% or 0.25), found '-5' (a ratio is not below 0)");
     CHECK(complaint<Ratio>("5000") == "E-TYPE expected a ratio (25% or 0.25), found '5000' (a ratio has a "
                                       "point or a % (50%); for a count write faces: 5000)");
 }
