@@ -19,6 +19,8 @@ namespace {
 
 constexpr const char* inside_out = "a component is inside out and is not a cavity of a solid around it: use "
                                    "orient first to decide which side is inside";
+constexpr const char* turned_by_rounding =
+    "faces run along each other so closely that rounding the coordinates of the union turns pieces over";
 constexpr const char* too_many =
     "more than a million pairs of triangles intersect, or their intersection lines could cross more than two "
     "million times: that is more than can be united in reasonable time";
@@ -399,7 +401,8 @@ class Uniting {
             const Leaf first = leaf(firsts[n]);
             const Sides front = front_of(first, seen[n]), back = sum(front, first.turns);
             for (std::size_t k = 0; k < 2; ++k)
-                if (first.of_inward[k] && least_around(front, back, k) < 1) refuse(first.cluster, inside_out);
+                if (first.of_inward[k] && least_around(front, back, k) < 1)
+                    refuse(first.cluster, rounding_.tolerance > 0 ? turned_by_rounding : inside_out);
             const bool before = encloses(front, operands_), behind = encloses(back, operands_);
             if (before != behind) fate_[firsts[n]] = behind ? Fate::stays : Fate::stays_turned;
         }

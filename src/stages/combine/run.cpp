@@ -141,7 +141,8 @@ Mesh in_space_of(const Part& space, const Part& part) {
            short_of_memory
                ? "combine some of the parts at a time, the nearest ones first (with `only`), or simplify "
                  "them before"
-               : "clean: {self_intersections: union} for each part first, or move one of them by a little");
+               : "clean: {precision: single} before makes one of vertices that differ by rounding alone; or "
+                 "clean: {self_intersections: union} for each part first, or move one of them by a little");
 }
 
 /// Takes the numbers of its groups from an operand that the first one is cut by, but for those of caps: they

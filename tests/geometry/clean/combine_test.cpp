@@ -225,3 +225,24 @@ TEST_CASE("combine gives the same bytes for any number of threads", "[geometry][
     CHECK(test::same_mesh(combined(a, b, Operation::subtract), one));
     set_threads(0);
 }
+
+TEST_CASE("combine says when rounding is why solids cannot be combined", "[geometry][combine]") {
+    const auto off = [](double x, int by) { return by == 0 ? x : std::nextafter(x, by > 0 ? 9.0 : -9.0); };
+    const auto tetrahedron = [&](const std::array<int, 12>& by) { // each coordinate off by a bit, or not
+        Mesh mesh;
+        for (std::size_t v = 0; v < 4; ++v) {
+            Vec3 p{0.1, 0.1, 0.1};
+            if (v > 0) p[v - 1] = 1.1;
+            for (std::size_t k = 0; k < 3; ++k) p[k] = off(p[k], by[3 * v + k]);
+            mesh.positions.push_back(p);
+        }
+        mesh.corners = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+        return mesh;
+    };
+    const auto r = combine({tetrahedron({-1, 1, 0, 1, 0, 0, -1, -1, -1, 1, 0, -1}),
+                            tetrahedron({1, -1, 0, 1, -1, 0, 0, -1, -1, 1, 1, 1}),
+                            tetrahedron({1, 0, 1, 1, -1, 0, -1, 0, -1, -1, 0, 1})},
+                           {});
+    REQUIRE(r.failure);
+    CHECK(r.failure->why.find("rounding the coordinates") != std::string::npos);
+}
