@@ -114,6 +114,7 @@ TEST_CASE("vertices that a solid had stay, and so do faces that differ", "[geome
     // A vertex in the midst of a side, where the cut does not go.
     Mesh finer = shapes::cube();
     const Vec3 middle{0.5, 0.5, 1};
+    finer.positions.push_back(middle);
     for (Index f = 0; f < finer.face_count(); ++f) {
         if (finer.point(3 * f).z != 1 || finer.point(3 * f + 1).z != 1 || finer.point(3 * f + 2).z != 1)
             continue;
@@ -127,7 +128,6 @@ TEST_CASE("vertices that a solid had stay, and so do faces that differ", "[geome
         }
         if (f > 11) break;
     }
-    finer.positions.push_back(middle);
     REQUIRE(test::closed(finer));
     const Mesh nick = brick({0.75, 0.75, 0.5}, {2, 2, 2});
     CHECK(made_of({finer, nick}, Operation::subtract).mesh.vertex_count() == 9 + 6);
