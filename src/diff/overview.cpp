@@ -85,8 +85,8 @@ std::vector<const ItemChange*> items_of(const Comparison& c, bool parts) {
     return all;
 }
 
-/// Of how many materials, which may be the same themselves, the faces or lines lie elsewhere: "; 2 of them
-/// lie elsewhere".
+/// Of how many materials, which may be the same themselves, the faces or lines lie elsewhere, to follow the
+/// tally; empty for none.
 std::string elsewhere(const Comparison& c) {
     const auto count = std::count_if(c.lines.begin(), c.lines.end(), [](const Difference& d) {
         return d.section == "materials" && !d.same && d.compared && d.of_places;

@@ -42,7 +42,7 @@ std::optional<std::string> why_not_on_cells(const CrumpleOptions& o) {
 
 double triangles_of_one(const CrumpleOptions& o) {
     const auto grid = static_cast<double>(o.grid);
-    return grid * grid;
+    return why_not_on_cells(o) ? 1 : grid * grid;
 }
 
 void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context) {
