@@ -6,16 +6,17 @@
 
 namespace facetmill {
 
-/// A well-mixed 64-bit value of the two (the finaliser of SplitMix64, applied twice: G. L. Steele, D. Lea and
-/// C. H. Flood, "Fast splittable pseudorandom number generators", 2014). Chain it to hash longer keys.
+/// A number in which all bits depend on all of z's, another one for each; of 0 it is 0 (the finaliser of
+/// SplitMix64: G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number generators", 2014).
+constexpr std::uint64_t mixed_bits(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+}
+
+/// A well-mixed 64-bit value of the two. Chain it to hash longer keys.
 constexpr std::uint64_t hashed(std::uint64_t seed, std::uint64_t key) {
-    std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (key + 1);
-    for (int round = 0; round < 2; ++round) {
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-        z ^= z >> 31;
-    }
-    return z;
+    return mixed_bits(mixed_bits(seed + 0x9e3779b97f4a7c15ULL * (key + 1)));
 }
 
 /// Uniform in the open interval (0, 1): the 53 high bits, centred in their cell.

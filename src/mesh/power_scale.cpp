@@ -60,11 +60,9 @@ PowerScale axis_scale(const Box& box) {
 
 double unscaled(double x, int power) { return std::ldexp(x, -power); }
 
-double safe_length(const Vec3& v) {
-    const double plain = length(v);
-    if (plain > 1e-140 && plain < 1e140) return plain;
+double scaled_length(const Vec3& v) {
     const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(most > 0 && std::isfinite(most))) return plain;
+    if (!(most > 0 && std::isfinite(most))) return length(v);
     const int power = -std::ilogb(most);
     return unscaled(length(PowerScale{{power, power, power}}(v)), power);
 }

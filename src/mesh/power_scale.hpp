@@ -34,7 +34,12 @@ PowerScale axis_scale(const Box& box);
 double unscaled(double x, int power);
 
 /// length(v), also where the square of it would overflow or vanish.
-double safe_length(const Vec3& v);
+double scaled_length(const Vec3& v);
+/// The same, scaled only where that is needed.
+inline double safe_length(const Vec3& v) {
+    const double plain = length(v);
+    return plain > 1e-140 && plain < 1e140 ? plain : scaled_length(v);
+}
 
 /// The length of the box's diagonal, also where the square of it would overflow or vanish; 0 when empty.
 double diagonal(const Box& box);

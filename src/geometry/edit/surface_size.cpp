@@ -2,6 +2,7 @@
 #include "base/random.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/fetch_points.hpp"
 #include "mesh/power_scale.hpp"
 
 namespace facetmill {
@@ -41,10 +42,12 @@ void add_face(SizeSums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corn
 
 void add_boundary(SizeSums& sums, const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    for (Index c = begin, last = end - 1; c < end; last = c++) {
-        const std::uint64_t from = mesh.vertex(last), to = mesh.vertex(c);
-        const std::uint64_t edge = hashed(std::min(from, to), std::max(from, to));
+    std::uint64_t from = mesh.vertex(end - 1);
+    for (Index c = begin; c < end; ++c) {
+        const std::uint64_t to = mesh.vertex(c);
+        const std::uint64_t edge = mixed_bits(std::min(from, to) << 32 | std::max(from, to));
         sums.boundary += from < to ? edge : from > to ? -edge : 0;
+        from = to;
     }
 }
 
@@ -56,6 +59,7 @@ SizeSums sums_of(const Mesh& mesh, Wanted wanted, Place&& place) {
             SizeSums s;
             std::vector<Vec3> corners;
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                fetch_points_soon(mesh, f);
                 add_face(s, mesh, f, corners, wanted.volume, place);
                 if (wanted.boundary) add_boundary(s, mesh, f);
             }
@@ -98,6 +102,8 @@ struct Sight {
 
 SizeSums sums_seen(const Mesh& mesh, Wanted wanted, const Transform& to_world, const Sight& sight) {
     const Vec3 origin = sight.origin;
+    if (sight.even.none() && to_world.identity())
+        return sums_of(mesh, wanted, [&](Index c) { return mesh.point(c) - origin; });
     if (sight.even.none())
         return sums_of(mesh, wanted, [&](Index c) { return to_world.point(mesh.point(c)) - origin; });
     SizeSums sums = far_sums_of(mesh, wanted, to_world, sight.even, origin);

@@ -9,6 +9,7 @@
 #include "geometry/split/patterns.hpp"
 #include "geometry/split/smooth.hpp"
 #include "geometry/split/spots.hpp"
+#include "mesh/fetch_points.hpp"
 #include "mesh/topology.hpp"
 
 #include <array>
@@ -273,8 +274,10 @@ FacetShape facet_shape(const Mesh& mesh, const Transform& to_world) {
         mesh.face_count(), Extremes{},
         [&](std::size_t begin, std::size_t end) {
             Extremes e;
-            for (std::size_t f = begin; f < end; ++f)
-                e = join(e, extremes(mesh, static_cast<Index>(f), to_world));
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                fetch_points_soon(mesh, f);
+                e = join(e, extremes(mesh, f, to_world));
+            }
             return e;
         },
         join);
