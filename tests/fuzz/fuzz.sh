@@ -18,7 +18,7 @@ if [ "$1" = table ]; then
     exit 0
 fi
 
-program=$1 target=$2 seconds=$3
+program=$(realpath "$1") target=$2 seconds=$3
 shift 3
 targets=$target
 if [ "$target" = all ]; then
@@ -45,17 +45,21 @@ words_of() {
 
 status=0
 for target in $targets; do
-    corpus=build/fuzz/corpus/$target found=build/fuzz/found/$target
-    mkdir -p "$corpus" "$found"
+    corpus=$PWD/build/fuzz/corpus/$target found=$PWD/build/fuzz/found/$target
+    mkdir -p "$corpus" "$found" build/fuzz/empty
     words=$here/words/$(words_of "$target").dict
     dictionary=
     if [ -e "$words" ]; then dictionary=-dict=$words; fi
     log=$found/log
     look_at_clock
     before=$spent
+    # In an empty folder, since a pipeline may ask for all files below it (**).
     # shellcheck disable=SC2086  # none or one word
-    FACETMILL_TARGET=$target "$program" "-max_total_time=$seconds" -timeout=25 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
-        "-artifact_prefix=$found/" $dictionary "$@" "$corpus" "$data/$target" >"$log" 2>&1 || status=1
+    (
+        cd build/fuzz/empty
+        FACETMILL_TARGET=$target exec "$program" "-max_total_time=$seconds" -timeout=25 -rss_limit_mb=2048 -max_len=16384 \
+            -print_final_stats=1 "-artifact_prefix=$found/" $dictionary "$@" "$corpus" "$data/$target"
+    ) >"$log" 2>&1 || status=1
     executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -1)
     look_at_clock
