@@ -33,6 +33,7 @@ Option list_of_texts() {
 bool is_separator(const std::string& a) { return a == "!" || a == "+"; }
 bool is_bracket(const std::string& a) { return a == "[" || a == "]"; }
 bool is_option(const std::string& a) { return a.size() > 2 && a.starts_with("--"); }
+bool is_step(const std::string& a) { return stage_named(a) || is_control_item(a); }
 
 /// What other languages take for true and false, so that it stands alone behind a switch.
 bool is_foreign_truth(const std::string& a) {
@@ -47,6 +48,7 @@ class Parser {
         : line_(line), all_(line.arguments()), at_(first), problems_(problems), own_(own) {}
 
     Value document() {
+        refuse_swallowed_stage();
         Value stages = steps();
         if (at_ < all_.size()) wrong("']' without '['");
         return Value::map({{"facetmill", {}, Value::scalar("1")}, {"stages", {}, std::move(stages)}},
@@ -54,6 +56,18 @@ class Parser {
     }
 
   private:
+    /// "--timings load a.stl": the option of pipe took the name of the first stage as its value.
+    void refuse_swallowed_stage() {
+        if (!own_ || at_ < 3 || at_ >= all_.size() || is_step(all_[at_]) || !is_step(all_[at_ - 1])) return;
+        const std::string& option = all_[at_ - 2];
+        if (!is_option(option) || option.find('=') != std::string::npos || !own_->find(option)) return;
+        const std::string stage = all_[at_ - 1];
+        problems_.add(
+            line_.mark(at_ - 1), "E-PIPE",
+            fmt::format("'{}' takes a value, and took the name of the stage '{}' for it", option, stage),
+            fmt::format("{} VALUE {} {}", option, stage, all_[at_]));
+    }
+
     /// Stages up to the end or a closing bracket.
     Value steps() {
         Value list = Value::list({}, mark());
@@ -120,7 +134,7 @@ class Parser {
     /// words or files may be called so, and so may a file that is there.
     bool is_forgotten_separator(const Option* primary, bool first) const {
         const std::string& word = all_[at_];
-        if (!stage_named(word) && !is_control_item(word)) return false;
+        if (!is_step(word)) return false;
         std::error_code ignored;
         if (!primary) return true;
         if (std::any_of(primary->choices.begin(), primary->choices.end(),

@@ -178,13 +178,13 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
     std::string report;
     own.add("-q,--quiet", &quiet, "");
     own.add("--report", &report, "");
-    const auto problems = [&](const std::string& text) {
+    const auto problems = [&](const std::string& text, std::size_t first = 1) {
         std::vector<std::string> words{"pipe"};
         std::istringstream split(text);
         for (std::string word; split >> word;) words.push_back(word);
         const cli::CommandLine line(words);
         Problems problems;
-        const Value document = cli::parse_pipe(line, 1, problems, &own);
+        const Value document = cli::parse_pipe(line, first, problems, &own);
         std::string all = pipeline::emit_yaml(*document.find("stages"));
         for (const auto& d : problems.all()) all += render(d) + "\n";
         return all;
@@ -203,6 +203,12 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
           "                        ^~\n"
           "  hint: did you mean '--unit'?\n");
     CHECK(problems("transform --translate -1,2,3") == "- transform: {translate: [-1, 2, 3]}\n");
+    CHECK(
+        problems("--report load a.stl ! relax 1", 3)
+            .find(
+                "command line:1:25: error[E-PIPE]: '--report' takes a value, and took the name of the stage "
+                "'load' for it") != std::string::npos);
+    CHECK(problems("--report load load a.stl ! relax 1", 3) == "- load: a.stl\n- relax: 1\n");
     CHECK(problems("load a -q ! relax")
               .find("command line:1:23: error[E-PIPE]: '-q' is an option of pipe itself") !=
           std::string::npos);
