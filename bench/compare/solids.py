@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 from combine import spent
+from many_parts import icosphere
 from peers import TIMED, add_common_options, output
 
 MANIFOLD = TIMED + """
@@ -59,33 +60,10 @@ def turned(solid, at):
     return [tuple(middle[i] + sum(rows[i][k] * (p[k] - middle[k]) for k in range(3)) for i in range(3)) for p in points], faces
 
 
-def sphere(centre, radius, base=[]):
-    """An icosahedron whose faces are divided twice."""
-    if not base:
-        g = (1 + math.sqrt(5)) / 2
-        points = [p for a in (-1, 1) for b in (-g, g) for p in ((0, a, b), (a, b, 0), (b, 0, a))]
-        near = lambda i, j: i != j and math.dist(points[i], points[j]) < 2.1
-        faces = []
-        for i in range(12):
-            for j in range(i + 1, 12):
-                for k in range(j + 1, 12):
-                    if near(i, j) and near(j, k) and near(i, k):
-                        a, b, c = points[i], points[j], points[k]
-                        u, v = [b[n] - a[n] for n in range(3)], [c[n] - a[n] for n in range(3)]
-                        side = sum(a[n] * (u[(n + 1) % 3] * v[(n + 2) % 3] - u[(n + 2) % 3] * v[(n + 1) % 3]) for n in range(3))
-                        faces.append((i, j, k) if side > 0 else (i, k, j))
-        for _ in range(2):
-            middles = {}
-            def middle(i, j):
-                if (j, i) in middles or (i, j) in middles:
-                    return middles.get((j, i), middles.get((i, j)))
-                middles[i, j] = len(points)
-                points.append(tuple((points[i][n] + points[j][n]) / 2 for n in range(3)))
-                return middles[i, j]
-            faces = [t for i, j, k in faces for a, b, c in [(middle(i, j), middle(j, k), middle(k, i))]
-                     for t in ((i, a, c), (a, j, b), (c, b, k), (a, b, c))]
-        base[:] = [[tuple(x / math.hypot(*p) for x in p) for p in points], faces]
-    return [tuple(centre[n] + radius * p[n] for n in range(3)) for p in base[0]], base[1]
+def sphere(centre, radius, unit=icosphere(2)):
+    points, faces = unit
+    shares = [radius / math.hypot(*p) for p in points]
+    return [tuple(c + share * x for c, x in zip(centre, p)) for p, share in zip(points, shares)], faces
 
 
 def drill(x, y, radius, sides, low, high):
