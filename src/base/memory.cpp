@@ -57,6 +57,8 @@ std::optional<std::uint64_t> of_process() {
     return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
 }
 
+constexpr std::uint64_t not_worth_asking = std::uint64_t{1} << 28;
+
 } // namespace
 
 std::optional<std::uint64_t> available_memory() {
@@ -68,8 +70,12 @@ std::optional<std::uint64_t> available_memory() {
 
 std::uint64_t memory_there() { return available_memory().value_or(std::uint64_t{4} << 30); }
 
+std::uint64_t at_most_memory_there(std::uint64_t bytes) {
+    return bytes < not_worth_asking ? bytes : std::min(bytes, memory_there());
+}
+
 void require_memory(double bytes, const std::string& what, const std::string& hint) {
-    if (bytes < 1 << 28) return; // not worth asking
+    if (bytes < static_cast<double>(not_worth_asking)) return;
     const auto there = available_memory();
     if (!there || bytes <= static_cast<double>(*there)) return;
     constexpr double gib = 1 << 30;

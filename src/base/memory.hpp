@@ -13,6 +13,10 @@ std::optional<std::uint64_t> available_memory();
 /// The same, and 4 GiB where the system does not say.
 std::uint64_t memory_there();
 
+/// The bytes, or what is there where they are more; a few hundred MiB are taken to be there, since to ask the
+/// system costs a tenth of a millisecond.
+std::uint64_t at_most_memory_there(std::uint64_t bytes);
+
 /// Throws limit (E-MEMORY) when bytes are more than are available: "WHAT needs about 3.2 GiB, 1.9 GiB are
 /// available".
 void require_memory(double bytes, const std::string& what, const std::string& hint);

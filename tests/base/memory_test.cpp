@@ -20,3 +20,8 @@ TEST_CASE("a gigabyte more than there is is refused with both numbers", "[base]"
         CHECK(e.diagnostics().front().hint == "less");
     }
 }
+
+TEST_CASE("what is asked for is cut to what there is", "[base]") {
+    CHECK(at_most_memory_there(1000) == 1000);
+    CHECK(at_most_memory_there(std::uint64_t{1} << 62) < (std::uint64_t{1} << 62));
+}

@@ -199,8 +199,8 @@ std::size_t check_counts(::draco::DecoderBuffer buffer, bool is_mesh) {
         fail(fmt::format("{} bytes cannot hold {} faces and {} points", bytes, faces, points));
     require_memory(150.0 * faces + 100.0 * points, "decoding Draco data", "use a machine with more memory");
     constexpr std::size_t point_bytes = 512; // 127 components of four bytes, as many as are written
-    return std::min<std::size_t>(memory_there(), (std::size_t{1} << 20) + 64 * std::size_t{faces} +
-                                                     point_bytes * points + 256 * bytes);
+    return at_most_memory_there((std::size_t{1} << 20) + 64 * std::size_t{faces} + point_bytes * points +
+                                256 * bytes);
 }
 
 /// A draco::Mesh where is_mesh says so.
