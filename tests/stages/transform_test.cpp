@@ -36,6 +36,31 @@ TEST_CASE("transform moves, scales and turns", "[stages]") {
     check_box(box_after("{translate: [0, 0, -7], ground: true}"), {0, 0, 0}, {1, 1, 1});
 }
 
+TEST_CASE("transform scales parts to fit", "[stages]") {
+    const auto block = [] { // 1 x 2 x 4 from (2, 0, 0) on
+        Mesh mesh = shapes::cube();
+        for (Vec3& p : mesh.positions) p = {p.x + 2, p.y * 2, p.z * 4};
+        return scene_of(std::move(mesh), Unit::mm);
+    };
+    check_box(box_after("{fit: 120}", block()), {60, 0, 0}, {90, 60, 120});
+    check_box(box_after("{fit: 12cm}", block()), {60, 0, 0}, {90, 60, 120});
+    check_box(box_after("{fit: 8, pivot: centre}", block()), {1.5, -1, -2}, {3.5, 3, 6});
+    check_box(box_after("{fit: [10, 1, 10], ground: true}", block()), {1, 0, 0}, {1.5, 1, 2});
+    // What the other moves made is what is to fit; a flat part has one side that fits in any case.
+    check_box(box_after("{scale: [8, 1, 1], rotate: {axis: [0, 1, 0], angle: 90}, fit: 2}", block()),
+              {0, 0, -6}, {1, 0.5, -4});
+    CHECK(run_stage("transform", "{fit: 6}", scene_of(shapes::grid(2, 3))).record.result["fit_factor"] == 2);
+    CHECK(failure([&] { run_stage("transform", "{fit: [1, 2]}", block()); }) ==
+          "usage [E-TRANSFORM] test.yaml:1:7: transform: fit takes one length or three, found 2");
+    CHECK(failure([&] { run_stage("transform", "{fit: -1mm}", block()); }) ==
+          "usage [E-TRANSFORM] test.yaml:1:7: transform: the lengths of fit are above 0, found -1mm");
+    Mesh point;
+    point.positions = {{1, 2, 3}};
+    CHECK(failure([&] {
+              run_stage("transform", "{fit: 1}", scene_of(point));
+          }).starts_with("stage [E-TRANSFORM] transform: fit has nothing to scale"));
+}
+
 TEST_CASE("transform converts units and the up axis, and sizes stay", "[stages]") {
     Scene scene = scene_of(shapes::cube(), Unit::mm);
     scene.up = UpAxis::z;
@@ -112,5 +137,5 @@ TEST_CASE("transform refuses what would flatten the parts", "[stages]") {
 TEST_CASE("transform names options without effect", "[stages]") {
     CHECK(failure([] {
               run_stage("transform", "{pivot: centre}", scene_of(shapes::cube()));
-          }).find("1:9: transform: 'pivot' goes with scale or rotate") != std::string::npos);
+          }).find("1:9: transform: 'pivot' goes with scale, rotate or fit") != std::string::npos);
 }

@@ -61,9 +61,12 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.choice<Pivot>("pivot", &TransformOptions::pivot,
                     {{"origin", Pivot::origin, "the world's origin"},
                      {"centre", Pivot::centre, "the centre of the parts' bounding box"}},
-                    "The point that scale and rotate leave in place.");
+                    "The point that scale, rotate and fit leave in place.");
     d.option("matrix", &TransformOptions::matrix,
              "Twelve or sixteen numbers, row by row, applied to columns (x, y, z, 1).");
+    d.option("fit", &TransformOptions::fit,
+             "Then scales alike along all axes, so that the parts' bounding box just fits into a cube with "
+             "this side (120mm: its longest side gets this length), or into a box with three.");
     d.option("translate", &TransformOptions::translate, "Three lengths.");
     d.option("centre", &TransformOptions::centre,
              "Then moves the centre of the parts' bounding box to the origin.");
@@ -92,8 +95,14 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
     if (o.matrix.size() == 16 &&
         (o.matrix[12] != 0 || o.matrix[13] != 0 || o.matrix[14] != 0 || o.matrix[15] != 1))
         refuse("matrix", "the last row of a matrix is 0, 0, 0, 1");
-    if (given.find("pivot") && o.scale.empty() && !o.rotate)
-        add_refusal(Refusal{"pivot", "'pivot' goes with scale or rotate"}, "transform", given, problems);
+    if (!o.fit.empty() && o.fit.size() != 1 && o.fit.size() != 3)
+        refuse("fit", fmt::format("fit takes one length or three, found {}", o.fit.size()));
+    const Value* fit = given.find("fit");
+    for (const Length& side : o.fit)
+        if (!(side.amount > 0) && !(fit && fit->deferred))
+            refuse("fit", fmt::format("the lengths of fit are above 0, found {}", side.text));
+    if (given.find("pivot") && o.scale.empty() && !o.rotate && o.fit.empty())
+        add_refusal(Refusal{"pivot", "'pivot' goes with scale, rotate or fit"}, "transform", given, problems);
     if (o.rotate && !(length(o.rotate->axis) > 0)) refuse("rotate", "the axis of a rotation has no length");
 }
 

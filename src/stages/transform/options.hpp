@@ -11,10 +11,10 @@ struct TransformRotation {
 };
 
 struct TransformOptions {
-    /// The point that scale and rotate leave where it is.
+    /// The point that scale, rotate and fit leave where it is.
     enum class Pivot { origin, centre };
 
-    std::vector<Length> translate;
+    std::vector<Length> translate, fit;
     std::optional<TransformRotation> rotate;
     std::vector<double> scale, matrix;
     Pivot pivot = Pivot::origin;

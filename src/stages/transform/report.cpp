@@ -13,6 +13,8 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
     d.field("matrix", rows,
             "All moves after the conversion of unit and up axis: the three rows of a matrix.");
     d.field("unit_factor", &TransformReport::unit_factor, "The factor applied to lengths for the unit.");
+    d.field("fit_factor", &TransformReport::fit_factor, "The factor by which fit scaled.")
+        .only_when("fit is given and there are parts");
     d.field("unit", &TransformReport::unit, "The unit of the scene now; unknown: none.");
     d.field("up", &TransformReport::up, "The axis that points up now; unknown: none.");
 }

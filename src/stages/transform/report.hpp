@@ -9,6 +9,7 @@ namespace facetmill::transform_stage {
 struct TransformReport {
     Transform all; ///< that moved the parts, as one
     double unit_factor = 1;
+    std::optional<double> fit_factor;
     std::string unit, up; ///< of the scene now
 };
 void declare_transform_report(DeclareFields<TransformReport>& d);

@@ -16,6 +16,12 @@ Transform moved(const Vec3& by) {
     return t;
 }
 
+Transform uniform(double factor) {
+    Transform t;
+    for (std::size_t i = 0; i < 3; ++i) t.m[i][i] = factor;
+    return t;
+}
+
 class Mover {
   public:
     /// box: around the only part, of which the scene is an outline, where the transform puts it.
@@ -27,17 +33,42 @@ class Mover {
         const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
         warn_of_conversion(converted, o_, context_);
         const Transform spin = spin_of(o_);
-        const Vec3 fixed = o_.pivot == TransformOptions::Pivot::centre ? box().centre() : Vec3{};
+        const Vec3 fixed = pivot();
         if (!spin.identity()) move(moved(fixed) * spin * moved(-fixed));
         if (!o_.matrix.empty()) move(matrix_of(o_));
+        const std::optional<double> fit = fit_factor();
+        if (fit) move(moved(pivot()) * uniform(*fit) * moved(-pivot()));
         if (!o_.translate.empty()) move(moved(translation()));
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
         if (o_.bake) bake();
-        return {all_, converted.factor, to_string(scene_.unit), to_string(scene_.up)};
+        return {all_, converted.factor, fit, to_string(scene_.unit), to_string(scene_.up)};
     }
 
   private:
+    Vec3 pivot() const {
+        const Box all = o_.pivot == TransformOptions::Pivot::centre ? box() : Box{};
+        return all.empty() ? Vec3{} : all.centre();
+    }
+
+    /// What scales the box into that of fit; its sides without extent fit in any case.
+    std::optional<double> fit_factor() const {
+        if (o_.fit.empty() || box().empty()) return {};
+        const Vec3 extent = box().max - box().min;
+        double factor = HUGE_VAL;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Length& side = o_.fit[o_.fit.size() == 1 ? 0 : i];
+            const std::string name = o_.fit.size() == 1 ? "fit" : fmt::format("fit.{}", "xyz"[i]);
+            const double length = context_.resolve(side, scene_, name);
+            if (extent[i] > 0) factor = std::min(factor, length / extent[i]);
+        }
+        if (!(factor > 0) || !std::isfinite(factor))
+            throw Error(ErrorKind::stage, "E-TRANSFORM",
+                        "transform: fit has nothing to scale, the parts' bounding box has no extent",
+                        "info prints the bounds");
+        return factor;
+    }
+
     Vec3 translation() const {
         Vec3 by;
         for (std::size_t i = 0; i < o_.translate.size(); ++i)
@@ -118,7 +149,7 @@ const RegisterStage registered = make_stage<TransformOptions>(
      .examples = {"transform: {scale: 0.001}",
                   "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
                   "transform: {unit: m, up: y, centre: true, ground: true}",
-                  "transform: {translate: [0, 0, 2mm]}"},
+                  "transform: {fit: 120mm, ground: true}", "transform: {translate: [0, 0, 2mm]}"},
      .moves = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::area,
