@@ -116,7 +116,9 @@ class Parser {
                       fmt::format("did you forget ! before {}?", all_[at_]));
                 break;
             }
-            if (is_option(all_[at_]))
+            if (all_[at_] == "--")
+                bare_behind_dashes(bare, primary);
+            else if (is_option(all_[at_]))
                 option(item, stage);
             else if (all_[at_] == "[") {
                 wrong(fmt::format("'{}' takes no '['", name));
@@ -128,6 +130,14 @@ class Parser {
         }
         if (!bare.empty()) set_bare(item.entries[0].value, std::move(bare), stage, where);
         return item;
+    }
+
+    /// "-- -2mm" as in a shell: the word behind two dashes is a value, whatever it begins with.
+    void bare_behind_dashes(std::vector<Value>& bare, const Option* primary) {
+        ++at_;
+        if (at_end_of_step()) return wrong("a value is missing behind '--'");
+        bare.push_back(pipe_value(all_[at_], primary, mark(), problems_));
+        ++at_;
     }
 
     /// Whether the bare word is a stage that a ! should stand before. The first value of an option that holds

@@ -53,6 +53,8 @@ TEST_CASE("bare values, options and separators become steps", "[cli]") {
 
 TEST_CASE("values may begin with a dash", "[cli]") {
     CHECK(same("load - ! relax --lambda -0.5", "[{load: '-'}, {relax: {lambda: -0.5}}]"));
+    CHECK(same("thicken -- -2mm ! load -- --a.stl", "[{thicken: -2mm}, {load: '--a.stl'}]")); // as in a shell
+    CHECK(yaml("relax -- ! orient").starts_with("command line:1:25: error[E-PIPE]: a value is missing"));
 }
 
 TEST_CASE("dotted keys nest, vectors and lists are split at commas", "[cli]") {

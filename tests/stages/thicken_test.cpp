@@ -81,3 +81,12 @@ TEST_CASE("parts of one shape get one solid, and are told as each by itself", "[
     }
     CHECK(warnings == together.record.warnings.size());
 }
+
+TEST_CASE("thicken answers a thickness below zero with the other side", "[stages]") {
+    const Value value = Value::scalar("-2mm", {});
+    CHECK(test::problems_of("thicken", value)
+              .starts_with(
+                  "E-RANGE 'thickness' must be in the range x > 0, found '-2mm' | leave out the sign"));
+    CHECK(test::problems_of("thicken", Value::scalar("0", {})) ==
+          "E-RANGE 'thickness' must be in the range x > 0, found '0'");
+}

@@ -1,5 +1,7 @@
 #include "stages/thicken/options.hpp"
 
+#include <fmt/format.h>
+
 namespace facetmill::thicken_stage {
 
 using Mode = ThickenOptions::Mode;
@@ -28,14 +30,30 @@ void declare_self_intersections(Declare<ThickenOptions>& d) {
     o.may_be_true = true;
 }
 
+/// A thickness below zero, which other programs take for the other side, is answered with the side.
+void declare_thickness(Declare<ThickenOptions>& d) {
+    Option& o = d.option("thickness", &ThickenOptions::thickness,
+                         "The thickness of the solid, or the diameter of cylinders.")
+                    .above(0)
+                    .required()
+                    .primary()
+                    .option();
+    o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
+        if (!plain(self, v, target, problems)) return false;
+        if (v.deferred || !(static_cast<ThickenOptions*>(target)->thickness.amount < 0)) return true;
+        problems.add(v.mark, "E-RANGE",
+                     fmt::format("'thickness' must be in the range {}, found {}", self.range.to_string(),
+                                 v.described()),
+                     "leave out the sign: it is added behind the surface, with thicken: {side: outward} in "
+                     "front of it");
+        return false;
+    };
+}
+
 } // namespace
 
 void declare_thicken(Declare<ThickenOptions>& d) {
-    d.option("thickness", &ThickenOptions::thickness,
-             "The thickness of the solid, or the diameter of cylinders.")
-        .above(0)
-        .required()
-        .primary();
+    declare_thickness(d);
     d.choice<ThickenSide>(
         "side", &ThickenOptions::side,
         {{"inward", ThickenSide::inward, "behind the front, which stays in place"},
