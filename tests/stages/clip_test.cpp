@@ -267,3 +267,19 @@ TEST_CASE("clip says when vertices far from the origin count as on the plane", "
     for (Vec3& p : far_away.positions) p.y += 1e-9; // no floats, within four roundings of a double
     CHECK(warned(far_away, "{plane: y=5400010.5}") == 0);
 }
+
+TEST_CASE("clip loses no point of a cloud: those on the plane are in front", "[stages]") {
+    Mesh cloud;
+    cloud.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    const auto left = [&](const char* options) {
+        std::vector<std::size_t> points;
+        for (const Part& part : run_stage("clip", options, scene_of(cloud)).scene.parts)
+            points.push_back(part.mesh.vertex_count());
+        return points;
+    };
+    CHECK(left("x=1") == std::vector<std::size_t>{2});
+    CHECK(left("{plane: x=1, keep: back}") == std::vector<std::size_t>{1});
+    CHECK(left("{plane: x=1, keep: both}") == std::vector<std::size_t>{2, 1});
+    CHECK(left("x=0") == std::vector<std::size_t>{3});
+    CHECK(left("x=2") == std::vector<std::size_t>{1});
+}

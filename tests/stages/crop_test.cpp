@@ -7,6 +7,7 @@
 #include "support/temporary.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <fstream>
 
 using namespace facetmill;
@@ -163,4 +164,31 @@ TEST_CASE("crop says when vertices far from the origin count as on the outline",
     Mesh near = shapes::cube(); // 0.1f is not 0.1, and nobody sees it
     for (Vec3& p : near.positions) p = p * static_cast<double>(0.1F);
     CHECK(warned(near, "{footprint: [[0, 0], [0.1, 0], [0.1, 0.05], [0, 0.05]], axis: z}") == 0);
+}
+
+TEST_CASE("crop keeps the points of a cloud, each on one side", "[stages]") {
+    Mesh cloud;
+    for (int i = 0; i < 5; ++i) cloud.positions.push_back({static_cast<double>(i), 1, 0});
+    const auto points = [&](const std::string& keep) {
+        const std::string options = "{footprint: [[1, 0], [3, 0], [3, 2], [1, 2]], keep: " + keep + "}";
+        return run_stage("crop", options, scene_of(cloud));
+    };
+    const auto inside = points("inside");
+    REQUIRE(inside.mesh().vertex_count() == 3); // 1 and 3 lie on the outline
+    CHECK(inside.mesh().positions[0] == Vec3{1, 1, 0});
+    CHECK(inside.warnings().empty());
+    CHECK(points("outside").mesh().vertex_count() == 2);
+    const auto both = points("both");
+    REQUIRE(both.scene.parts.size() == 2);
+    CHECK(both.scene.parts[0].mesh.vertex_count() == 3);
+    CHECK(both.scene.parts[1].mesh.vertex_count() == 2);
+    for (const char* by : {"whole", "centre", "overlapping"})
+        CHECK(run_stage("crop", fmt::format("{{footprint: [[1, 0], [3, 0], [3, 2], [1, 2]], by: {}}}", by),
+                        scene_of(cloud))
+                  .mesh()
+                  .vertex_count() == 3);
+    CHECK(run_stage("crop", "[[10, 10], [11, 10], [11, 11]]", scene_of(cloud)).warnings() ==
+          std::vector<std::string>{"W-CROP-NOTHING"});
+    CHECK(run_stage("crop", "[[-9, -9], [9, -9], [9, 9], [-9, 9]]", scene_of(cloud)).warnings() ==
+          std::vector<std::string>{"W-CROP-ALL"});
 }

@@ -58,3 +58,20 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
               run_stage("section", "{spacing: 1%}", scene_of(point));
           }).starts_with("stage [E-SECTION] 'spacing' must be above zero"));
 }
+
+TEST_CASE("tile puts the points of a cloud into the cells", "[stages]") {
+    Mesh cloud;
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 5; ++x)
+            cloud.positions.push_back({static_cast<double>(x), static_cast<double>(y), 0});
+    const auto run = run_stage("tile", "2", scene_of(cloud));
+    REQUIRE(run.scene.parts.size() == 9); // 4 lies where the third tile begins
+    CHECK(run.scene.parts[0].name == "part.x0.y0");
+    CHECK(run.scene.parts[0].mesh.vertex_count() == 4);
+    CHECK(run.scene.parts[8].name == "part.x2.y2");
+    CHECK(run.scene.parts[8].mesh.positions == std::vector<Vec3>{{4, 4, 0}});
+    std::size_t points = 0;
+    for (const Part& part : run.scene.parts) points += part.mesh.vertex_count();
+    CHECK(points == 25);
+    CHECK(run.warnings().empty());
+}

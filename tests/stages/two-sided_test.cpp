@@ -15,3 +15,10 @@ TEST_CASE("two-sided marks materials", "[stages]") {
     CHECK(run.scene.parts[0].mesh.face_count() == 2);
     CHECK(run_stage("two-sided", "", scene_of(shapes::grid(1, 1))).scene.parts[0].mesh.face_count() == 4);
 }
+
+TEST_CASE("two-sided and thicken make no second points of a cloud", "[stages]") {
+    Mesh cloud;
+    cloud.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    CHECK(run_stage("two-sided", "", scene_of(cloud)).mesh().vertex_count() == 3);
+    CHECK(run_stage("thicken", "1", scene_of(cloud)).mesh().vertex_count() == 3);
+}

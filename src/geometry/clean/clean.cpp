@@ -124,7 +124,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.open_components) did(remove_open_components(work));
     if (s.components) did(remove_components(work, *s.components));
     if (s.inner_components) did(remove_inner_components(work));
-    if (s.isolated) did(remove_isolated(work));
+    if (s.isolated && !work.cloud) did(remove_isolated(work));
     return changed;
 }
 
@@ -147,6 +147,7 @@ CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     Work work;
     work.mesh = std::move(mesh);
     work.budget = settings.budget;
+    work.cloud = work.mesh.face_count() == 0;
     CleanResult result;
     ShareOfRounds rounds;
     for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds, rounds.next())

@@ -23,6 +23,7 @@ struct Work {
     std::optional<std::vector<NotDone>> tangled = {};
     UntangleBudget budget = {};
     bool short_of_memory = false; ///< something was not tried for want of memory
+    bool cloud = false;           ///< there was no face to begin with: the vertices are what it has
 
     /// Whether so many intersecting pairs of faces may be processed.
     bool may_process(std::size_t pairs) const {

@@ -65,17 +65,20 @@ class Assembler {
     }
 
   private:
-    /// Elements on the kept side stay; those on the plane when a kept face has them.
+    /// Elements on the kept side stay; those on the plane when a kept face has them. Of a cloud of points,
+    /// those on the plane are in front.
     void number_elements() {
+        const bool cloud = from_.corner_count() == 0;
         std::vector<std::uint8_t> wedge_used, vertex_used;
         if (cut_.on_count > 0) find_used(wedge_used, vertex_used);
         wedges_ = renumber(from_.wedge_count(), [&](std::size_t w) {
             const int s = cut_.signs[from_.vertex_of_wedge(static_cast<Index>(w))];
-            return s == 0 ? wedge_used[w] != 0 : s == side_;
+            return s == 0 ? (cloud ? side_ > 0 : wedge_used[w] != 0) : s == side_;
         });
         if (from_.has_seams())
             vertices_ = renumber(from_.vertex_count(), [&](std::size_t v) {
-                return cut_.signs[v] == 0 ? vertex_used[v] != 0 : cut_.signs[v] == side_;
+                const int s = cut_.signs[v];
+                return s == 0 ? (cloud ? side_ > 0 : vertex_used[v] != 0) : s == side_;
             });
     }
     void find_used(std::vector<std::uint8_t>& wedge_used, std::vector<std::uint8_t>& vertex_used) {

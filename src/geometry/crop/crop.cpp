@@ -27,6 +27,10 @@ class Cropper {
     CropResult run() {
         result_.memory = settings_.memory;
         look();
+        if (mesh_.face_count() == 0) {
+            keep_points();
+            return std::move(result_);
+        }
         if (settings_.by == CropBy::cut)
             cut();
         else
@@ -116,6 +120,17 @@ class Cropper {
             return most != OutlineMeeting::crossing;
         });
         return most;
+    }
+
+    /// Of a cloud: those on the outline are inside, so that each is on one side.
+    void keep_points() {
+        std::vector<std::uint8_t> goes(mesh_.vertex_count());
+        for (std::size_t v = 0; v < goes.size(); ++v)
+            goes[v] = !view_.kept(places_[v] == Place::outside ? Place::outside : Place::inside);
+        result_.mesh = mesh_;
+        drop_unused(result_.mesh, goes);
+        result_.changed = result_.mesh.vertex_count() < mesh_.vertex_count();
+        result_.changes = kept_changes(mesh_.attributes);
     }
 
     // --- by whole faces

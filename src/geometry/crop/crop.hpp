@@ -60,13 +60,14 @@ Vec2 seen_along(std::size_t axis, const Vec3& p);
 /// the exact signs of side(), and those of a segment are remembered to be on its plane; neighbours get them
 /// too, so no crack opens. Each piece is then inside or outside by a point in its middle, faces seen edge-on
 /// along the outline by the side that they look to. Attributes as for clip.
-/// Vertices that no kept face uses go, isolated ones too. Kept faces come in their order, those beside the
-/// outline last. Throws usage (E-FOOTPRINT) when inside_by needs a convex ring and there is none such.
-/// Capped, a closed mesh stays closed: walls stand on the outline and on its holes, and those of the inside
-/// and of the outside are the same triangles, turned; so the volumes of the two sides add up. Of an open mesh
-/// the contours that close get walls (see close_crop). Throws stage (E-CROP-CAP) when a closed mesh cannot be
-/// closed. Inside is decided as by P. Bourke, "Determining if a point lies on the interior of a polygon"
-/// (1987).
+/// Vertices that no kept face uses go, isolated ones too; of a mesh without faces, a cloud of points, those
+/// on the kept side stay, and those on the outline count as inside. Kept faces come in their order, those
+/// beside the outline last. Throws usage (E-FOOTPRINT) when inside_by needs a convex ring and there is none
+/// such. Capped, a closed mesh stays closed: walls stand on the outline and on its holes, and those of the
+/// inside and of the outside are the same triangles, turned; so the volumes of the two sides add up. Of an
+/// open mesh the contours that close get walls (see close_crop). Throws stage (E-CROP-CAP) when a closed mesh
+/// cannot be closed. Inside is decided as by P. Bourke, "Determining if a point lies on the interior of a
+/// polygon" (1987).
 CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
 
 /// The inside and the outside, whatever settings.keep is: their walls match also where snap cannot close one

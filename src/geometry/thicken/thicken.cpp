@@ -418,6 +418,12 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
 } // namespace
 
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
+    if (mesh.face_count() == 0) {
+        ThickenResult same;
+        same.mesh = mesh;
+        same.changes = kept_changes(mesh.attributes);
+        return same;
+    }
     const Connectivity connectivity = connectivity_of(mesh);
     if (connectivity.crowded_edges == 0 && connectivity.non_manifold_vertices == 0)
         return thicken_sheets(mesh, s);
@@ -526,9 +532,8 @@ std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
 } // namespace
 
 TwoSidedResult two_sided(const Mesh& mesh) {
-    const auto done = faces_with_back(mesh);
-    if (mesh.face_count() > 0 && std::count(done.begin(), done.end(), 0) == 0)
-        return {mesh, kept_changes(mesh.attributes)};
+    const auto done = faces_with_back(mesh); // of points alone there is no back
+    if (std::count(done.begin(), done.end(), 0) == 0) return {mesh, kept_changes(mesh.attributes)};
     std::vector<std::uint8_t> open(mesh.vertex_count(), 0);
     for (const BoundaryEdge& e : boundary_edges(mesh)) open[e.from] = open[e.to] = 1;
     std::vector<Index> back(mesh.vertex_count()), copies;

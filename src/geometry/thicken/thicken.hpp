@@ -60,8 +60,8 @@ struct ThickenResult {
 /// is unless `resolve` is set: the solid is right where turned, self_intersections and buried are 0, and thin
 /// where the wall is. Wedges of the back have normals turned; walls have their own when the mesh has normals.
 /// Requires a consistently oriented surface to be closed afterwards. Sheets that meet at an edge of more than
-/// two faces, or only at a vertex, are taken apart first, as clean does: each becomes a solid of its own. O(n
-/// log n).
+/// two faces, or only at a vertex, are taken apart first, as clean does: each becomes a solid of its own. A
+/// mesh without faces stays as it is. O(n log n).
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {

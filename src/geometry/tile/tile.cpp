@@ -19,7 +19,7 @@ struct CellRange {
 
 class Tiler {
   public:
-    explicit Tiler(const TileSettings& settings) : settings_(settings) {
+    Tiler(const TileSettings& settings, bool cloud) : settings_(settings), cloud_(cloud) {
         for (const TileAxis& a : settings.axes)
             if (!(a.size > 0) || !std::isfinite(a.size) || !std::isfinite(a.origin))
                 throw Error(ErrorKind::usage, "E-TILE", "a tile's size must be above zero");
@@ -28,7 +28,7 @@ class Tiler {
     /// within: the cells along this axis that the cuts so far leave. A point that rounding puts beyond a
     /// plane it was cut at stays on its side of it, so every cut leaves fewer cells and the recursion ends.
     TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, TileCell cell, CellRange within = {}) {
-        if (mesh.face_count() == 0) return {};
+        if (size_of(mesh) == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
         const TileAxis& a = settings_.axes[axis];
         CellRange cells = cells_of(mesh, a);
@@ -46,7 +46,7 @@ class Tiler {
         ClipResult halves = clip(std::move(mesh), settings);
         // A mesh that the plane only touches may reach over it by rounding in the world: it is in the cell
         // beside.
-        if (halves.front.face_count() == 0 || halves.back.face_count() == 0)
+        if (size_of(halves.front) == 0 || size_of(halves.back) == 0)
             return one_side(std::move(halves), axis, cell, middle, within);
         TileResult front, back;
         tbb::parallel_invoke(
@@ -60,6 +60,9 @@ class Tiler {
     }
 
   private:
+    /// What there is to be cut: faces, or the points of a cloud.
+    std::size_t size_of(const Mesh& mesh) const { return cloud_ ? mesh.vertex_count() : mesh.face_count(); }
+
     /// The number between the cells that halves evenly most often, 0 before all: so an edge on a border that
     /// both neighbours are cut along is cut in the same order in both, and its points are rounded alike.
     static double first_plane(const CellRange& cells) {
@@ -105,12 +108,14 @@ class Tiler {
         while (a.origin + r.low * a.size > least) --r.low;
         while (a.origin + (r.low + 1) * a.size <= least) ++r.low;
         while (a.origin + (r.high + 1) * a.size < most) ++r.high;
-        while (r.high > r.low && a.origin + r.high * a.size >= most) --r.high;
+        if (cloud_ && a.origin + (r.high + 1) * a.size <= most)
+            ++r.high; // a point on a plane is in front of it
+        while (!cloud_ && r.high > r.low && a.origin + r.high * a.size >= most) --r.high;
         return r;
     }
 
     TileResult one_side(ClipResult halves, std::size_t axis, TileCell cell, double middle, CellRange within) {
-        const bool front = halves.back.face_count() == 0;
+        const bool front = size_of(halves.back) == 0;
         Mesh& mesh = front ? halves.front : halves.back;
         const TileAxis& a = settings_.axes[axis];
         const CellRange cells = cells_of(mesh, a);
@@ -158,13 +163,15 @@ class Tiler {
     }
 
     const TileSettings& settings_;
+    const bool cloud_; ///< a mesh without faces: its points are put into the cells
     std::atomic<std::size_t> made_ = 0;
 };
 
 } // namespace
 
 TileResult tile(Mesh mesh, const TileSettings& settings) {
-    TileResult result = Tiler(settings).split(std::move(mesh), settings.clip.memory, 0, {});
+    const bool cloud = mesh.face_count() == 0;
+    TileResult result = Tiler(settings, cloud).split(std::move(mesh), settings.clip.memory, 0, {});
     std::sort(result.tiles.begin(), result.tiles.end(), [](const Tile& a, const Tile& b) {
         return std::tie(a.cell[2], a.cell[1], a.cell[0]) < std::tie(b.cell[2], b.cell[1], b.cell[0]);
     });

@@ -28,7 +28,7 @@ struct Tile {
 };
 
 struct TileResult {
-    std::vector<Tile> tiles; ///< that have faces, by z, then y, then x of their cells
+    std::vector<Tile> tiles; ///< that have faces (of a cloud: points), by z, then y, then x of their cells
     AttributeChanges changes;
     std::size_t cut_faces = 0, cap_faces = 0;
     std::vector<OpenContour> open;

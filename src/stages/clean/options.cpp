@@ -106,7 +106,8 @@ void declare_clean(Declare<CleanOptions>& d) {
              "Removes components that stay open (sheets, fins on a solid), where closed ones are left.");
     d.option("inner_components", &CleanOptions::inner_components,
              "Removes closed components that lie inside others.");
-    d.option("isolated", &CleanOptions::isolated, "Removes vertices that no face uses.");
+    d.option("isolated", &CleanOptions::isolated,
+             "Removes vertices that no face uses, but for those of a part without faces, a cloud of points.");
     d.option("tolerance", &CleanOptions::tolerance, "The distance for steps that are set to near.").above(0);
     d.choice<bool>(
         "precision", &CleanOptions::single,

@@ -12,7 +12,8 @@ vertex, shared by all faces at that edge. Triangles, quads and larger faces, con
 cut directly. A closed part that is capped stays closed in every case: after several planes in a
 row, when it is non-manifold, and when it intersects itself (where it covers a region twice, so does
 its cap). Points that a clip placed on a plane count as lying on it when the same plane is used
-again, in this stage or a later one, until a stage moves them.
+again, in this stage or a later one, until a stage moves them. Of a part without faces, a cloud of
+points, the points on the kept side stay; those on a plane are in front of it.
 
 Planes are given in world space; parts with a node transform are cut where they stand. A face of a
 closed part that lies in the plane is kept only when it faces away from what is kept. A contour that

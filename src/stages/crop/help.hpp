@@ -19,7 +19,8 @@ cap, closed parts become open. Positions that are 32-bit floats count as on the 
 are within the rounding of one float of the part's bounds, because the 0.1 of an STL is not the 0.1
 of a footprint. New vertices and wedges are interpolated, and the new faces copy the attributes of
 the face they come from. When whole faces are kept or removed, no attributes are interpolated;
-corners on the outline count as on either side.
+corners on the outline count as on either side. Of a part without faces, a cloud of points, the
+points on the kept side stay; those on the outline are inside.
 
 File formats of the footprint: GeoJSON (Polygon, MultiPolygon, and features and collections of
 them), WKT (POLYGON, MULTIPOLYGON), and text DXF (closed polylines and circles; arcs become segments

@@ -194,14 +194,17 @@ class CropRun {
     void warn(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
         constexpr const char* hint =
             "check the position of the footprint and the axis; info prints the bounds";
+        const bool cloud = faces == 0 && part.mesh.vertex_count() > 0;
         std::size_t left = 0;
         bool changed = false;
         for (const CropResult& r : sides) {
             warn_of_open("crop", part, r.open, context_);
-            left += r.mesh.face_count();
-            changed |= r.mesh.face_count() > 0 && r.changed;
+            const std::size_t kept = cloud ? r.mesh.vertex_count() : r.mesh.face_count();
+            left += kept;
+            changed |= kept > 0 && r.changed;
         }
-        if (faces > 0 && left == 0)
+        const bool any = faces > 0 || cloud;
+        if (any && left == 0)
             context_.warn(
                 "W-CROP-NOTHING",
                 fmt::format("crop: nothing of part '{}' was kept: {}", part.name, where_they_are(part)),
@@ -209,7 +212,7 @@ class CropRun {
                     ? "is the footprint in degrees? It is to have the coordinates of the mesh: "
                       "ogr2ogr -t_srs converts it"
                     : hint);
-        else if (faces > 0 && !changed)
+        else if (any && !changed)
             context_.warn(
                 "W-CROP-ALL",
                 fmt::format("crop: the outline does not cut part '{}'; all of it was kept", part.name), hint);

@@ -94,7 +94,7 @@ void declare_tile(DeclareFields<ReportedTile>& d) {
 }
 
 void declare_report(DeclareFields<TileReport>& d) {
-    d.list("tiles", &TileReport::tiles, "Each tile that has faces.", declare_tile);
+    d.list("tiles", &TileReport::tiles, "Each tile that has faces, or points of a cloud.", declare_tile);
     d.field("cut_faces", &TileReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &TileReport::cap_faces, "Faces of caps.");
     d.field("open_contours", &TileReport::open_contours,
@@ -144,7 +144,7 @@ class TileRun {
         report.open_contours += r.open.size();
         if (r.tiles.empty())
             context_.warn("W-TILE-NOTHING",
-                          fmt::format("tile: part '{}' has no faces and gives no tile", part.name));
+                          fmt::format("tile: part '{}' is empty and gives no tile", part.name));
         const auto cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         for (Tile& t : r.tiles) {
             Part& piece = parts.emplace_back(part);

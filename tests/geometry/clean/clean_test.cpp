@@ -354,7 +354,7 @@ TEST_CASE("clean removes isolated vertices", "[geometry]") {
     CHECK(cleaned(mesh).mesh.vertex_count() == 8);
 }
 
-TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
+TEST_CASE("clean takes an empty mesh, and leaves a cloud of points its points", "[geometry]") {
     CleanSettings s;
     s.holes = HoleSettings{};
     s.components = ComponentSettings{2, 0, 0, 0};
@@ -365,6 +365,9 @@ TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
     CHECK(cleaned({}, s).counts.total() == 0);
     Mesh points;
     points.positions = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+    CHECK(cleaned(points, s).mesh.vertex_count() == 2);
+    CHECK(cleaned(points, s).counts.isolated_vertices == 0);
+    points.corners = {0, 1, 2}; // a face, though one without area, makes a surface
     CHECK(cleaned(points, s).mesh.vertex_count() == 0);
 }
 
