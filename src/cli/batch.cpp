@@ -3,6 +3,7 @@
 #include "base/readable_numbers.hpp"
 #include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
+#include "cli/few_of_a_kind.hpp"
 #include "io/outputs.hpp"
 #include "report/form.hpp"
 
@@ -92,9 +93,11 @@ class BatchBar {
 
 /// What is told of an asset when it has ended, all at once.
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Console& console) {
+    FewOfAKind few(console);
     if (!out.kept)
-        for (const auto& warning : out.warnings) console.diagnostic(warning);
-    for (const auto& error : out.errors) console.diagnostic(error);
+        for (const auto& warning : out.warnings) few.tell(warning);
+    for (const auto& error : out.errors) few.tell(error);
+    few.finish();
     console.event({{"level", "info"},
                    {"event", "asset"},
                    {"asset", asset.name},

@@ -9,6 +9,7 @@
 #include "base/spelling.hpp"
 #include "base/words.hpp"
 #include "cli/depfile.hpp"
+#include "cli/few_of_a_kind.hpp"
 #include "docs/ready.hpp"
 #include "io/output_files.hpp"
 #include "io/outputs.hpp"
@@ -400,9 +401,11 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     settings.on_kept_cells = [&](const std::string& what) { console.say(what); };
     settings.check_invariants = options.check_invariants;
     const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::inputs_of_steps(plan); });
-    const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };
+    FewOfAKind few(console);
+    const auto tell = [&](const Diagnostic& d) { few.tell(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
-    settings.on_stage = [&](const report::StageRecord& stage) {
+    settings.on_stage = [&](const report::StageRecord& stage) { // its warnings come afterwards
+        few.finish();
         tell_stage(stage, "", console);
         if (console.verbose) tell_resolved(stage, console);
     };
@@ -429,6 +432,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (store) pipeline::remember(trace, plan, pipeline_file, record.exit_code == 0, *store);
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);
+    few.finish();
     summarise(record, console);
     if (!options.explain) tell_recalled(trace, console);
     const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else said already

@@ -30,6 +30,7 @@ std::string face_change(const StageRecord& stage) {
 }
 
 enum class Form { report, terminal };
+constexpr std::size_t most_lines = 20; ///< of a stage on a terminal
 
 void add_warning(const Diagnostic& warning, const std::string& lead, std::string& out) {
     out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
@@ -46,7 +47,12 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, const Pai
         out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
     else
         out += fmt::format("  {}  {}\n", name, face_change(stage));
-    for (const auto& line : stage.said) out += fmt::format("{}  {}\n", lead, line);
+    const std::size_t told =
+        form == Form::terminal ? std::min(stage.said.size(), most_lines) : stage.said.size();
+    for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, stage.said[i]);
+    if (told < stage.said.size())
+        out += fmt::format("{}  and {} more lines, which --report run.txt has\n", lead,
+                           grouped(stage.said.size() - told));
     if (form == Form::terminal) return;
     for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }

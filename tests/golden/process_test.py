@@ -733,6 +733,24 @@ class Process(Case):
             run = subprocess.run([str(FACETMILL), "info", "-"], stdin=zero, capture_output=True, text=True, timeout=60)
         self.assertEqual(run.returncode, 7, run.stderr)
 
+    def test_many_messages_that_are_alike_are_told_as_ten(self):
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        text = ""
+        for i in range(30):
+            text += f"o box{i}\n" + "".join(f"v {x + 2 * i} {y} {z}\n" for x, y, z in corners)
+            text += "".join("f " + " ".join(str(8 * i + k + 1) for k in side) + "\n" for side in sides)
+        scene = self.write("boxes.obj", text)
+        words = ["load", scene, "!", "simplify", "--faces", "100000", "--share", "equal", "!", "thicken", "0.1", "!", "write", "o.ply"]
+        told = self.mill("pipe", "--report", "r.json", *words).stderr
+        self.assertEqual(told.count("at or below the target"), 10)
+        self.assertIn("warning[W-SIMPLIFY-NOTHING]: 20 more like these", told)
+        self.assertIn("and 10 more lines, which --report run.txt has", told)
+        stages = {s["name"]: s for s in json.loads((self.dir / "r.json").read_text())["stages"]}
+        self.assertEqual(len(stages["simplify"]["warnings"]), 30)
+        lines = self.mill("pipe", "--log", "json", *words).stderr.splitlines()
+        self.assertEqual(sum("W-SIMPLIFY-NOTHING" in line for line in lines), 30)
+
 
 class Save(Case):
     def check_saved(self, target, *line):

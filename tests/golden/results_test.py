@@ -57,7 +57,7 @@ RUNS = [
     "load crossed.off ! section z=0.5",
     "load cubes.obj --unit mm --up z ! write o.3mf --origin 1,2,3",
     "load flipped.off ! clean --holes minimal",
-    "load cubes.obj ! transform --unit mm ! merge ! separate ! two-sided ! two-sided material",
+    "load cubes.obj ! transform --unit mm --fit 12 ! merge ! separate ! two-sided ! two-sided material",
     "load cubes.obj ! merge body --weld ! orient ! triangulate quads ! triangulate ! ensure --closed",
     "load cubes.obj ! relax 2 ! relax --until 1% ! crumple 1% --self_intersections avoid ! crumple --grid 1",
     "load cubes.obj ! triangulate ! split ! split --max_edge 0.4 ! split --min_angle 40deg ! split --max_faces 300",

@@ -192,3 +192,32 @@ TEST_CASE("crop keeps the points of a cloud, each on one side", "[stages]") {
     CHECK(run_stage("crop", "[[-9, -9], [9, -9], [9, 9], [-9, 9]]", scene_of(cloud)).warnings() ==
           std::vector<std::string>{"W-CROP-ALL"});
 }
+
+TEST_CASE(
+    "crop and clip say how many parts of a scene stay whole and how many go, and warn when that is so of all",
+    "[stages]") {
+    Scene scene;
+    for (int i = 0; i < 5; ++i) {
+        Part& part = scene.parts.emplace_back();
+        part.name = fmt::format("house{}", i);
+        part.mesh = shapes::cube();
+        part.transform.m[0][3] = 2.0 * i;
+    }
+    const auto crop = [&](const char* outline) { return run_stage("crop", outline, scene); };
+    const auto some = crop("[[1.5, -1], [6.5, -1], [6.5, 2], [1.5, 2]]");
+    CHECK(some.warnings().empty());
+    CHECK(some.record.result["untouched_parts"] == 2);
+    CHECK(some.record.result["emptied_parts"] == 2);
+    CHECK(crop("[[90, 0], [91, 0], [91, 1]]").record.warnings.at(0).message ==
+          "crop: nothing of any of 5 parts was kept: the footprint reaches from (90, 0) to (91, 1), the "
+          "scene from (0, 0) to "
+          "(9, 1)");
+    CHECK(crop("[[-9, -9], [99, -9], [99, 99], [-9, 99]]").record.warnings.at(0).message ==
+          "crop: the outline does not cut any of 5 parts; all of it was kept");
+    const auto clip = run_stage("clip", "x=4.5", scene);
+    CHECK(clip.warnings().empty());
+    CHECK(clip.record.result["untouched_parts"] == 2);
+    CHECK(clip.record.result["emptied_parts"] == 2);
+    CHECK(run_stage("clip", "x=50", scene).warnings() == std::vector<std::string>{"W-CLIP-NOTHING"});
+    CHECK(run_stage("clip", "x=-50", scene).warnings() == std::vector<std::string>{"W-CLIP-ALL"});
+}

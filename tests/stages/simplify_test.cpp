@@ -554,3 +554,9 @@ TEST_CASE("simplify: what the limit on the error and the sharing do not go with 
     CHECK(problems("{ratio: 10%, max_error: 1%, max_quadric_error: off}") == "");
     CHECK(problems("{ratio: 10%, method: cluster, share: equal}") == "");
 }
+
+TEST_CASE("simplify: as far as it goes within an error is what was asked for", "[stages]") {
+    const auto r = run_stage("simplify", options({{"max_error", "50%"}}), scene_of(shapes::icosphere(1)));
+    CHECK(r.mesh().face_count() == 4);
+    CHECK(r.warnings().empty());
+}

@@ -17,9 +17,9 @@ points, the points on the kept side stay; those on a plane are in front of it.
 
 Planes are given in world space; parts with a node transform are cut where they stand. A face of a
 closed part that lies in the plane is kept only when it faces away from what is kept. A contour that
-is not closed cannot be capped: it is reported (W-CAP-OPEN), and the others are capped. A plane that
-misses a part is reported (W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays as an
-empty part.
+is not closed cannot be capped: it is reported (W-CAP-OPEN), and the others are capped. Planes
+that miss every part are reported (W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays
+as an empty part.
 
 A box keeps what is inside it or, with keep: outside, what is around it; the two results fit
 together exactly, and with caps both are closed. The same holds for several planes with keep: both;

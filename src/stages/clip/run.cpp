@@ -3,6 +3,7 @@
 #include "stage/both_sides.hpp"
 #include "stage/options/box.hpp"
 #include "stage/options/cap.hpp"
+#include "stage/options/kept_parts.hpp"
 #include "stage/options/plane.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
@@ -42,6 +43,7 @@ struct PartsToClip {
 struct ClipReport {
     std::optional<std::vector<Plane>> planes; ///< in the world
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
+    KeptParts kept;
 };
 
 void declare(Declare<ClipOptions>& d) {
@@ -141,22 +143,22 @@ void declare_report(DeclareFields<ClipReport>& d) {
     d.field("on_plane", &ClipReport::on_plane, "Vertices that lie on a plane.");
     d.field("snapped", &ClipReport::snapped, "Those that do so within the rounding of float32.");
     d.field("remembered", &ClipReport::remembered, "Those that an earlier clip placed there.");
+    declare_kept_parts(d, &ClipReport::kept);
 }
 
-/// What users should know of a clip: open contours, everything kept, nothing kept.
-void warn(const Part& part, const ClipResult& r, bool had_faces, Context& context) {
-    warn_of_open("clip", part, r.open, context);
-    if (!r.changed && had_faces)
+/// What users should know when all or nothing of the scene was kept.
+void warn(const KeptParts& kept, Context& context) {
+    if (kept.are_all_untouched())
         context.warn("W-CLIP-ALL",
-                     fmt::format("clip: no plane cuts part '{}'; all of it was kept", part.name),
+                     fmt::format("clip: no plane cuts {}; all of it was kept", kept.any_of_them()),
                      "check the position and direction of the plane; info prints the bounds");
-    if (had_faces && r.front.face_count() + r.back.face_count() == 0)
-        context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of part '{}' was kept", part.name),
+    if (kept.are_all_emptied())
+        context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of {} was kept", kept.any_of_them()),
                      "check the position and direction of the plane; keep: back keeps the other side");
 }
 
 /// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Warns
-/// of open contours (W-CAP-OPEN), of parts that no plane met (W-CLIP-ALL) and of which nothing is left
+/// of open contours (W-CAP-OPEN), and where no plane meets any part (W-CLIP-ALL) or nothing is left of all
 /// (W-CLIP-NOTHING).
 ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
     ClipSettings settings = how.settings;
@@ -165,12 +167,15 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
     ClipReport report;
     if (!cutter.world().empty()) report.planes = cutter.world();
     context.for_each_part(scene, [&](Part& part) {
-        const bool had_faces = part.mesh.face_count() > 0;
+        const bool cloud = part.mesh.face_count() == 0;
+        const auto size = [cloud](const Mesh& m) { return cloud ? m.vertex_count() : m.face_count(); };
+        const std::size_t had = size(part.mesh);
         settings.planes = cutter.planes_for(part);
         settings.memory = part.cuts ? *part.cuts : CutMemory{};
         const auto apart = settings.snap ? seen_rounding(part.mesh) : std::nullopt;
         ClipResult r = clip(std::move(part.mesh), settings);
-        warn(part, r, had_faces, context);
+        warn_of_open("clip", part, r.open, context);
+        report.kept.add(part, had, size(r.front) + size(r.back), r.changed);
         if (apart && r.snapped > 0) warn_of_snapping(part.name, r.snapped, *apart, "a plane", context);
         context.attribute_changes(part, r.changes);
         report.cut_faces += r.cut_faces;
@@ -184,6 +189,7 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
         if (settings.keep == Keep::both) sides.part_in_two(part, how.front, how.back, std::move(r.back));
         part.mesh = std::move(settings.keep == Keep::back ? r.back : r.front);
     });
+    warn(report.kept, context);
     if (report.cap_faces > 0) add_material(scene, how.cap_material);
     sides.insert();
     return report;

@@ -3,6 +3,7 @@
 #include "stage/both_sides.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
+#include "stage/options/kept_parts.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
 #include "stages/crop/footprint.hpp"
@@ -30,6 +31,7 @@ struct CropReport {
     std::string axis;
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, snapped = 0, faces_before = 0,
                 faces_after = 0;
+    KeptParts kept;
 };
 
 enum class Axis { up, x, y, z };
@@ -102,6 +104,7 @@ void declare_report(DeclareFields<CropReport>& d) {
             "Vertices that count as on the outline within the rounding of float32.");
     d.field("faces_before", &CropReport::faces_before, "Faces of the input.");
     d.field("faces_after", &CropReport::faces_after, "Faces that remain, on both sides with keep: both.");
+    declare_kept_parts(d, &CropReport::kept);
 }
 
 class CropRun {
@@ -117,6 +120,7 @@ class CropRun {
         report_.footprint_area = footprint_.area();
         report_.axis = std::string(1, "xyz"[settings_.axis]);
         context_.for_each_part(scene_, [&](Part& part) { crop_part(part); });
+        warn();
         if (report_.cap_faces > 0) add_material(scene_, cap_material);
         sides_.insert();
         return report_;
@@ -132,7 +136,7 @@ class CropRun {
             sides = crop_both(part.mesh, footprint_, settings_);
         else
             sides.push_back(crop(part.mesh, footprint_, settings_));
-        warn(part, sides, faces);
+        note(part, sides, faces);
         if (const auto apart = sides[0].snapped > 0 ? seen_rounding(part.mesh) : std::nullopt)
             warn_of_snapping(part.name, sides[0].snapped, *apart, "the outline", context_);
         report_.faces_before += faces;
@@ -161,6 +165,10 @@ class CropRun {
             high[0] = std::max(high[0], u);
             high[1] = std::max(high[1], v);
         }
+        void add(const Bounds& b) {
+            add(b.low[0], b.low[1]);
+            add(b.high[0], b.high[1]);
+        }
         std::string text() const {
             return fmt::format("({:.10g}, {:.10g}) to ({:.10g}, {:.10g})", low[0], low[1], high[0], high[1]);
         }
@@ -183,17 +191,13 @@ class CropRun {
         }
         return b;
     }
-    std::string where_they_are(const Part& part) const {
-        return fmt::format("the footprint reaches from {}, the part from {}", bounds_of_footprint().text(),
-                           bounds_of(part).text());
+    std::string where_they_are() const {
+        return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of_footprint().text(),
+                           report_.kept.all() == 1 ? "part" : "scene", emptied_.text());
     }
-    bool is_in_degrees(const Part& part) const {
-        return bounds_of_footprint().is_in_degrees() && !bounds_of(part).is_in_degrees();
-    }
+    bool is_in_degrees() const { return bounds_of_footprint().is_in_degrees() && !emptied_.is_in_degrees(); }
 
-    void warn(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
-        constexpr const char* hint =
-            "check the position of the footprint and the axis; info prints the bounds";
+    void note(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
         const bool cloud = faces == 0 && part.mesh.vertex_count() > 0;
         std::size_t left = 0;
         bool changed = false;
@@ -203,19 +207,26 @@ class CropRun {
             left += kept;
             changed |= kept > 0 && r.changed;
         }
-        const bool any = faces > 0 || cloud;
-        if (any && left == 0)
+        report_.kept.add(part, cloud ? part.mesh.vertex_count() : faces, left, changed);
+        if (left == 0) emptied_.add(bounds_of(part));
+    }
+
+    void warn() {
+        constexpr const char* hint =
+            "check the position of the footprint and the axis; info prints the bounds";
+        const KeptParts& kept = report_.kept;
+        if (kept.are_all_emptied())
             context_.warn(
                 "W-CROP-NOTHING",
-                fmt::format("crop: nothing of part '{}' was kept: {}", part.name, where_they_are(part)),
-                is_in_degrees(part)
-                    ? "is the footprint in degrees? It is to have the coordinates of the mesh: "
-                      "ogr2ogr -t_srs converts it"
-                    : hint);
-        else if (any && !changed)
+                fmt::format("crop: nothing of {} was kept: {}", kept.any_of_them(), where_they_are()),
+                is_in_degrees() ? "is the footprint in degrees? It is to have the coordinates of the mesh: "
+                                  "ogr2ogr -t_srs converts it"
+                                : hint);
+        else if (kept.are_all_untouched())
             context_.warn(
                 "W-CROP-ALL",
-                fmt::format("crop: the outline does not cut part '{}'; all of it was kept", part.name), hint);
+                fmt::format("crop: the outline does not cut {}; all of it was kept", kept.any_of_them()),
+                hint);
     }
 
     Scene& scene_;
@@ -224,11 +235,12 @@ class CropRun {
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
+    Bounds emptied_; ///< around the parts of which nothing was kept
     CropReport report_;
 };
 
-/// Crops the parts selected. Warns of open contours (W-CAP-OPEN), of parts
-/// that the outline does not meet (W-CROP-ALL) and of which nothing is left (W-CROP-NOTHING).
+/// Crops the parts selected. Warns of open contours (W-CAP-OPEN), and where the outline meets no part
+/// (W-CROP-ALL) or nothing is left of all (W-CROP-NOTHING).
 CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
     return CropRun(scene, footprint, how, context).run(how.cap_material);
 }

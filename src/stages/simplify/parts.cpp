@@ -426,7 +426,9 @@ class Simplifier {
     void take(Part& part, std::size_t number, std::size_t number_of_level, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
-        warn_of_stop(part, r, asks_for_less(number_of_level), context_);
+        const bool has_target = o_.lods || o_.ratio || o_.faces || o_.vertices;
+        if (has_target || r.stop != Stop::stuck) // as far as it goes within the error is what was asked for
+            warn_of_stop(part, r, asks_for_less(number_of_level), context_);
         if (r.stop == Stop::max_quadric_error) limited_.push_back({part.name, r.faces_before, r.faces_after});
         const double scale = greatest_stretch(part.transform);
         SimplifiedPart entry;

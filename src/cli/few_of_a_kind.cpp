@@ -1,0 +1,38 @@
+#include "cli/few_of_a_kind.hpp"
+
+#include "base/readable_numbers.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr std::size_t most = 10;
+
+std::string kind_of(const Diagnostic& d) {
+    return fmt::format("{} {} {}", static_cast<int>(d.severity), d.id, to_string(d.where));
+}
+
+} // namespace
+
+void FewOfAKind::tell(const Diagnostic& diagnostic) {
+    if (console_.json) return console_.diagnostic(diagnostic);
+    Kind& kind = kinds_[kind_of(diagnostic)];
+    if (++kind.count <= most)
+        console_.diagnostic(diagnostic);
+    else
+        kind.last = diagnostic;
+}
+
+void FewOfAKind::finish() {
+    for (auto& [name, kind] : kinds_) {
+        if (kind.count <= most) continue;
+        kind.last.message = fmt::format("{} more like these", grouped(kind.count - most));
+        kind.last.hint = "a report lists them all: --report run.json";
+        console_.diagnostic(kind.last);
+    }
+    kinds_.clear();
+}
+
+} // namespace facetmill::cli
