@@ -114,14 +114,14 @@ class Walk {
             } catch (Error& error) { // an input that can no longer be read
                 headers.errors.push_back(error.at(step.where));
             }
+            // A stage that says what the numbers mean ends what is known here, for its own lengths too.
+            if (given_option(step, step.stage->roles.sets_unit)) unit.reset();
             if (step.stage->header)
                 load(step, unit);
             else if (unit == Unit::unknown)
                 refuse_units(step);
             else if (unit)
                 resolve_lengths(step, *unit);
-            // A stage that says what the numbers mean ends what is known here.
-            if (given_option(step, step.stage->roles.sets_unit)) unit.reset();
             if (step.ensure && unit == Unit::unknown) contract(*step.ensure);
         }
     }

@@ -115,6 +115,7 @@ TEST_CASE("a physical length on a scene without a unit is found before anything 
                        "the file (load: {unit: mm}), or use a bare number or a percentage");
     CHECK(ground.errors(std::string("  - load: {path: good.off, unit: mm}\n") + later).empty());
     CHECK(ground.errors(std::string("  - load: body.gltf\n") + later).empty());
+    CHECK(ground.errors("  - load: good.off\n  - transform: {unit: mm, fit: 12mm}\n").empty());
 }
 
 TEST_CASE("so is the length in the short form of a plane, where it stands", "[pipeline]") {
