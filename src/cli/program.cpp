@@ -128,15 +128,25 @@ std::string option_hint(const Command& command, const Arguments& arguments, cons
                         : fmt::format("did you mean '--{}'?", near);
 }
 
-/// For a command that takes a pipeline and was given stages as pipe takes them: batch a.obj ! simplify 50%.
-std::string hint_for(const Command& command, const CommandLine& line) {
+/// For a value too many. To a command that takes a pipeline, stages may have been given as pipe takes them
+/// (batch a.obj ! simplify 50%), or meshes as they stand (batch p.yaml *.obj).
+std::string hint_for(const Command& command, const Arguments& arguments, const std::string& extra,
+                     const CommandLine& line) {
     const auto& words = line.arguments();
-    if (std::find(words.begin(), words.end(), "!") == words.end())
-        return fmt::format("see facetmill {} --help", command.name);
-    return fmt::format(
-        "{} takes a pipeline file, which facetmill new FILE.yaml begins; stages separated by ! are "
-        "for facetmill pipe, which runs them for one input",
-        command.name);
+    if (std::find(words.begin(), words.end(), "!") != words.end())
+        return fmt::format(
+            "{} takes a pipeline file, which facetmill new FILE.yaml begins; stages separated by ! are "
+            "for facetmill pipe, which runs them for one input",
+            command.name);
+    if (arguments.find("--input"))
+        return fmt::format("meshes come behind --input: facetmill {} PIPELINE --input {} ...", command.name,
+                           extra);
+    if (arguments.find("-D"))
+        return fmt::format(
+            "meshes are params of the pipeline: facetmill {} PIPELINE -D input={}; facetmill batch "
+            "runs it for many",
+            command.name, extra);
+    return fmt::format("see facetmill {} --help", command.name);
 }
 
 /// What belongs to no argument. What begins with a dash is an unknown option; anything else is one value too
@@ -150,11 +160,12 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
             problems.add(line.find(extra), "E-OPTION",
                          fmt::format("'{}' has no option '{}'", command.name, name),
                          option_hint(command, arguments, name));
-        } else
-            problems.add(line.find(extra), "E-ARGUMENT",
-                         fmt::format("'{}' does not take '{}'", command.name, extra),
-                         hint_for(command, line));
-        if (extra == "!") break; // what follows is of it
+            continue;
+        }
+        problems.add(line.find(extra), "E-ARGUMENT",
+                     fmt::format("'{}' does not take '{}'", command.name, extra),
+                     hint_for(command, arguments, extra, line));
+        break; // what follows is of its kind
     }
     problems.throw_if_any(ErrorKind::usage);
 }
@@ -208,7 +219,7 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
         parsed = arguments.parse(command.name, command.about, std::move(words), command.the_rest);
     } catch (const std::invalid_argument& e) {
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
-                    hint_for(command, line), line.mark(0));
+                    hint_for(command, arguments, "FILE", line), line.mark(0));
     } catch (Error& e) {
         throw e.at(line.mark(0));
     }

@@ -64,8 +64,10 @@ class Builder : public YAML::EventHandler {
 
     void OnDocumentStart(const YAML::Mark& mark) override {
         if (!second_document) return;
+        const std::string mesh = hint_for_no_pipeline(source_.name());
         problems_.add(source_.mark(offset(mark)), "E-YAML", "a second document begins here",
-                      "one file holds one pipeline; remove the '---' or make two files");
+                      !mesh.empty() ? mesh
+                                    : "one file holds one pipeline; remove the '---' or make two files");
         throw Stop{};
     }
     void OnDocumentEnd() override {}

@@ -150,8 +150,10 @@ TEST_CASE("stages behind a command that takes a pipeline are answered with what 
               std::string::npos);
         CHECK(said.find("'batch' does not take '50%'") == std::string::npos); // once is enough
     }
-    CHECK(message({"batch", "a.yaml", "b.yaml", "-o", "out"}).find("hint: see facetmill batch --help") !=
+    const std::string two = message({"batch", "a.yaml", "b.ply", "c.ply", "-o", "out"});
+    CHECK(two.find("hint: meshes come behind --input: facetmill batch PIPELINE --input b.ply ...") !=
           std::string::npos);
+    CHECK(two.find("'batch' does not take 'c.ply'") == std::string::npos);
 }
 
 TEST_CASE("help of a word is that of docs", "[cli]") {
