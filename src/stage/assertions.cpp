@@ -141,6 +141,14 @@ bool hint_fits(const Property& property, const Bound& bound, const Properties& p
     return property.join == Join::least ? !(bound.max && *value > *bound.max)
                                         : !(bound.min && *value < *bound.min);
 }
+
+/// Whether what is measured, and not counted, is to be one number: hardly what was meant, unless it is 0.
+bool asks_exactly(const Property& property, const Bound& bound) {
+    using enum PropertyKind;
+    const bool measured = property.kind == number || property.kind == angle || property.kind == length ||
+                          property.kind == area || property.kind == volume;
+    return measured && bound.min && bound.max && *bound.min == *bound.max && *bound.min != 0;
+}
 } // namespace
 
 std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
@@ -159,7 +167,10 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
             check.max = assertion.bound.max;
         }
         check.passed = holds(assertion, properties).value_or(assertion.if_applies);
-        if (!check.passed && hint_fits(property, assertion.bound, properties)) check.hint = property.hint;
+        if (!check.passed && asks_exactly(property, assertion.bound))
+            check.hint = "a bare value asks for exactly that: min asks for at least, max for at most";
+        else if (!check.passed && hint_fits(property, assertion.bound, properties))
+            check.hint = property.hint;
         check.where = assertion.where;
         checks.push_back(std::move(check));
     }

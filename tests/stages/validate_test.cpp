@@ -394,3 +394,16 @@ TEST_CASE("validate warns instead, when asked", "[stages]") {
     const auto run = run_stage("validate", "{closed: true, severity: warn}", scene_of(shapes::grid(1, 1)));
     CHECK(run.state->record.checks.at(0).severity == Severity::warning);
 }
+
+TEST_CASE("validate says that a bare value of a measure is asked for exactly", "[stages]") {
+    const auto hint = [](const char* options) {
+        return run_stage("validate", options, scene_of(shapes::cube())).state->record.checks.at(0).hint;
+    };
+    const std::string exactly = "a bare value asks for exactly that: min asks for at least, max for at most";
+    CHECK(hint("{min_angle: 30}") == exactly);
+    CHECK(hint("{longest_edge: 2}") == exactly);
+    CHECK(hint("{volume: 2}") == exactly);
+    CHECK(hint("{min_angle: {min: 60}}") == "relax makes faces more regular");
+    CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // what is counted may well be one number
+    CHECK(hint("{volume: 0}") != exactly);
+}
