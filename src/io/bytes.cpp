@@ -42,7 +42,7 @@ struct Descriptor {
     if (error == EISDIR)
         throw Error(ErrorKind::missing, "E-DIRECTORY",
                     fmt::format("'{}' is a directory, expected a file", name),
-                    fmt::format("name a file in it; load takes patterns, too: load: '{}'",
+                    fmt::format("name a file in it, or (load, batch --input) many by a pattern: '{}'",
                                 (std::filesystem::path(name) / "*.ply").string()));
     throw Error(ErrorKind::missing, "E-FILE",
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));

@@ -131,8 +131,8 @@ TEST_CASE("inputs that are not there are refused", "[io]") {
             io::Input::open("no.step");
         }).starts_with("missing [E-FILE] there is no file 'no.step' | it is a CAD file of curved surfaces"));
     CHECK(failure([&] { Input::open(dir.path()); }) ==
-          fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | name a file in it; load "
-                      "takes patterns, too: load: '{0}/*.ply'",
+          fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | name a file in it, or "
+                      "(load, batch --input) many by a pattern: '{0}/*.ply'",
                       dir.path().string()));
 }
 
@@ -157,7 +157,8 @@ TEST_CASE("a directory in the place of a file leads to the files in it", "[io]")
         FAIL("it was opened");
     } catch (const Error& error) {
         CHECK(error.diagnostics().front().id == "E-DIRECTORY");
-        CHECK(error.diagnostics().front().hint == "name a file in it; load takes patterns, too: load: '" +
-                                                      (folder.path() / "*.ply").string() + "'");
+        CHECK(error.diagnostics().front().hint ==
+              "name a file in it, or (load, batch --input) many by a pattern: '" +
+                  (folder.path() / "*.ply").string() + "'");
     }
 }
