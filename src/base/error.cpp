@@ -1,5 +1,7 @@
 #include "base/error.hpp"
 
+#include "base/markup.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -113,10 +115,11 @@ std::string render(const Diagnostic& d, bool colour) {
                        : d.severity == Severity::warning ? "warning"
                                                          : "note";
     const char* paint = !colour ? "" : d.severity == Severity::error ? "\033[1;31m" : "\033[1;35m";
-    std::string text = d.where.known() ? to_string(d.where) + ": " : "facetmill: ";
-    text += fmt::format("{}{}[{}]{}: {}", paint, word, d.id, colour ? "\033[0m" : "", d.message);
-    if (d.where.known() && d.where.line > 0) text += excerpt(d.where);
-    if (!d.hint.empty()) text += fmt::format("\n  hint: {}", d.hint);
+    std::string text = d.where.known() ? for_terminal(to_string(d.where)) + ": " : "facetmill: ";
+    text +=
+        fmt::format("{}{}[{}]{}: {}", paint, word, d.id, colour ? "\033[0m" : "", for_terminal(d.message));
+    if (d.where.known() && d.where.line > 0) text += for_terminal(excerpt(d.where));
+    if (!d.hint.empty()) text += for_terminal(fmt::format("\n  hint: {}", d.hint));
     return text;
 }
 

@@ -47,6 +47,22 @@ std::string markdown_escaped(std::string_view text) {
     return out;
 }
 
+std::string for_terminal(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const auto c = static_cast<unsigned char>(text[at]);
+        const std::size_t length = utf8_length(text, at);
+        const bool c1 = length == 2 && c == 0xC2 && static_cast<unsigned char>(text[at + 1]) < 0xA0;
+        if (length == 0 || c1 || (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F)
+            out += '?';
+        else
+            out += text.substr(at, length);
+        at += length == 0 ? 1 : length;
+    }
+    return out;
+}
+
 std::string for_shell(std::string_view text) {
     static constexpr std::string_view plain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._/=:,%+@";

@@ -1,5 +1,5 @@
 #pragma once
-// Texts inside HTML, XML, Markdown and command lines.
+// Texts inside HTML, XML, Markdown, terminals and command lines.
 
 #include <string>
 #include <string_view>
@@ -17,6 +17,10 @@ std::string escaped_path(std::string_view path);
 /// The text in a paragraph or a cell of Markdown (GitHub's), where nothing of it is markup: in one line,
 /// characters of Markdown behind a backslash, those of HTML as escaped() has them.
 std::string markdown_escaped(std::string_view text);
+
+/// The text for a terminal, which would take control characters (of a mesh's names, of a source's line) for
+/// commands: each becomes '?', but for line ends and tabs; those of UTF-8 (C1) and bytes that are none, too.
+std::string for_terminal(std::string_view text);
 
 /// The text as one word for sh: as it is when nothing in it has a meaning, else in single quotes.
 std::string for_shell(std::string_view text);

@@ -44,8 +44,22 @@ std::string readable(double number) {
     return std::isfinite(number) ? fmt::format("{:.6g}", number) : "out of range";
 }
 
-std::string readable(const Vec3& point) {
-    return fmt::format("{} {} {}", readable(point.x), readable(point.y), readable(point.z));
+std::string readable_coordinate(double x) {
+    constexpr double most = 1e12; // beyond, decimals say nothing
+    if (!(std::abs(x) >= 1000 && std::abs(x) < most)) return readable(x);
+    std::string text = fmt::format("{:.3f}", x);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+std::string readable_pair(double x, double y) {
+    return fmt::format("{}, {}", readable_coordinate(x), readable_coordinate(y));
+}
+
+std::string readable(const Vec3& point, const char* between) {
+    return fmt::format("{1}{0}{2}{0}{3}", between, readable_coordinate(point.x), readable_coordinate(point.y),
+                       readable_coordinate(point.z));
 }
 
 } // namespace facetmill

@@ -19,7 +19,10 @@ std::string percentage(double percent, int digits = 3);
 
 /// Six digits, or "out of range".
 std::string readable(double number);
-std::string readable(const Vec3& point); ///< "0.5 1 2"
+/// Six digits and at least three decimals, so that a place far from the origin is found: "5334630.125".
+std::string readable_coordinate(double x);
+std::string readable(const Vec3& point, const char* between = " "); ///< "0.5 1 2", as readable_coordinate
+std::string readable_pair(double x, double y);                      ///< "0.5, 1", a place in a plane
 /// ... and "-" for none.
 template <class T>
 std::string readable(const std::optional<T>& value) {

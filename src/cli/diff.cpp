@@ -1,5 +1,6 @@
 // facetmill diff: two mesh files side by side, or two folders of them.
 
+#include "base/markup.hpp"
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
 #include "cli/command_steps.hpp"
@@ -94,7 +95,7 @@ int diff_of_files(const DiffOptions& options, const CommandLine& line, const Con
     print(options.json ? report::to_json(files.comparison, options.a, options.b)
                                  .dump(2, ' ', false, Json::error_handler_t::replace) +
                              "\n"
-                       : report::to_text(files.comparison, options.a, options.b, options.all));
+                       : for_terminal(report::to_text(files.comparison, options.a, options.b, options.all)));
     write_reports(options, files, console);
     return files.comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
 }

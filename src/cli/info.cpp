@@ -1,6 +1,8 @@
 // facetmill info: the properties of mesh files.
 
+#include "base/markup.hpp"
 #include "base/parallel.hpp"
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "cli/command.hpp"
 #include "cli/command_steps.hpp"
@@ -185,16 +187,15 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
     const auto posed = io::posed(scene);
     const Scene& seen = posed ? *posed : scene;
     if (const auto crowd = crowd_of(seen, settings))
-        console.diagnostic(
-            {Severity::warning,
-             "W-FAR",
-             fmt::format("{}: most of the scene is {:.2g} pixels wide in the picture, because "
-                         "something lies far off",
-                         mesh, crowd->pixels),
-             {},
-             fmt::format("facetmill render {} -o part.png --at {:.6g},{:.6g},{:.6g} --zoom {} "
-                         "shows it",
-                         mesh, crowd->middle.x, crowd->middle.y, crowd->middle.z, crowd->zoom)});
+        console.diagnostic({Severity::warning,
+                            "W-FAR",
+                            fmt::format("{}: most of the scene is {:.2g} pixels wide in the picture, because "
+                                        "something lies far off",
+                                        mesh, crowd->pixels),
+                            {},
+                            fmt::format("facetmill render {} -o part.png --at {} --zoom {} "
+                                        "shows it",
+                                        mesh, readable(crowd->middle, ","), crowd->zoom)});
     return picture_of(seen, settings);
 }
 
@@ -235,7 +236,9 @@ int info(const InfoOptions& options, const Console& console) {
         else
             text += as_text(mesh, info);
     }
-    if (options.json)
+    if (!options.json)
+        text = for_terminal(text);
+    else
         text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     if (!options.picture.empty()) write_picture(pictures, options.picture);
     steps.done();

@@ -81,8 +81,7 @@ void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, con
     const DirectedDeviation f = farthest(a, b), g = farthest(b, a);
     const auto& worst = f.maximum >= g.maximum ? f : g;
     std::string more = fmt::format(", {} and {} vertices without faces", isolated(a), isolated(b));
-    if (worst.maximum > 0 && std::isfinite(worst.maximum))
-        more += fmt::format(", farthest {:.6g} {:.6g} {:.6g}", worst.from.x, worst.from.y, worst.from.z);
+    if (worst.maximum > 0 && std::isfinite(worst.maximum)) more += ", farthest " + readable(worst.from);
     distances.line("isolated vertices maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
 }
 

@@ -53,7 +53,7 @@ std::string location_text(const EvidenceEntry& e) {
     if (e.face) text += fmt::format("face {} ", *e.face);
     if (e.with) text += fmt::format("and {} ", *e.with);
     if (e.of == EvidenceEntry::Of::part) text += fmt::format("of '{}' ", e.name);
-    text += fmt::format("at {:.6g} {:.6g} {:.6g}", e.at->x, e.at->y, e.at->z);
+    text += "at " + readable(*e.at);
     if (!e.attribute.empty()) text += fmt::format(" in {}", e.attribute);
     return text;
 }

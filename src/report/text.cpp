@@ -1,3 +1,4 @@
+#include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "report/check_text.hpp"
@@ -33,11 +34,11 @@ enum class Form { report, terminal };
 constexpr std::size_t most_lines = 20; ///< of a stage on a terminal
 
 void add_warning(const Diagnostic& warning, const std::string& lead, std::string& out) {
-    out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
+    out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, for_terminal(warning.message));
 }
 
 void add_stage(const StageRecord& stage, std::size_t width, Form form, const Paint& paint, std::string& out) {
-    const std::string name = fmt::format("{:<{}}", stage.name, width);
+    const std::string name = for_terminal(fmt::format("{:<{}}", stage.name, width));
     const std::string lead = fmt::format("  {:<{}}  ", "", width);
     if (stage.skipped) {
         out += fmt::format("  {}  {}\n", name, paint("2", "skipped"));
@@ -49,7 +50,7 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, const Pai
         out += fmt::format("  {}  {}\n", name, face_change(stage));
     const std::size_t told =
         form == Form::terminal ? std::min(stage.said.size(), most_lines) : stage.said.size();
-    for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, stage.said[i]);
+    for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, for_terminal(stage.said[i]));
     if (told < stage.said.size())
         out += fmt::format("{}  and {} more lines, which --report run.txt has\n", lead,
                            grouped(stage.said.size() - told));
@@ -70,8 +71,8 @@ void add_checks(const std::vector<Check>& checks, Form form, const Paint& paint,
         const std::string where = locations_text(c);
         out += fmt::format("  {} {} ({}{}): expected {}, found {}{}\n",
                            c.waived ? paint("2", outcome(c)) : outcome(c), c.name, c.stage,
-                           c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
-                           where.empty() ? "" : "; " + where);
+                           c.part.empty() ? "" : ", part " + for_terminal(c.part), c.expected, found_text(c),
+                           where.empty() ? "" : "; " + for_terminal(where));
     }
 }
 
@@ -107,7 +108,8 @@ std::string files_written(const std::vector<FileRecord>& files) {
 
 /// Name and stages, without an end.
 std::string begin(const RunRecord& record, Form form, const Paint& paint) {
-    std::string out = paint("1", record.pipeline) + (record.about.empty() ? "" : ": " + record.about) + "\n";
+    std::string out = paint("1", for_terminal(record.pipeline)) +
+                      (record.about.empty() ? "" : ": " + for_terminal(record.about)) + "\n";
     constexpr std::size_t widest = 40;
     std::size_t width = 8;
     for (const auto& stage : record.stages) width = std::max(width, stage.name.size());
@@ -115,7 +117,7 @@ std::string begin(const RunRecord& record, Form form, const Paint& paint) {
     if (form == Form::report)
         for (const auto& warning : record.warnings) add_warning(warning, "  ", out);
     add_checks(record.checks, form, paint, out);
-    return out + files_written(record.outputs);
+    return out + for_terminal(files_written(record.outputs));
 }
 
 /// After a failure; a report may fail after the outputs.

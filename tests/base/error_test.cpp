@@ -42,3 +42,15 @@ TEST_CASE("nearest names", "[base]") {
     CHECK(nearest("SIMPILFY", {"clip", "simplify"}) == "simplify");
     CHECK(edit_distance("ab", "ba") == 1);
 }
+
+TEST_CASE("a diagnostic passes no control characters of a file on to the terminal", "[base]") {
+    const auto source = std::make_shared<const SourceText>(SourceText{"a.yaml", "load: \x1b[31mred"});
+    Mark where;
+    where.source = source;
+    where.line = 1;
+    where.column = 7;
+    const std::string text = render({Severity::error, "E-X", "part '\x1b]0;t\x07'", where, "as \x1b"}, true);
+    CHECK(text.find("part '?]0;t?'\n  load: ?[31mred\n") != std::string::npos);
+    CHECK(text.ends_with("hint: as ?"));
+    CHECK(text.find("\033[1;31m") != std::string::npos); // its own
+}

@@ -22,3 +22,12 @@ TEST_CASE("a text in Markdown has no markup", "[base]") {
     CHECK(markdown_escaped("a|b *c* _d_ `e` [f](g) <h>\ni\\j") ==
           "a\\|b \\*c\\* \\_d\\_ \\`e\\` \\[f\\](g) &lt;h&gt; i\\\\j");
 }
+
+TEST_CASE("a text for a terminal has no commands for it", "[base]") {
+    CHECK(for_terminal("one\ttwo\nthree \xC3\xA4") == "one\ttwo\nthree \xC3\xA4");
+    CHECK(for_terminal("\x1b[31mred\r\x7f") == "?[31mred??");
+    CHECK(for_terminal("\xC2\x9b"
+                       "31m\xC2\xA0") == "?31m\xC2\xA0"); // the same command in one character
+    CHECK(for_terminal("a\xE4z") == "a?z");               // Latin-1
+    CHECK(for_terminal("\xC2") == "?");                   // cut short
+}

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/readable_numbers.hpp"
 #include "geometry/crop/crop.hpp"
 #include "geometry/crop/wall_panel.hpp"
 #include "geometry/cut/cap_paint.hpp"
@@ -119,11 +120,10 @@ AttributeChanges append_walls(Mesh& mesh, const WallFaces& faces) {
 
 [[noreturn]] void refuse(const Walls& walls, Index wall) {
     const auto& e = walls.edges()[wall];
-    throw UnclosedWalls(
-        ErrorKind::stage, "E-CROP-CAP",
-        fmt::format("the cut along the outline from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) cannot be closed",
-                    e.a.x, e.a.y, e.b.x, e.b.y),
-        "crop without cap, or move the outline a little");
+    throw UnclosedWalls(ErrorKind::stage, "E-CROP-CAP",
+                        fmt::format("the cut along the outline from ({}) to ({}) cannot be closed",
+                                    readable_pair(e.a.x, e.a.y), readable_pair(e.b.x, e.b.y)),
+                        "crop without cap, or move the outline a little");
 }
 
 /// The walls of the boundary's edges at each vertex.

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/predicates.hpp"
+#include "base/readable_numbers.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -47,11 +48,11 @@ void refuse_crossings(const RingTree& tree, polygon::Rings rings) {
             if (j <= i || ea * eb >= 0 || fa * fb >= 0) return true;
             const double a = cross(e.b - e.a, f.a - e.a), b = cross(e.b - e.a, f.b - e.a);
             const Vec2 at = f.a + (f.b - f.a) * (a / (a - b));
-            refuse(fmt::format("the footprint intersects itself near ({:.6g}, {:.6g}): {} and {}", at.x, at.y,
-                               fmt::format("the segment from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", e.a.x,
-                                           e.a.y, e.b.x, e.b.y),
-                               fmt::format("that from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", f.a.x, f.a.y,
-                                           f.b.x, f.b.y)),
+            refuse(fmt::format("the footprint intersects itself near ({}): the segment from ({}) to ({}) and "
+                               "that from ({}) to ({})",
+                               readable_pair(at.x, at.y), readable_pair(e.a.x, e.a.y),
+                               readable_pair(e.b.x, e.b.y), readable_pair(f.a.x, f.a.y),
+                               readable_pair(f.b.x, f.b.y)),
                    "repair the outline, or crop by its simple parts one after the other");
         });
 }

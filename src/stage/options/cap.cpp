@@ -1,5 +1,6 @@
 #include "stage/options/cap.hpp"
 
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "mesh/placement.hpp"
 
@@ -23,8 +24,8 @@ void warn_of_open(std::string_view stage, const Part& part, const std::vector<Op
         const Vec3 at = in_world(part, contour.at);
         context.warn("W-CAP-OPEN",
                      fmt::format("{}: a contour of {} of part '{}' is open and was not capped; it ends at "
-                                 "({:.6g}, {:.6g}, {:.6g})",
-                                 stage, counted(contour.edges, "edge"), part.name, at.x, at.y, at.z),
+                                 "({})",
+                                 stage, counted(contour.edges, "edge"), part.name, readable(at, ", ")),
                      "the part has a hole where the plane cuts it: fill it first (clean: {holes: minimal})");
     }
 }

@@ -1,3 +1,4 @@
+#include "base/readable_numbers.hpp"
 #include "base/spelling.hpp"
 #include "geometry/clean/combine.hpp"
 #include "geometry/cut/cap_paint.hpp"
@@ -133,7 +134,7 @@ Mesh in_space_of(const Part& space, const Part& part) {
 [[noreturn]] void fail(const CombineFailure& failure, const std::vector<const Part*>& parts,
                        bool short_of_memory) {
     const Vec3 at = parts[0]->transform.point(failure.at);
-    const std::string place = fmt::format("{:.6g}, {:.6g}, {:.6g}", at.x, at.y, at.z);
+    const std::string place = readable(at, ", ");
     if (failure.mesh != none)
         refuse(*parts[failure.mesh], fmt::format("is no solid: {}, at {}", failure.why, place),
                "clean: {holes: minimal} closes it, clean repairs its faces, orient turns it outward");

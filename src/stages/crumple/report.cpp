@@ -1,6 +1,7 @@
 #include "stages/crumple/report.hpp"
 
 #include "base/numbers.hpp"
+#include "base/readable_numbers.hpp"
 #include "mesh/face.hpp"
 #include "mesh/placement.hpp"
 
@@ -77,11 +78,10 @@ void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> pa
     const Vec3 p = place_of(work, r.first.first);
     throw Error(
         ErrorKind::stage, "E-INTERSECTS",
-        fmt::format("crumple: {}{} pairs of {} would intersect, first {} of part '{}', near ({:.6g}, {:.6g}, "
-                    "{:.6g})",
+        fmt::format("crumple: {}{} pairs of {} would intersect, first {} of part '{}', near ({})",
                     r.at_least ? "at least " : "", r.found, grid > 1 ? "subdivided faces" : "faces",
                     a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
-                    work.part->name, p.x, p.y, p.z),
+                    work.part->name, readable(p, ", ")),
         "use self_intersections: avoid, or a smaller amplitude");
 }
 

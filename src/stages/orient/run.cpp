@@ -1,5 +1,6 @@
 #include "geometry/orient/orient.hpp"
 
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "mesh/placement.hpp"
 #include "stage/stage.hpp"
@@ -77,8 +78,8 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
         context.warn(
             "W-ORIENT",
             fmt::format("orient: {} of part '{}' cannot be oriented, like a Moebius strip, and stayed "
-                        "as before; neighbours cannot be consistent at ({:.6g}, {:.6g}, {:.6g})",
-                        counted(crossed, "component"), part.name, at.x, at.y, at.z),
+                        "as before; neighbours cannot be consistent at ({})",
+                        counted(crossed, "component"), part.name, readable(at, ", ")),
             "cut it there, or use two-sided");
     }
     if (undecided > 0)

@@ -1,4 +1,5 @@
 #include "base/progress.hpp"
+#include "base/readable_numbers.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/gltf/pose.hpp"
@@ -133,9 +134,9 @@ void warn_of_crowd(const Scene& scene, const PictureSettings& settings, Context&
         "W-FAR",
         fmt::format("render: most of the scene is {:.2g} pixels wide, because something lies far off",
                     crowd->pixels),
-        fmt::format("render: {{path: near.png, at: [{:.6g}, {:.6g}, {:.6g}], zoom: {}}} shows it; clean: "
+        fmt::format("render: {{path: near.png, at: [{}], zoom: {}}} shows it; clean: "
                     "{{components: {{keep: 1}}}} leaves out what does not hang together with it",
-                    p.x, p.y, p.z, crowd->zoom));
+                    readable(p, ", "), crowd->zoom));
 }
 
 Picture taken(const RenderOptions& o, const Scene& given, const Subject& subject, Context& context) {

@@ -1,4 +1,5 @@
 #include "stages/thicken/report.hpp"
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 
 #include <fmt/format.h>
@@ -131,9 +132,8 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, c
         context.warn(
             "W-THICKEN",
             fmt::format("thicken: {} faces of the walls of part '{}' are inverted, the first at "
-                        "{:.6g} {:.6g} {:.6g}: there is no room for {:.6g}",
-                        r.turned, part.name, r.first_turned->x, r.first_turned->y, r.first_turned->z,
-                        thickness),
+                        "{}: there is no room for {:.6g}",
+                        r.turned, part.name, readable(*r.first_turned), thickness),
             way_out +
                 "use a smaller thickness, the other side, or larger and smoother faces (simplify, relax)");
     if (r.buried > 0)
