@@ -22,6 +22,8 @@ CUBES = "".join(
     for n, (name, x) in enumerate((("a", 0), ("b", 3))))
 OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
 FLIPPED = OPEN.replace("3 2 0 3", "3 0 2 3")  # one face is turned round
+HOURGLASS = ("OFF\n7 8 0\n0 0 0\n1 0 1\n0 1 1\n-1 -1 1\n1 0 -1\n0 1 -1\n-1 -1 -1\n"
+             "3 0 2 1\n3 0 3 2\n3 0 1 3\n3 1 2 3\n3 0 4 5\n3 0 5 6\n3 0 6 4\n3 4 6 5\n")  # they touch at a vertex
 CROSSED = "OFF\n8 6 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (2, 2), (2, 0), (0, 1))) + (
     "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n4 3 2 1 0\n4 4 5 6 7\n")  # a prism over a bow tie
 
@@ -57,6 +59,7 @@ RUNS = [
     "load crossed.off ! section z=0.5",
     "load cubes.obj --unit mm --up z ! write o.3mf --origin 1,2,3",
     "load flipped.off ! clean --holes minimal",
+    "load hourglass.off ! clean --precision single",
     "load cubes.obj ! transform --unit mm --fit 12 ! merge ! separate ! two-sided ! two-sided material",
     "load cubes.obj ! merge body --weld ! orient ! triangulate quads ! triangulate ! ensure --closed",
     "load cubes.obj ! relax 2 ! relax --until 1% ! crumple 1% --self_intersections avoid ! crumple --grid 1",
@@ -111,6 +114,7 @@ class Results(Case):
         self.write("cubes.obj", CUBES)
         self.write("open.off", OPEN)
         self.write("flipped.off", FLIPPED)
+        self.write("hourglass.off", HOURGLASS)
         self.write("crossed.off", CROSSED)
         self.write("textured.gltf", json.dumps(TEXTURED))
         # Two grids of 4 x 4 quads that share an edge.

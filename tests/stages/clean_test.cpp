@@ -32,6 +32,22 @@ TEST_CASE("clean reports what each step did", "[stages]") {
     CHECK(run.record.warnings.empty());
 }
 
+TEST_CASE("clean says what it moved apart; asking for it needs 32-bit coordinates", "[stages]") {
+    const auto run = run_stage("clean", "{precision: single}", scene_of(shapes::hourglass()));
+    const auto& part = run.record.result["parts"][0];
+    CHECK(part["changed"] == true);
+    CHECK(part["moved_apart"] == 1);
+    CHECK(part["farthest_apart"] > 0);
+    CHECK(part["farthest_apart"] < 1e-6);
+    CHECK(run.record.warnings.empty());
+    const auto plain = run_stage("clean", "{precision: single, apart: false}", scene_of(shapes::hourglass()));
+    CHECK(plain.record.result["parts"][0]["moved_apart"] == 0);
+    CHECK(!plain.record.result["parts"][0].contains("farthest_apart"));
+    CHECK(failure([] {
+              run_stage("clean", "{apart: true}", scene_of(shapes::cube()));
+          }).find("'apart' has no effect") != std::string::npos);
+}
+
 TEST_CASE("a bare clean leaves holes and small components", "[stages]") {
     const auto run = run_stage("clean", "", scene_of(holed_cube()));
     CHECK(run.record.result["parts"][0]["changed"] == false);

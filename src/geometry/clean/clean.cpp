@@ -125,6 +125,8 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.components) did(remove_components(work, *s.components));
     if (s.inner_components) did(remove_inner_components(work));
     if (s.isolated && !work.cloud) did(remove_isolated(work));
+    // Last, so that no other step meets surfaces that are a few roundings apart.
+    if (s.apart && s.single && s.non_manifold && s.weld != Nearness::off && !changed) did(move_apart(work));
     return changed;
 }
 
@@ -139,7 +141,7 @@ std::size_t CleanCounts::total() const {
     return rounded_vertices + welded_vertices + stitched_edges + t_junctions + repeated_corners +
            degenerate_faces + duplicate_faces + split_vertices + split_edges + filled_holes +
            open_components + components + inner_components + isolated_vertices + intersecting_faces +
-           united_components;
+           united_components + moved_apart;
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {

@@ -59,7 +59,10 @@ struct CleanSettings {
     bool degenerate = true;   ///< faces of exactly zero area, and repeated corners, go
     bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
-    bool isolated = true;     ///< vertices that no face uses go
+    /// With single, weld and non_manifold: vertices that are still at one place are moved apart by a few
+    /// steps of float32, since formats that hold triangles only join them (move_apart).
+    bool apart = false;
+    bool isolated = true;          ///< vertices that no face uses go
     bool open_components = false;  ///< components that stay open go, where closed ones are left
     bool inner_components = false; ///< closed components inside others go
     Untangle self_intersections = Untangle::off;
@@ -91,6 +94,8 @@ struct CleanCounts {
     /// Edges of more than two faces that unions made, where solids touch; none if non_manifold takes them
     /// apart.
     std::size_t touching_edges = 0;
+    std::size_t moved_apart = 0; ///< vertices that were at the place of another
+    double farthest_apart = 0;   ///< how far one of them was moved at most, in mesh units
     std::size_t total() const;
     bool operator==(const CleanCounts&) const = default;
 };
@@ -109,9 +114,9 @@ struct CleanResult {
 /// Applies the steps that are on, in rounds, until a round changes nothing; so a mesh that was cleaned is not
 /// changed by cleaning it again. Faces that no step concerns keep their corners, attributes and order. In a
 /// round: rounding to single, weld, degenerate, duplicates, t_junctions, stitch, non_manifold,
-/// self_intersections, holes, open_components, components, inner_components, isolated. Each step's meaning is
-/// told with its setting; see clean_steps.hpp for how each decides. Attributes are copied, and interpolated
-/// at new vertices. Never throws for a valid mesh.
+/// self_intersections, holes, open_components, components, inner_components, isolated; and when all that
+/// changes nothing, apart. Each step's meaning is told with its setting; see clean_steps.hpp for how each
+/// decides. Attributes are copied, and interpolated at new vertices. Never throws for a valid mesh.
 CleanResult clean(Mesh mesh, const CleanSettings& settings);
 
 /// The components of a mesh (faces that hang together over edges), a cavity with the solid around it: a

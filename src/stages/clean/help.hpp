@@ -45,6 +45,12 @@ inconsistently (use orient first). With self_intersections: union or all, a patc
 other faces, because the next union resolves that. The report lists the repairs that could not be
 done (W-CLEAN).
 
+With precision: single, vertices that are still at one position (where solids touch, and were
+separated) are moved apart last, by 2 to 256 steps of 32-bit floats, the size of a step being that at
+the farthest coordinate. Nothing is moved that would turn a face over, take its area or make it meet
+another, which is decided exactly; such vertices stay where they are (W-CLEAN). apart: false leaves
+all of them where they are.
+
 The attributes of remaining elements are kept. At new vertices they are interpolated, and patches
 copy the face attributes of the faces at their boundary edges. The report counts what each step did.)";
 

@@ -115,6 +115,11 @@ void declare_clean(Declare<CleanOptions>& d) {
          {"single", true,
           "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there"}},
         "The coordinates that vertices may have in their part.");
+    d.option(
+        "apart", &CleanOptions::apart,
+        "With precision: single: moves vertices that were separated at one position apart by a few steps "
+        "of 32-bit floats, so that formats and programs that merge equal positions (STL, slicers) do not "
+        "join them again.");
 }
 
 CleanSettings clean_steps_of(const CleanOptions& o) {
@@ -130,6 +135,7 @@ CleanSettings clean_steps_of(const CleanOptions& o) {
     s.inner_components = o.inner_components;
     s.self_intersections = o.self_intersections;
     s.single = o.single;
+    s.apart = o.apart;
     if (o.holes) s.holes = HoleSettings{o.holes->method, static_cast<std::size_t>(o.holes->max_edges)};
     if (o.components)
         s.components =
@@ -159,6 +165,13 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
     if (!near && o.tolerance)
         add_refusal(Refusal{"tolerance", "'tolerance' has no effect, because no step is set to near",
                             "weld: near, stitch: near or t_junctions: near"},
+                    "clean", given, problems);
+    const bool may_move = o.single && o.non_manifold && o.weld != Nearness::off;
+    if (o.apart && !may_move && given.find("apart"))
+        add_refusal(Refusal{"apart",
+                            "'apart' has no effect: vertices are moved apart on coordinates of 32 bits, once "
+                            "those that belong together were merged and the others separated",
+                            "precision: single, with weld and non_manifold on"},
                     "clean", given, problems);
     const auto& c = o.components;
     if (c && c->min_faces == 0 && !c->min_size && !c->min_area && c->keep == 0)

@@ -47,6 +47,15 @@ void declare_part(DeclareFields<CleanedPart>& d) {
     count("touching_edges", &C::touching_edges,
           "Edges of more than two faces that unions made, where solids touch.");
     count("intersecting_faces", &C::intersecting_faces, "Faces that intersected and were replaced.");
+    count("moved_apart", &C::moved_apart, "Vertices that were moved away from another at the same position.");
+    d.field(
+         "farthest_apart",
+         [](const CleanedPart& p) {
+             const CleanCounts& c = p.counts;
+             return c.moved_apart > 0 ? std::optional(c.farthest_apart) : std::nullopt;
+         },
+         "How far one of them was moved at most, in the units of its part.")
+        .only_when("vertices were moved apart");
     d.list("not_done", &CleanedPart::not_done, "The first ten repairs that were not done.", declare_not_done);
 }
 

@@ -1,0 +1,274 @@
+// The step of clean that moves vertices apart which are at one place and belong to different fans.
+#include "base/numbers.hpp"
+#include "base/predicates.hpp"
+#include "geometry/clean/steps.hpp"
+#include "geometry/spatial/box_tree.hpp"
+#include "mesh/face.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+/// Two steps at least: so far apart, vertices differ also after they were scaled to another unit and rounded
+/// again, since between two powers of two the steps of float32 are a half to one of those of the longer.
+constexpr int fewest_float_steps = 2, most_float_steps = 256;
+
+/// Between neighbouring float32 numbers at the farthest coordinate.
+double float_step_of(const Mesh& mesh) {
+    Box box;
+    for (const Vec3& p : mesh.positions)
+        if (is_finite(p)) box.add(p);
+    if (box.empty()) return 0;
+    double farthest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        farthest = std::max({farthest, std::abs(box.min[k]), std::abs(box.max[k])});
+    if (farthest == 0) return 0;
+    constexpr int digits = std::numeric_limits<float>::digits - 1,
+                  least = std::numeric_limits<float>::min_exponent - 1;
+    return std::ldexp(1.0, std::max(std::ilogb(farthest), least) - digits);
+}
+
+Box grown(Box box, double by) {
+    if (box.empty()) return box;
+    return {box.min - Vec3{by, by, by}, box.max + Vec3{by, by, by}};
+}
+
+using FacePairs = std::vector<std::pair<Index, Index>>;
+
+struct Meetings {
+    FacePairs crossing, all; ///< pairs of faces, ascending; all: also those that only touch
+};
+
+/// The faces near a vertex as a mesh of their own.
+struct Neighbourhood {
+    Mesh mesh;
+    Index vertex = none;              ///< its number there
+    std::vector<std::uint8_t> around; ///< [faces] 1 for those at the vertex
+
+    Meetings meetings() const {
+        const SelfIntersections found =
+            find_self_intersections(mesh, {.limit = max_pairs, .among = around, .separate_touching = true});
+        Meetings m{found.pairs, found.pairs};
+        m.all.insert(m.all.end(), found.touching_pairs.begin(), found.touching_pairs.end());
+        std::sort(m.all.begin(), m.all.end());
+        return m;
+    }
+};
+
+/// Where corners of the faces at a vertex turn, seen along the axis that each face looks along most.
+class Turns {
+  public:
+    explicit Turns(const Neighbourhood& n) : n_(n) {
+        for (Index f = 0; f < n.mesh.face_count(); ++f) {
+            const Vec3 a = area_vector(n.mesh, f);
+            const std::array<double, 3> size{std::abs(a.x), std::abs(a.y), std::abs(a.z)};
+            axes_.push_back(
+                static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin()));
+        }
+        before_ = now();
+    }
+
+    /// Whether each corner turns as it did: then no face has turned over or lost its area. Corners that ran
+    /// straight on in a larger face may turn either way.
+    bool are_kept() const {
+        const std::vector<int> after = now();
+        for (std::size_t i = 0; i < after.size(); ++i)
+            if (after[i] != before_[i] && (before_[i] != 0 || of_triangle_[i])) return false;
+        return true;
+    }
+
+  private:
+    std::vector<int> now() const {
+        std::vector<int> turns;
+        of_triangle_.clear();
+        const Mesh& mesh = n_.mesh;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            if (!n_.around[f]) continue;
+            const std::size_t u = (axes_[f] + 1) % 3, v = (axes_[f] + 2) % 3;
+            for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+                const Vec3 &p = mesh.point(previous_corner(mesh, f, c)), &q = mesh.point(c),
+                           &r = mesh.point(next_corner(mesh, f, c));
+                turns.push_back(orientation_2d(p[u], p[v], q[u], q[v], r[u], r[v]));
+                of_triangle_.push_back(mesh.face_size(f) == 3);
+            }
+        }
+        return turns;
+    }
+
+    const Neighbourhood& n_;
+    std::vector<std::size_t> axes_; ///< [faces]
+    std::vector<int> before_;
+    mutable std::vector<std::uint8_t> of_triangle_;
+};
+
+class Separation {
+  public:
+    explicit Separation(Work& work)
+        : work_(work), mesh_(work.mesh), step_(float_step_of(work.mesh)),
+          corners_(corners_at_vertices(work.mesh)), faces_(corner_faces(work.mesh)), tree_(padded_boxes()) {}
+
+    bool run() {
+        std::map<Index, std::vector<Index>> places;
+        const std::vector<Index> lowest = lowest_at_place(mesh_);
+        for (Index v = 0; v < lowest.size(); ++v)
+            if (!corners_.of(v).empty()) places[lowest[v]].push_back(v);
+        std::size_t moved = 0;
+        for (auto& [_, vertices] : places) {
+            while (vertices.size() > 1 && move_one(vertices)) ++moved;
+            if (vertices.size() > 1) tell(mesh_.positions[vertices[0]]);
+        }
+        work_.counts.moved_apart += moved;
+        return moved > 0;
+    }
+
+  private:
+    std::vector<Box> padded_boxes() const {
+        std::vector<Box> boxes(mesh_.face_count());
+        for (Index f = 0; f < mesh_.face_count(); ++f) {
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) boxes[f].add(mesh_.point(c));
+            boxes[f] = grown(boxes[f], reach());
+        }
+        return boxes;
+    }
+    /// No vertex moves so far along an axis.
+    double reach() const { return (most_float_steps + 1) * step_; }
+
+    Neighbourhood neighbourhood(Index v) const {
+        Box box;
+        for (const Index c : corners_.of(v))
+            for (Index d = mesh_.face_begin(faces_[c]); d < mesh_.face_end(faces_[c]); ++d)
+                box.add(mesh_.point(d));
+        std::vector<Index> near;
+        tree_.visit(grown(box, reach()), [&](Index f) { near.push_back(f); });
+        std::sort(near.begin(), near.end());
+        Neighbourhood n;
+        std::map<Index, Index> number;
+        n.mesh.face_offsets.push_back(0);
+        for (const Index f : near) {
+            n.around.push_back(0);
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
+                const Index w = mesh_.vertex(c);
+                const auto [it, added] = number.emplace(w, static_cast<Index>(number.size()));
+                if (added) n.mesh.positions.push_back(mesh_.positions[w]);
+                n.mesh.corners.push_back(it->second);
+                if (w == v) n.around.back() = 1;
+            }
+            n.mesh.face_offsets.push_back(static_cast<Index>(n.mesh.corners.size()));
+        }
+        normalise_offsets(n.mesh);
+        n.vertex = number.at(v);
+        return n;
+    }
+
+    /// The 26 directions along and between the axes, and those to the neighbours of the vertex, to the
+    /// middles of its faces and along their mean normal, whose longest coordinate is 1; those towards the
+    /// neighbours first, since there its fan draws back from the others.
+    std::vector<Vec3> directions(Index v) const {
+        Vec3 towards, normal;
+        std::vector<Vec3> all;
+        for (const Index c : corners_.of(v)) {
+            const Index f = faces_[c];
+            const Vec3 &p = mesh_.positions[v], a = unit(mesh_.point(previous_corner(mesh_, f, c)) - p),
+                       b = unit(mesh_.point(next_corner(mesh_, f, c)) - p);
+            towards += a + b;
+            normal += unit(cross(b, a));
+            all.insert(all.end(), {a, a + b});
+        }
+        all.insert(all.end(), {towards, normal, normal * -1.0});
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y)
+                for (int z = -1; z <= 1; ++z)
+                    all.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+        for (Vec3& d : all) d = d / std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        std::erase_if(all, [](const Vec3& d) { return !is_finite(d); });
+        std::stable_sort(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) {
+            return dot(a, towards) / length(a) > dot(b, towards) / length(b);
+        });
+        return all;
+    }
+    /// Zero where it has no direction.
+    static Vec3 unit(const Vec3& a) {
+        const Vec3 n = normalised(a);
+        return is_finite(n) ? n : Vec3{};
+    }
+
+    /// Of vertices at one place, the one that the fewest steps take away.
+    bool move_one(std::vector<Index>& vertices) {
+        struct Candidate {
+            Neighbourhood near;
+            Meetings before;
+            std::vector<Vec3> directions;
+        };
+        std::vector<Candidate> candidates;
+        for (const Index v : vertices) {
+            Neighbourhood near = neighbourhood(v);
+            Meetings before = near.meetings();
+            candidates.push_back({std::move(near), std::move(before), directions(v)});
+        }
+        for (int steps = fewest_float_steps; steps <= most_float_steps; steps *= 2)
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                for (const Vec3& d : candidates[i].directions) {
+                    const Vec3 from = mesh_.positions[vertices[i]],
+                               to = as_float32(from + d * (steps * step_));
+                    if (!is_sound(candidates[i].near, candidates[i].before, to)) continue;
+                    mesh_.positions[vertices[i]] = to;
+                    work_.counts.farthest_apart = std::max(work_.counts.farthest_apart, length(to - from));
+                    vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i));
+                    return true;
+                }
+        return false;
+    }
+
+    /// Whether the vertex can be there: alone, no face turns over or loses its area, and none intersects or
+    /// touches another that it did not before.
+    static bool is_sound(Neighbourhood& near, const Meetings& before, const Vec3& to) {
+        if (!is_finite(to)) return false;
+        const auto& all = near.mesh.positions;
+        if (std::find(all.begin(), all.end(), to) != all.end()) return false;
+        const Turns turns(near);
+        const Vec3 from = std::exchange(near.mesh.positions[near.vertex], to);
+        bool sound = turns.are_kept();
+        if (sound) {
+            const Meetings after = near.meetings();
+            sound = std::includes(before.crossing.begin(), before.crossing.end(), after.crossing.begin(),
+                                  after.crossing.end()) &&
+                    std::includes(before.all.begin(), before.all.end(), after.all.begin(), after.all.end());
+        }
+        near.mesh.positions[near.vertex] = from;
+        return sound;
+    }
+
+    void tell(const Vec3& at) {
+        work_.not_done.push_back(
+            {"apart",
+             fmt::format(
+                 "vertices at one place cannot be moved apart by up to {} steps of float32 so that no "
+                 "face turns over or meets another; STL will join them",
+                 most_float_steps),
+             at});
+    }
+
+    Work& work_;
+    Mesh& mesh_;
+    double step_;
+    VertexLists corners_;
+    std::vector<Index> faces_; ///< [corners]
+    BoxTree tree_;
+};
+
+} // namespace
+
+bool move_apart(Work& work) {
+    if (are_distinct(lowest_at_place(work.mesh))) return false;
+    return Separation(work).run();
+}
+
+} // namespace facetmill::clean_steps
