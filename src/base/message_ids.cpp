@@ -513,6 +513,11 @@ std::span<const MessageId> message_ids() {
          "The planes of clip do not cut the mesh; all of it is kept.",
          "Check the plane; `facetmill info` prints the bounds."},
         {"W-CLIP-NOTHING", {}, "clip keeps nothing.", "Reverse the plane, or keep the other side."},
+        {"W-COMBINE-IDLE",
+         {},
+         "combine takes nothing away by a part of `with`.",
+         "It does not meet the others, or lies within another part of `with`; `facetmill info` prints their "
+         "bounds."},
         {"W-COMBINE-NOTHING",
          {},
          "combine leaves nothing of a part.",

@@ -70,7 +70,7 @@ const std::vector<OtherNames>& other_names() {
         {"draco", {"compress", "compression", "use_draco", "compressed"}},
         {"format", {"type", "file_type", "filetype", "output_format"}},
         {"ascii", {"binary"}, "(ascii: false), which is the default"},
-        {"path", {"file", "filename", "output", "out", "input", "in"}},
+        {"path", {"file", "filename", "output", "out", "input", "in", "svg", "dxf", "csv"}},
         {"iterations", {"steps", "passes", "iters", "n"}},
         {"passes", {"iterations", "levels", "level", "depth"}},
         {"lambda", {"strength", "factor", "weight"}},

@@ -20,14 +20,20 @@ struct Paint {
     }
 };
 
-/// "12,000 -> 3,000 faces", or one number when the stage left it.
-std::string face_change(const StageRecord& stage) {
-    const std::size_t before = stage.before ? stage.before->faces : 0;
-    const std::size_t after = stage.after ? stage.after->faces : 0;
-    const auto faces = [](std::size_t n) { return grouped(n) + " " + noun_for(n, "face"); };
-    if (!stage.after) return faces(before) + " -> failed";
-    if (before == after) return faces(after);
-    return before == 0 ? "-> " + faces(after) : grouped(before) + " -> " + faces(after);
+/// "12,000 -> 3,000 faces", or one number when the stage left it; vertices, where there are no faces (a cloud
+/// of points).
+std::string size_change(const StageRecord& stage) {
+    const Brief none;
+    const Brief &before = stage.before ? *stage.before : none, &after = stage.after ? *stage.after : none;
+    const bool cloud = before.faces == 0 && after.faces == 0 && before.vertices + after.vertices > 0;
+    const auto size = [&](const Brief& b) { return cloud ? b.vertices : b.faces; };
+    const auto counted = [&](const Brief& b) {
+        return grouped(size(b)) + " " +
+               (cloud ? noun_for(size(b), "vertex", "vertices") : noun_for(size(b), "face"));
+    };
+    if (!stage.after) return counted(before) + " -> failed";
+    if (size(before) == size(after)) return counted(after);
+    return size(before) == 0 ? "-> " + counted(after) : grouped(size(before)) + " -> " + counted(after);
 }
 
 enum class Form { report, terminal };
@@ -45,9 +51,9 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, const Pai
         return;
     }
     if (form == Form::terminal)
-        out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
+        out += fmt::format("  {}  {:<34} {:>9}\n", name, size_change(stage), timed(stage.seconds));
     else
-        out += fmt::format("  {}  {}\n", name, face_change(stage));
+        out += fmt::format("  {}  {}\n", name, size_change(stage));
     const std::size_t told =
         form == Form::terminal ? std::min(stage.said.size(), most_lines) : stage.said.size();
     for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, for_terminal(stage.said[i]));

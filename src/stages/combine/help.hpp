@@ -20,7 +20,8 @@ lies deep in other solids, where no piece can stay, is left out before. New
 vertices are rounded to floating-point coordinates; where that makes faces intersect again, they
 are united again, up to eight times. The result is closed, edge-manifold and without
 self-intersections, or the stage fails: solids that touch at an edge or a vertex are separate
-there. A part of which nothing remains has no faces (W-COMBINE-NOTHING).
+there. A part of which nothing remains has no faces (W-COMBINE-NOTHING); what takes nothing away is
+named (W-COMBINE-IDLE).
 
 Faces that are not cut stay as they are; cut faces become triangles, between the corners that they
 had and the points where something else borders on them: what cutting leaves where the cut does not

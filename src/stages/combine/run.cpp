@@ -1,5 +1,6 @@
 #include "base/readable_numbers.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "geometry/clean/combine.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "mesh/skin.hpp"
@@ -185,10 +186,27 @@ void tag(Mesh& mesh, const std::vector<Index>& mesh_of_face, bool unites, Index 
     number_faces(mesh, cut_id_attribute, std::move(numbers));
 }
 
+/// Parts of `with` of which no face bounds what is left: a drill at the wrong height, or within another one.
+/// Nothing is said where a part is gone, to which each may have contributed.
+void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::uint8_t>& bounds,
+                  Context& context) {
+    std::string names;
+    std::size_t idle = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+        if (bounds[i] != 0) continue;
+        if (++idle <= 5) append_item(names, fmt::format("'{}'", with[i]->name));
+    }
+    if (idle == 0) return;
+    if (idle > 5) names += fmt::format(" and {} more", idle - 5);
+    context.warn(
+        "W-COMBINE-IDLE", fmt::format("combine: {} {} nothing away", names, idle == 1 ? "takes" : "take"),
+        "beside the other parts, or within another part of 'with'? facetmill info prints the bounds");
+}
+
 /// Combines a part with others: the first meshes up to `second` are of the first operand. The first part gets
-/// the result.
+/// the result. bounds: set for those of the others of which it has faces.
 CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, Operation operation,
-                           Context& context) {
+                           std::vector<std::uint8_t>& bounds, Context& context) {
     std::vector<const Part*> all{&part};
     all.insert(all.end(), others.begin(), others.end());
     std::vector<Mesh> meshes;
@@ -204,7 +222,11 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     tag(r.mesh, r.mesh_of_face, unites, first_cut);
     CombinedPart report{part.name, {}, r.mesh.face_count(), r.cut_faces, r.covered_faces, 0};
     for (const Part* p : others) report.with.push_back(p->name);
-    for (const Index mesh : r.mesh_of_face) report.faces_of_with += mesh > 0;
+    for (const Index mesh : r.mesh_of_face) {
+        if (mesh == 0) continue;
+        ++report.faces_of_with;
+        bounds[mesh - 1] = 1;
+    }
     context.attribute_changes(part, drop_skin(part.mesh, no_skin));
     if (forgot_groups)
         merge_changes(r.changes,
@@ -239,9 +261,15 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
     if (o.operation == Operation::unite) {
         std::vector<const Part*> others(first.begin() + 1, first.end());
         others.insert(others.end(), second.begin(), second.end());
-        report.parts.push_back(combine_parts(*first[0], others, o.operation, context));
+        std::vector<std::uint8_t> bounds(others.size());
+        report.parts.push_back(combine_parts(*first[0], others, o.operation, bounds, context));
     } else {
-        for (Part* part : first) report.parts.push_back(combine_parts(*part, second, o.operation, context));
+        std::vector<std::uint8_t> bounds(second.size());
+        for (Part* part : first)
+            report.parts.push_back(combine_parts(*part, second, o.operation, bounds, context));
+        const bool any_gone =
+            std::any_of(first.begin(), first.end(), [](const Part* p) { return p->mesh.face_count() == 0; });
+        if (o.operation == Operation::subtract && !any_gone) warn_of_idle(second, bounds, context);
     }
     std::vector<Part> rest;
     for (std::size_t i = 0; i < operand.size(); ++i) {
