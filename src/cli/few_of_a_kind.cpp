@@ -3,6 +3,7 @@
 #include "base/readable_numbers.hpp"
 
 #include <fmt/format.h>
+#include <string_view>
 
 namespace facetmill::cli {
 
@@ -11,7 +12,12 @@ namespace {
 constexpr std::size_t most = 10;
 
 std::string kind_of(const Diagnostic& d) {
-    return fmt::format("{} {} {}", static_cast<int>(d.severity), d.id, to_string(d.where));
+    constexpr std::string_view made_of = "--strict makes "; // and the id of the warning
+    const auto at = d.id == "E-STRICT" ? d.message.find(made_of) : std::string::npos;
+    const std::string of = at == std::string::npos
+                               ? std::string()
+                               : d.message.substr(at, d.message.find(' ', at + made_of.size()) - at);
+    return fmt::format("{} {} {} {}", static_cast<int>(d.severity), d.id, of, to_string(d.where));
 }
 
 } // namespace

@@ -24,7 +24,8 @@ class FewOfAKind {
         Diagnostic last;
     };
     const Console& console_;
-    std::map<std::string, Kind> kinds_; ///< by severity, id and place
+    std::map<std::string, Kind>
+        kinds_; ///< by severity, id and place; what --strict makes of warnings by theirs
 };
 
 } // namespace facetmill::cli

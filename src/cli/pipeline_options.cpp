@@ -404,8 +404,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     FewOfAKind few(console);
     const auto tell = [&](const Diagnostic& d) { few.tell(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
-    settings.on_stage = [&](const report::StageRecord& stage) { // its warnings come afterwards
-        few.finish();
+    settings.on_stage = [&](const report::StageRecord& stage) {
         tell_stage(stage, "", console);
         if (console.verbose) tell_resolved(stage, console);
     };

@@ -138,6 +138,8 @@ std::string hint_for(const Command& command, const Arguments& arguments, const s
             "{} takes a pipeline file, which facetmill new FILE.yaml begins; stages separated by ! are "
             "for facetmill pipe, which runs them for one input",
             command.name);
+    if (std::find(words.begin(), words.end(), "--input") != words.end())
+        return "quote a pattern, so that the shell leaves it alone (--input '*.obj'), or repeat --input";
     if (arguments.find("--input"))
         return fmt::format("meshes come behind --input: facetmill {} PIPELINE --input {} ...", command.name,
                            extra);

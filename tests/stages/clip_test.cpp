@@ -203,7 +203,7 @@ TEST_CASE("clip says when everything or nothing stays, and names open contours",
         return all;
     };
     CHECK(warnings(text("z=-1"), shapes::cube()) ==
-          "W-CLIP-ALL clip: no plane cuts part 'part'; all of it was kept\n");
+          "W-CLIP-ALL clip: no plane cuts part 'part', which stays whole\n");
     CHECK(warnings(text("z=2"), shapes::cube()) == "W-CLIP-NOTHING clip: nothing of part 'part' was kept\n");
     CHECK(warnings(map({{"plane", text("x=1.5")}, {"cap", text("true")}}), shapes::grid(3, 1)) ==
           "W-CAP-OPEN clip: a contour of 2 edges of part 'part' is open and was not capped; it ends at (1.5, "
@@ -282,4 +282,10 @@ TEST_CASE("clip loses no point of a cloud: those on the plane are in front", "[s
     CHECK(left("{plane: x=1, keep: both}") == std::vector<std::size_t>{2, 1});
     CHECK(left("x=0") == std::vector<std::size_t>{3});
     CHECK(left("x=2") == std::vector<std::size_t>{1});
+    const char* corner = "{planes: [x=1, y=-1], keep: ";
+    CHECK(left((std::string(corner) + "both}").c_str()) == std::vector<std::size_t>{2, 1});
+    const std::string box = "{box: {min: [0.5, -1, -1], max: [1.5, 1, 1]}, keep: ";
+    CHECK(left((box + "inside}").c_str()) == std::vector<std::size_t>{1});
+    CHECK(left((box + "outside}").c_str()) == std::vector<std::size_t>{2});
+    CHECK(left((box + "both}").c_str()) == std::vector<std::size_t>{1, 2});
 }

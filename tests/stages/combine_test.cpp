@@ -158,3 +158,17 @@ TEST_CASE("combine refuses what cannot be combined, by name", "[stages]") {
     flat.parts[0].transform.m[2][2] = 0;
     CHECK(says(failure("{operation: difference, with: drill}", flat), "part 'block' is flattened"));
 }
+
+TEST_CASE("a part of 'with' that takes a whole component away is not idle", "[stages]") {
+    Scene scene = cube_and_drills();
+    scene.parts.resize(2);
+    Mesh small = scene.parts[0].mesh;
+    for (Vec3& p : small.positions) p = p * 0.5 + Vec3{5, 0, 0};
+    append(scene.parts[0].mesh, small);
+    scene.parts[1].transform = {};
+    scene.parts[1].transform.m[0][3] = 4.75;
+    scene.parts[1].transform.m[1][3] = scene.parts[1].transform.m[2][3] = -0.25;
+    const auto run = run_stage("combine", "{operation: difference, with: drill}", scene);
+    CHECK(run.mesh().face_count() == 12);
+    CHECK(run.warnings().empty());
+}

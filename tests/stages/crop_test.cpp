@@ -124,7 +124,7 @@ TEST_CASE("crop says when nothing or all is kept", "[stages]") {
                                                       "the footprint reaches from (10, 10) to (11, 11), "
                                                       "the part from (0, 0) to (4, 3)");
     CHECK(warned("[[-9, -9], [99, -9], [99, 99], [-9, 99]]") ==
-          "W-CROP-ALL crop: the outline does not cut part 'part'; all of it was kept");
+          "W-CROP-ALL crop: the outline does not cut part 'part', which stays whole");
 }
 
 TEST_CASE("crop knows a footprint in degrees beside a mesh in metres", "[stages]") {
@@ -209,15 +209,20 @@ TEST_CASE(
     CHECK(some.record.result["untouched_parts"] == 2);
     CHECK(some.record.result["emptied_parts"] == 2);
     CHECK(crop("[[90, 0], [91, 0], [91, 1]]").record.warnings.at(0).message ==
-          "crop: nothing of any of 5 parts was kept: the footprint reaches from (90, 0) to (91, 1), the "
+          "crop: nothing of the scene (5 parts) was kept: the footprint reaches from (90, 0) to (91, 1), the "
           "scene from (0, 0) to "
           "(9, 1)");
     CHECK(crop("[[-9, -9], [99, -9], [99, 99], [-9, 99]]").record.warnings.at(0).message ==
-          "crop: the outline does not cut any of 5 parts; all of it was kept");
+          "crop: the outline does not cut the scene (5 parts), which stays whole");
     const auto clip = run_stage("clip", "x=4.5", scene);
     CHECK(clip.warnings().empty());
     CHECK(clip.record.result["untouched_parts"] == 2);
     CHECK(clip.record.result["emptied_parts"] == 2);
     CHECK(run_stage("clip", "x=50", scene).warnings() == std::vector<std::string>{"W-CLIP-NOTHING"});
     CHECK(run_stage("clip", "x=-50", scene).warnings() == std::vector<std::string>{"W-CLIP-ALL"});
+    // A part that was empty before counts nowhere.
+    scene.parts[4].mesh = {};
+    CHECK(crop("[[90, 0], [91, 0], [91, 1]]")
+              .record.warnings.at(0)
+              .message.find("the scene from (0, 0) to (7, 1)") != std::string::npos);
 }

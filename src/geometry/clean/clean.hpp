@@ -38,7 +38,7 @@ struct ComponentSettings {
     std::size_t keep = 0;      ///< all but so many of largest area go; 0: no limit
 };
 
-/// What may be spent on faces that intersect. Work is counted, not timed, so that the result is the same
+/// What may be spent on faces that intersect, and on vertices at one place. Work is counted, not timed, so that the result is the same
 /// everywhere; where parts share a budget, each gets what those before it left.
 struct UntangleBudget {
     /// Pairs of triangles whose boxes meet, beyond 32 for each face; to count them costs a sixteenth.
@@ -46,6 +46,8 @@ struct UntangleBudget {
     /// Intersecting pairs of faces that were processed without success. When they are used up, meshes with
     /// more such pairs than faces are left as they are.
     std::size_t vain_pairs = 1'000'000;
+    /// Faces that are looked at to move vertices apart, again for each place that is tried.
+    std::size_t apart = 2'000'000;
     bool operator==(const UntangleBudget&) const = default;
 };
 

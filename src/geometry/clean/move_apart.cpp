@@ -1,6 +1,7 @@
 // The step of clean that moves vertices apart which are at one place and belong to different fans.
 #include "base/numbers.hpp"
 #include "base/predicates.hpp"
+#include "base/words.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/face.hpp"
@@ -120,11 +121,26 @@ class Separation {
         const std::vector<Index> lowest = lowest_at_place(mesh_);
         for (Index v = 0; v < lowest.size(); ++v)
             if (!corners_.of(v).empty()) places[lowest[v]].push_back(v);
-        std::size_t moved = 0;
-        for (auto& [_, vertices] : places) {
-            while (vertices.size() > 1 && move_one(vertices)) ++moved;
-            if (vertices.size() > 1) tell(mesh_.positions[vertices[0]]);
+        std::size_t moved = 0, untried = 0;
+        Vec3 first_untried;
+        for (const auto& [_, vertices] : places) {
+            if (vertices.size() == 1) continue;
+            const Vec3 at = mesh_.positions[vertices[0]];
+            std::size_t there = vertices.size(); // the first stays, if the others can go
+            const bool was_stuck = work_.stuck.contains({at.x, at.y, at.z});
+            for (auto v = vertices.rbegin(); v != vertices.rend() && there > 1 && !was_stuck && !is_spent();
+                 ++v)
+                there -= move(*v);
+            moved += vertices.size() - there;
+            if (there == 1) continue;
+            if (is_spent() && !was_stuck) {
+                if (untried++ == 0) first_untried = at;
+                continue;
+            }
+            work_.stuck.insert({at.x, at.y, at.z});
+            tell(at);
         }
+        if (untried > 0) tell_of_untried(untried, first_untried);
         work_.counts.moved_apart += moved;
         return moved > 0;
     }
@@ -200,40 +216,44 @@ class Separation {
         return is_finite(n) ? n : Vec3{};
     }
 
-    /// Of vertices at one place, the one that the fewest steps take away.
-    bool move_one(std::vector<Index>& vertices) {
-        struct Candidate {
-            Neighbourhood near;
-            Meetings before;
-            std::vector<Vec3> directions;
-        };
-        std::vector<Candidate> candidates;
-        for (const Index v : vertices) {
-            Neighbourhood near = neighbourhood(v);
-            Meetings before = near.meetings();
-            candidates.push_back({std::move(near), std::move(before), directions(v)});
-        }
-        for (int steps = fewest_float_steps; steps <= most_float_steps; steps *= 2)
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                for (const Vec3& d : candidates[i].directions) {
-                    const Vec3 from = mesh_.positions[vertices[i]],
-                               to = as_float32(from + d * (steps * step_));
-                    if (!is_sound(candidates[i].near, candidates[i].before, to)) continue;
-                    mesh_.positions[vertices[i]] = to;
-                    work_.counts.farthest_apart = std::max(work_.counts.farthest_apart, length(to - from));
-                    vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i));
-                    return true;
-                }
+    /// Moves the vertex by as few steps as are sound, no farther than an eighth of its shortest edge.
+    bool move(Index v) {
+        Neighbourhood near = neighbourhood(v);
+        const Meetings before = near.meetings();
+        const Turns turns(near);
+        const std::vector<Vec3> ways = directions(v);
+        const Vec3 from = mesh_.positions[v];
+        const double most = std::min(shortest_edge(v) / 8, most_float_steps * step_);
+        for (int steps = fewest_float_steps; steps * step_ <= most; steps *= 2)
+            for (const Vec3& d : ways) {
+                if (is_spent()) return false;
+                work_.budget.apart -= std::min(work_.budget.apart, near.mesh.face_count());
+                const Vec3 to = as_float32(from + d * (steps * step_));
+                if (!is_sound(near, turns, before, to)) continue;
+                mesh_.positions[v] = to;
+                work_.counts.farthest_apart = std::max(work_.counts.farthest_apart, length(to - from));
+                return true;
+            }
         return false;
+    }
+    bool is_spent() const { return work_.budget.apart == 0; }
+
+    double shortest_edge(Index v) const {
+        double least = HUGE_VAL;
+        for (const Index c : corners_.of(v)) {
+            const Index f = faces_[c];
+            for (const Index d : {previous_corner(mesh_, f, c), next_corner(mesh_, f, c)})
+                least = std::min(least, length(mesh_.point(d) - mesh_.positions[v]));
+        }
+        return least;
     }
 
     /// Whether the vertex can be there: alone, no face turns over or loses its area, and none intersects or
     /// touches another that it did not before.
-    static bool is_sound(Neighbourhood& near, const Meetings& before, const Vec3& to) {
+    static bool is_sound(Neighbourhood& near, const Turns& turns, const Meetings& before, const Vec3& to) {
         if (!is_finite(to)) return false;
         const auto& all = near.mesh.positions;
         if (std::find(all.begin(), all.end(), to) != all.end()) return false;
-        const Turns turns(near);
         const Vec3 from = std::exchange(near.mesh.positions[near.vertex], to);
         bool sound = turns.are_kept();
         if (sound) {
@@ -246,12 +266,20 @@ class Separation {
         return sound;
     }
 
+    void tell_of_untried(std::size_t places, const Vec3& first) {
+        work_.not_done.push_back(
+            {"apart",
+             fmt::format("at {} vertices were not moved apart, which would take long; STL will join them",
+                         counted(places, "place")),
+             first});
+    }
+
     void tell(const Vec3& at) {
         work_.not_done.push_back(
             {"apart",
              fmt::format(
-                 "vertices at one place cannot be moved apart by up to {} steps of float32 so that no "
-                 "face turns over or meets another; STL will join them",
+                 "vertices at one place cannot be moved apart by up to {} steps of float32, and an eighth of "
+                 "their shortest edges, so that no face turns over or meets another; STL will join them",
                  most_float_steps),
              at});
     }

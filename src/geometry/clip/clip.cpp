@@ -240,6 +240,26 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     return all;
 }
 
+/// The same of a cloud of points: the back has those that the front has not.
+ClipResult clip_cloud(Mesh mesh, const ClipSettings& settings) {
+    ClipSettings inner = settings;
+    inner.keep = Keep::front;
+    inner.convex = false;
+    number(mesh, Domain::vertex, 0);
+    Mesh rest = mesh;
+    ClipResult all = clip(std::move(mesh), inner);
+    std::vector<std::uint8_t> goes(rest.vertex_count());
+    for (const Index v : numbers_of(all.front, Domain::vertex)) goes[v] = 1;
+    drop_unused(rest, goes);
+    forget_change(all.changes, trace);
+    forget(all.front);
+    forget(rest);
+    all.changed = settings.keep == Keep::both ? rest.vertex_count() > 0 : all.front.vertex_count() > 0;
+    all.back = std::move(rest);
+    if (settings.keep == Keep::back) all.front = {};
+    return all;
+}
+
 void make_triangles(ClipResult& result) {
     for (Mesh* m : {&result.front, &result.back})
         if (!m->all_triangles()) *m = triangulated(*m);
@@ -339,7 +359,8 @@ class Clipper {
 ClipResult clip(Mesh mesh, const ClipSettings& settings) {
     for (const Plane& plane : settings.planes) check_plane(plane);
     if (settings.convex && settings.keep != Keep::front && settings.planes.size() > 1) {
-        ClipResult result = clip_body(std::move(mesh), settings);
+        ClipResult result = mesh.corner_count() == 0 ? clip_cloud(std::move(mesh), settings)
+                                                     : clip_body(std::move(mesh), settings);
         if (settings.triangulate) make_triangles(result);
         return result;
     }

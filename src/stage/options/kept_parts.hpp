@@ -2,6 +2,7 @@
 // What a stage that cuts the parts of a scene left of them: of many parts it is normal that some stay whole
 // and others go, and worth a warning only when that is so of all.
 
+#include "base/readable_numbers.hpp"
 #include "mesh/scene.hpp"
 #include "options/fields.hpp"
 
@@ -26,9 +27,10 @@ struct KeptParts {
     std::size_t all() const { return emptied + untouched + cut; }
     bool are_all_emptied() const { return emptied > 0 && emptied == all(); }
     bool are_all_untouched() const { return untouched > 0 && untouched == all(); }
-    /// "part 'wheel'", "any of 12 parts".
-    std::string any_of_them() const {
-        return all() == 1 ? fmt::format("part '{}'", first) : fmt::format("any of {} parts", all());
+    /// "part 'wheel'", "the scene (12 parts)".
+    std::string all_of_them() const {
+        return all() == 1 ? fmt::format("part '{}'", first)
+                          : fmt::format("the scene ({} parts)", grouped(all()));
     }
 };
 

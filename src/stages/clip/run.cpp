@@ -150,10 +150,10 @@ void declare_report(DeclareFields<ClipReport>& d) {
 void warn(const KeptParts& kept, Context& context) {
     if (kept.are_all_untouched())
         context.warn("W-CLIP-ALL",
-                     fmt::format("clip: no plane cuts {}; all of it was kept", kept.any_of_them()),
+                     fmt::format("clip: no plane cuts {}, which stays whole", kept.all_of_them()),
                      "check the position and direction of the plane; info prints the bounds");
     if (kept.are_all_emptied())
-        context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of {} was kept", kept.any_of_them()),
+        context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of {} was kept", kept.all_of_them()),
                      "check the position and direction of the plane; keep: back keeps the other side");
 }
 

@@ -186,8 +186,25 @@ void tag(Mesh& mesh, const std::vector<Index>& mesh_of_face, bool unites, Index 
     number_faces(mesh, cut_id_attribute, std::move(numbers));
 }
 
+/// [with] 1 where the box around it has a vertex of the others: it may take a whole component of them away.
+std::vector<std::uint8_t> reached(const std::vector<const Part*>& with, const std::vector<Part*>& others) {
+    std::vector<std::uint8_t> all(with.size());
+    for (std::size_t i = 0; i < with.size(); ++i) {
+        Box box;
+        for (const Vec3& p : with[i]->mesh.positions) box.add(with[i]->transform.point(p));
+        const auto within = [&](const Vec3& p) {
+            return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&
+                   p.z >= box.min.z && p.z <= box.max.z;
+        };
+        for (const Part* part : others)
+            all[i] |= std::any_of(part->mesh.positions.begin(), part->mesh.positions.end(),
+                                  [&](const Vec3& p) { return within(part->transform.point(p)); });
+    }
+    return all;
+}
+
 /// Parts of `with` of which no face bounds what is left: a drill at the wrong height, or within another one.
-/// Nothing is said where a part is gone, to which each may have contributed.
+/// bounds: the others, and those of which that is not sure.
 void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::uint8_t>& bounds,
                   Context& context) {
     std::string names;
@@ -264,12 +281,10 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
         std::vector<std::uint8_t> bounds(others.size());
         report.parts.push_back(combine_parts(*first[0], others, o.operation, bounds, context));
     } else {
-        std::vector<std::uint8_t> bounds(second.size());
+        std::vector<std::uint8_t> bounds = reached(second, first);
         for (Part* part : first)
             report.parts.push_back(combine_parts(*part, second, o.operation, bounds, context));
-        const bool any_gone =
-            std::any_of(first.begin(), first.end(), [](const Part* p) { return p->mesh.face_count() == 0; });
-        if (o.operation == Operation::subtract && !any_gone) warn_of_idle(second, bounds, context);
+        if (o.operation == Operation::subtract) warn_of_idle(second, bounds, context);
     }
     std::vector<Part> rest;
     for (std::size_t i = 0; i < operand.size(); ++i) {

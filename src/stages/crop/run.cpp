@@ -207,8 +207,9 @@ class CropRun {
             left += kept;
             changed |= kept > 0 && r.changed;
         }
-        report_.kept.add(part, cloud ? part.mesh.vertex_count() : faces, left, changed);
-        if (left == 0) emptied_.add(bounds_of(part));
+        const std::size_t had = cloud ? part.mesh.vertex_count() : faces;
+        report_.kept.add(part, had, left, changed);
+        if (had > 0 && left == 0) emptied_.add(bounds_of(part));
     }
 
     void warn() {
@@ -218,14 +219,14 @@ class CropRun {
         if (kept.are_all_emptied())
             context_.warn(
                 "W-CROP-NOTHING",
-                fmt::format("crop: nothing of {} was kept: {}", kept.any_of_them(), where_they_are()),
+                fmt::format("crop: nothing of {} was kept: {}", kept.all_of_them(), where_they_are()),
                 is_in_degrees() ? "is the footprint in degrees? It is to have the coordinates of the mesh: "
                                   "ogr2ogr -t_srs converts it"
                                 : hint);
         else if (kept.are_all_untouched())
             context_.warn(
                 "W-CROP-ALL",
-                fmt::format("crop: the outline does not cut {}; all of it was kept", kept.any_of_them()),
+                fmt::format("crop: the outline does not cut {}, which stays whole", kept.all_of_them()),
                 hint);
     }
 
