@@ -38,8 +38,8 @@ struct ComponentSettings {
     std::size_t keep = 0;      ///< all but so many of largest area go; 0: no limit
 };
 
-/// What may be spent on faces that intersect, and on vertices at one place. Work is counted, not timed, so that the result is the same
-/// everywhere; where parts share a budget, each gets what those before it left.
+/// What may be spent on faces that intersect, and on vertices at one place. Work is counted, not timed, so
+/// that the result is the same everywhere; where parts share a budget, each gets what those before it left.
 struct UntangleBudget {
     /// Pairs of triangles whose boxes meet, beyond 32 for each face; to count them costs a sixteenth.
     std::size_t box_pairs = std::size_t{1} << 25;
