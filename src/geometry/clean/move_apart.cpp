@@ -3,6 +3,7 @@
 #include "base/predicates.hpp"
 #include "base/words.hpp"
 #include "geometry/clean/steps.hpp"
+#include "geometry/cut/cut.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
@@ -27,14 +28,8 @@ double float_step_of(const Mesh& mesh) {
     Box box;
     for (const Vec3& p : mesh.positions)
         if (is_finite(p)) box.add(p);
-    if (box.empty()) return 0;
-    double farthest = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        farthest = std::max({farthest, std::abs(box.min[k]), std::abs(box.max[k])});
-    if (farthest == 0) return 0;
-    constexpr int digits = std::numeric_limits<float>::digits - 1,
-                  least = std::numeric_limits<float>::min_exponent - 1;
-    return std::ldexp(1.0, std::max(std::ilogb(farthest), least) - digits);
+    const double ulp = float32_ulp(box);
+    return ulp > 0 ? std::max(ulp, double{std::numeric_limits<float>::denorm_min()}) : 0;
 }
 
 Box grown(Box box, double by) {
@@ -116,9 +111,9 @@ class Separation {
         : work_(work), mesh_(work.mesh), step_(float_step_of(work.mesh)),
           corners_(corners_at_vertices(work.mesh)), faces_(corner_faces(work.mesh)), tree_(padded_boxes()) {}
 
-    bool run() {
+    /// lowest: of lowest_at_place.
+    bool run(const std::vector<Index>& lowest) {
         std::map<Index, std::vector<Index>> places;
-        const std::vector<Index> lowest = lowest_at_place(mesh_);
         for (Index v = 0; v < lowest.size(); ++v)
             if (!corners_.of(v).empty()) places[lowest[v]].push_back(v);
         std::size_t moved = 0, untried = 0;
@@ -295,8 +290,8 @@ class Separation {
 } // namespace
 
 bool move_apart(Work& work) {
-    if (are_distinct(lowest_at_place(work.mesh))) return false;
-    return Separation(work).run();
+    const std::vector<Index> lowest = lowest_at_place(work.mesh);
+    return !are_distinct(lowest) && Separation(work).run(lowest);
 }
 
 } // namespace facetmill::clean_steps

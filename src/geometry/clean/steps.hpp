@@ -78,11 +78,11 @@ bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
 /// Vertices at one place, of faces: all but one of them are moved away by the fewest steps of float32 (of the
 /// size that they have at the mesh's farthest coordinate; 2, 4 ... 256 along each axis, and an eighth of its
-/// shortest edge at most) for which, exactly,
-/// no face turns over or loses its area, and none intersects or touches another that it did not before. Those
-/// that no such move exists for stay and are told. Positions are those of 32-bit floats, and after weld_equal
-/// and take_apart_non_manifold vertices at one place are ones that belong apart. O(n log n), and for each of
-/// them what the faces around cost, within budget.apart in all.
+/// shortest edge at most) for which, exactly, no face turns over or loses its area, and none intersects or
+/// touches another that it did not before. Those that no such move exists for stay and are told. Positions
+/// are those of 32-bit floats, and after weld_equal and take_apart_non_manifold vertices at one place are
+/// ones that belong apart. O(n log n), and for each of them what the faces around cost, within budget.apart
+/// in all.
 bool move_apart(Work& work);
 /// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
 /// faces which are separated only by an edge or vertex that was split (split_non_manifold) are none. At most

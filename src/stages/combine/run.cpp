@@ -281,10 +281,11 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
         std::vector<std::uint8_t> bounds(others.size());
         report.parts.push_back(combine_parts(*first[0], others, o.operation, bounds, context));
     } else {
-        std::vector<std::uint8_t> bounds = reached(second, first);
+        const bool subtracts = o.operation == Operation::subtract;
+        auto bounds = subtracts ? reached(second, first) : std::vector<std::uint8_t>(second.size());
         for (Part* part : first)
             report.parts.push_back(combine_parts(*part, second, o.operation, bounds, context));
-        if (o.operation == Operation::subtract) warn_of_idle(second, bounds, context);
+        if (subtracts) warn_of_idle(second, bounds, context);
     }
     std::vector<Part> rest;
     for (std::size_t i = 0; i < operand.size(); ++i) {

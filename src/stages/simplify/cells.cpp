@@ -72,7 +72,7 @@ void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& contex
     entry.result = told(done, part.mesh, *flow.partition);
     entry.max_quadric_error = settings.max_quadric_error;
     context.attribute_changes(part, entry.result.changes);
-    warn_of_stop(part, entry.result, !o.ratio || o.ratio->value < 1 || o.faces, context);
+    warn_of_stop(part, entry.result, {.less = !o.ratio || o.ratio->value < 1 || o.faces}, context);
     if (entry.result.stop == SimplifyResult::Stop::max_quadric_error)
         warn_of_limit({{part.name, entry.result.faces_before, entry.result.faces_after}},
                       *o.max_quadric_error, context);

@@ -426,9 +426,9 @@ class Simplifier {
     void take(Part& part, std::size_t number, std::size_t number_of_level, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
-        const bool has_target = o_.lods || o_.ratio || o_.faces || o_.vertices;
-        if (has_target || r.stop != Stop::stuck) // as far as it goes within the error is what was asked for
-            warn_of_stop(part, r, asks_for_less(number_of_level), context_);
+        warn_of_stop(part, r,
+                     {asks_for_less(number_of_level), o_.lods || o_.ratio || o_.faces || o_.vertices},
+                     context_);
         if (r.stop == Stop::max_quadric_error) limited_.push_back({part.name, r.faces_before, r.faces_after});
         const double scale = greatest_stretch(part.transform);
         SimplifiedPart entry;
@@ -492,13 +492,13 @@ class Simplifier {
 
 } // namespace
 
-void warn_of_stop(const Part& part, const SimplifyResult& r, bool asked, Context& context) {
-    if (r.stop == Stop::nothing && asked)
+void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context) {
+    if (r.stop == Stop::nothing && asked.less)
         context.warn("W-SIMPLIFY-NOTHING",
                      fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
                                  counted(r.faces_before, "triangle"),
                                  counted(r.vertices_before, "vertex", "vertices")));
-    if (r.stop == Stop::stuck)
+    if (r.stop == Stop::stuck && asked.target) // else it went as far as it goes within the error
         context.warn("W-SIMPLIFY-STOPPED",
                      fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
                                  counted(r.faces_after, "triangle"), held_by(r)),

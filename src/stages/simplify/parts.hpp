@@ -12,9 +12,13 @@ namespace facetmill::simplify_stage {
 /// stay vertex by vertex, so that all match.
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report);
 
-/// Warns where a part stopped above its target, or had nothing to do. asked: whether less than all of the
-/// part was asked for.
-void warn_of_stop(const Part& part, const SimplifyResult& r, bool asked, Context& context);
+/// What was asked for: less than there is; a number of faces or vertices, and not only an error.
+struct AskedFor {
+    bool less = true, target = true;
+};
+
+/// Warns where a part stopped above its target, had nothing to do, or vanished.
+void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context);
 
 /// A part that max_quadric_error stopped above its target.
 struct Limited {
