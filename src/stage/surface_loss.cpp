@@ -2,6 +2,8 @@
 
 #include "base/readable_numbers.hpp"
 #include "geometry/edit/moved.hpp"
+#include "io/gltf/gltf.hpp"
+#include "mesh/transform.hpp"
 #include "stage/context.hpp"
 
 #include <algorithm>
@@ -52,13 +54,33 @@ std::string loss(const PartSurface& before, const PartSurface& after, MayLose ma
                        before.area);
 }
 
+/// Of the mesh at all these places together. Where one turns and scales alike in all directions, to a
+/// millionth, its area is that of the mesh times the square of the scale, so that it is not measured anew.
+double area_at(const Mesh& mesh, const std::vector<Transform>& places) {
+    constexpr double alike = 1e-6; // float32 rotations; areas are compared in hundredths
+    const double own = surface_size(mesh, {}, false).area;
+    double area = 0;
+    for (const Transform& place : places) {
+        const auto stretch = uniform_stretch(place, alike);
+        area += stretch ? own * *stretch * *stretch : surface_size(mesh, place, false).area;
+    }
+    return area;
+}
+
 } // namespace
 
 std::vector<PartSurface> surfaces_of_parts(const Scene& scene) {
+    const auto places = io::places_of_instances(scene);
     std::vector<PartSurface> surfaces;
-    for (const Part& part : scene.parts)
-        surfaces.push_back(
-            {part.name, part.mesh.face_count(), surface_size(part.mesh, part.transform, false).area});
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
+        if (places[i].empty())
+            surfaces.push_back(
+                {part.name, part.mesh.face_count(), surface_size(part.mesh, part.transform, false).area});
+        else
+            surfaces.push_back(
+                {part.name, part.mesh.face_count() * places[i].size(), area_at(part.mesh, places[i])});
+    }
     return surfaces;
 }
 

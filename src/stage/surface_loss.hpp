@@ -18,13 +18,15 @@ enum class MayLose {
     all,   ///< it says itself when nothing is left
 };
 
-/// What there is of the surface of a part, in world space.
+/// What there is of the surface of a part, in world space, at all places that a glTF document has it at
+/// (EXT_mesh_gpu_instancing).
 struct PartSurface {
     std::string name;
     std::size_t faces = 0;
     double area = 0;
 };
-/// Of each part. O(corners), parallel.
+/// Of each part. O(corners), parallel; for instances scaled by different factors along the axes, O(corners)
+/// each.
 std::vector<PartSurface> surfaces_of_parts(const Scene& scene);
 
 /// Warns (W-SURFACE-LOST) of what a stage took beyond that: all faces, or more of the area. Part by part as

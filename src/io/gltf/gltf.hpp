@@ -42,6 +42,10 @@ std::vector<bool> animated_parts(const Scene& scene);
 /// filters its rotation has 16 bits. Throws malformed when the document's nodes or instances are.
 std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 
+/// For each part that its document has at many places (EXT_mesh_gpu_instancing), the transforms from its
+/// space to all of these, as it stands and is written now; none for others. Throws malformed as above.
+std::vector<std::vector<Transform>> places_of_instances(const Scene& scene);
+
 /// The fewest bits of position, from `min_bits` to 24, at which vertices of the mesh that are at different
 /// places (in float32) stay at different places of its grid; none when 24 are not enough.
 std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits);

@@ -1,5 +1,6 @@
 #include "io/gltf/instances.hpp"
 
+#include "base/function.hpp"
 #include "base/memory.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/transform.hpp"
@@ -174,40 +175,64 @@ void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog
 
 namespace facetmill::io {
 
+namespace {
+
+/// Calls visit for each part with instances: its number in the scene, where the largest of them is, seen from
+/// the node, and all of them.
+void for_each_instanced(
+    const Scene& scene,
+    const Function<void(std::size_t part, const Transform& largest, const gltf::Instances& all)>& visit) {
+    for (std::size_t d = 0; d < scene.documents.size(); ++d) {
+        const Document& document = *scene.documents[d];
+        if (document.json.find(gltf::instancing_extension) == std::string::npos) continue;
+        const Json json = gltf::parse_document(document.json);
+        gltf::Source source(json, document.buffers);
+        std::map<int, gltf::Instances> known; // of nodes
+        for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+            const Part& part = scene.parts[i];
+            if (part.document != static_cast<int>(d) || part.node < 0) continue;
+            auto found = known.find(part.node);
+            if (found == known.end()) {
+                auto all = gltf::instances_of(source, static_cast<std::size_t>(part.node));
+                if (!all || all->count == 0) continue;
+                found = known.emplace(part.node, *std::move(all)).first;
+            }
+            visit(i, found->second.largest_place(), found->second);
+        }
+    }
+}
+
+} // namespace
+
 std::vector<double> errors_of_instances(const Scene& scene, bool filters) {
     constexpr double of_float = 1.0 / (1 << 23);
     // Each number of the quaternion is off by 1.1e-5 as stored and 1.5e-5 as decoded, the largest by up to
     // sqrt(3) times as much: together an angle of less than this.
     constexpr double of_rotation = 2e-4;
     std::vector<double> errors(scene.parts.size());
-    for (std::size_t d = 0; d < scene.documents.size(); ++d) {
-        const Document& document = *scene.documents[d];
-        if (document.json.find(gltf::instancing_extension) == std::string::npos) continue;
-        const Json json = gltf::parse_document(document.json);
-        gltf::Source source(json, document.buffers);
-        const auto frames = gltf::node_frames(json);
-        auto places = gltf::placements(json, frames);
-        gltf::stand_at_largest_instances(source, frames, places);
-        std::map<int, Transform> largest;
-        for (const auto& place : places)
-            if (place.instances > 0) largest[place.node] = place.largest_instance;
-        for (std::size_t i = 0; i < errors.size(); ++i) {
-            const Part& part = scene.parts[i];
-            const auto found = largest.find(part.node);
-            if (part.document != static_cast<int>(d) || found == largest.end()) continue;
-            const Transform& at = found->second;
-            const Box box = part.mesh.bounds();
-            if (box.empty()) continue;
-            const double corner = std::max(length(box.min), length(box.max)),
-                         inside = length(at.point({})) + greatest_stretch(at) * corner, // seen from the node
-                outside = greatest_stretch(part.transform) / greatest_stretch(at);
-            errors[i] =
-                2 * of_float * inside * outside +
-                (filters ? of_rotation * std::max(box.diagonal(), corner) * greatest_stretch(part.transform)
-                         : 0);
-        }
-    }
+    for_each_instanced(scene, [&](std::size_t i, const Transform& at, const gltf::Instances&) {
+        const Part& part = scene.parts[i];
+        const Box box = part.mesh.bounds();
+        if (box.empty()) return;
+        const double corner = std::max(length(box.min), length(box.max)),
+                     inside = length(at.point({})) + greatest_stretch(at) * corner, // seen from the node
+            outside = greatest_stretch(part.transform) / greatest_stretch(at);
+        errors[i] =
+            2 * of_float * inside * outside +
+            (filters ? of_rotation * std::max(box.diagonal(), corner) * greatest_stretch(part.transform) : 0);
+    });
     return errors;
+}
+
+std::vector<std::vector<Transform>> places_of_instances(const Scene& scene) {
+    std::vector<std::vector<Transform>> places(scene.parts.size());
+    for_each_instanced(scene, [&](std::size_t i, const Transform& largest, const gltf::Instances& all) {
+        const auto back = inverse(largest);
+        if (!back) return; // not of a largest place
+        const Transform node = scene.parts[i].transform * *back;
+        for (std::size_t k = 0; k < all.count; ++k) places[i].push_back(node * all.place(k));
+    });
+    return places;
 }
 
 } // namespace facetmill::io

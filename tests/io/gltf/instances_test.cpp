@@ -1,12 +1,14 @@
 // EXT_mesh_gpu_instancing: where parts stand, what moves along, and grids of positions in each place.
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/instances.hpp"
 #include "io/png.hpp"
 #include "io/read_back.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/transform.hpp"
+#include "stage/surface_loss.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
 #include "support/run_stage.hpp"
@@ -190,6 +192,40 @@ TEST_CASE("a part that moves takes all its instances along", "[io]") {
         if (quantize) CHECK(steps_moved(wanted, expanded(glb, "glb")) < 0.95);
         if (!quantize) CHECK(steps_moved(wanted, expanded(glb, "glb")) < 1e-6);
     }
+}
+
+TEST_CASE("the surface of a part counts at all of its instances, and moves with it", "[io]") {
+    const Json json = four_nodes();
+    Scene scene = unexpanded(json), all = expanded(json);
+    const Transform turn{{{0, -2, 0, 5}, {2, 0, 0, 6}, {0, 0, 2, 7}}};
+    for (Scene* each : {&scene, &all})
+        for (Part& part : each->parts) part.transform = turn * part.transform;
+    const auto places = io::places_of_instances(scene);
+    REQUIRE(places.size() == 4);
+    const auto total = [](const Scene& of) {
+        PartSurface sum;
+        for (const PartSurface& s : surfaces_of_parts(of)) {
+            sum.faces += s.faces;
+            sum.area += s.area;
+        }
+        return sum;
+    };
+    std::size_t seen = 0, faces = 0; // of parts that have instances, and of the one at each of them
+    for (std::size_t i = 0; i < 4; ++i) {
+        seen += places[i].size();
+        faces += scene.parts[i].mesh.face_count() * std::max<std::size_t>(1, places[i].size());
+        if (!places[i].empty())
+            CHECK(std::any_of(places[i].begin(), places[i].end(), [&](const Transform& t) {
+                return length(t.point({}) - scene.parts[i].transform.point({})) < 1e-9;
+            }));
+    }
+    CHECK(seen == 3 + 2 + 2);
+    CHECK(total(scene).faces == faces);
+    CHECK(total(scene).faces == total(all).faces);
+    CHECK(std::abs(total(scene).area / total(all).area - 1) < 1e-6);
+    CHECK(io::places_of_instances(all) == std::vector<std::vector<Transform>>(8));
+    for (Part& part : scene.parts) part.document = -1;
+    CHECK(total(scene).faces * 2 == faces); // what a document says no longer counts
 }
 
 TEST_CASE("pieces of an instanced part are instanced, too", "[io]") {
