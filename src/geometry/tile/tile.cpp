@@ -137,10 +137,12 @@ class Tiler {
                         "choose a larger size");
         for (const TileAxis& a : settings_.axes) {
             const std::string name = std::string("tile_") + "xyz"[a.axis];
-            mesh.drop(name, Domain::face);
+            const Domain domain = cloud_ ? Domain::wedge : Domain::face;
+            const std::size_t count = cloud_ ? mesh.wedge_count() : mesh.face_count();
+            mesh.drop(name, domain);
             mesh.attributes.push_back(
-                {name, Domain::face, Role::index, 1, false,
-                 std::vector<std::int32_t>(mesh.face_count(), static_cast<std::int32_t>(cell[a.axis]))});
+                {name, domain, Role::index, 1, false,
+                 std::vector<std::int32_t>(count, static_cast<std::int32_t>(cell[a.axis]))});
         }
         TileResult result;
         result.tiles.push_back({cell, std::move(mesh)});

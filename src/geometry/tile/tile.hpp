@@ -39,8 +39,8 @@ struct TileResult {
 /// logarithm of the cells. Neighbours come out of one cut, so their borders have the same points; caps that
 /// face each other have the same triangles, but for points that a later cap adds where contours cross. Faces
 /// in a plane of the grid go with what they are the boundary of, as with Keep::both. Every tile has face
-/// attributes tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws usage (E-TILE) for a size that
-/// is not above zero and limit (E-TILE) for too many tiles.
+/// attributes (of a cloud: wedge attributes) tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws
+/// usage (E-TILE) for a size that is not above zero and limit (E-TILE) for too many tiles.
 TileResult tile(Mesh mesh, const TileSettings& settings);
 
 } // namespace facetmill

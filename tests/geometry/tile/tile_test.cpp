@@ -120,6 +120,26 @@ TEST_CASE("a tile says which it is", "[geometry]") {
     }
 }
 
+TEST_CASE("a tile of a cloud says which it is at each point", "[geometry]") {
+    Mesh cloud;
+    cloud.positions = {{0.5, 0, 0}, {1.5, 0, 0}, {1, 0, 0}, {-3.5, 2.5, 0}};
+    const TileResult r = tile(cloud, grid_of({{0, 1, 0}, {1, 1, 0}}, false));
+    REQUIRE(r.tiles.size() == 3);
+    for (const Tile& t : r.tiles) {
+        for (const char* name : {"tile_x", "tile_y"}) {
+            const Attribute* at = t.mesh.find(name, Domain::wedge);
+            REQUIRE(at);
+            CHECK(at->role == Role::index);
+            REQUIRE(at->size() == t.mesh.wedge_count());
+            for (std::size_t i = 0; i < at->size(); ++i)
+                CHECK(at->value(i, 0) == static_cast<double>(t.cell[name == std::string("tile_y")]));
+        }
+        CHECK_FALSE(t.mesh.find("tile_z", Domain::wedge));
+        CHECK_FALSE(t.mesh.find("tile_x", Domain::face));
+    }
+    CHECK(r.tiles.back().cell == std::array<std::int64_t, 3>{-4, 2, 0});
+}
+
 TEST_CASE("a mesh within one cell stays as it is, also with its faces on the border", "[geometry]") {
     const TileResult r = tile(shapes::cube(), grid_of({{0, 1, 0}, {1, 1, 0}, {2, 1, 0}}));
     REQUIRE(r.tiles.size() == 1);
