@@ -46,6 +46,16 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
     check_box(box_after("{fit: 12cm}", block()), {60, 0, 0}, {90, 60, 120});
     check_box(box_after("{fit: 8, pivot: centre}", block()), {1.5, -1, -2}, {3.5, 3, 6});
     check_box(box_after("{fit: [10, 1, 10], ground: true}", block()), {1, 0, 0}, {1.5, 1, 2});
+    // A percentage is of the side that there is, not of the diagonal: of the longest, or of each.
+    check_box(box_after("{fit: 50%}", block()), {1, 0, 0}, {1.5, 1, 2});
+    check_box(box_after("{fit: [200%, 300%, 150%]}", block()), {3, 0, 0}, {4.5, 3, 6});
+    check_box(box_after("{scale: 3, fit: 50%}", block()), {3, 0, 0}, {4.5, 3, 6});
+    const auto halved = run_stage("transform", "{fit: 50%}", block());
+    CHECK(halved.record.resolved.at(0).given == "50%");
+    CHECK(halved.record.resolved.at(0).is == 2);
+    CHECK(failure([&] {
+              run_stage("transform", "{fit: 50% of load}", block());
+          }).starts_with("stage [E-TRANSFORM]")); // nothing was loaded, which has no diagonal
     // What the other moves made is what is to fit; a flat part has one side that fits in any case.
     check_box(box_after("{scale: [8, 1, 1], rotate: {axis: [0, 1, 0], angle: 90}, fit: 2}", block()),
               {0, 0, -6}, {1, 0.5, -4});

@@ -64,9 +64,11 @@ void declare_transform(Declare<TransformOptions>& d) {
                     "The point that scale, rotate and fit leave in place.");
     d.option("matrix", &TransformOptions::matrix,
              "Twelve or sixteen numbers, row by row, applied to columns (x, y, z, 1).");
-    d.option("fit", &TransformOptions::fit,
-             "Then scales alike along all axes, so that the parts' bounding box just fits into a cube with "
-             "this side (120mm: its longest side gets this length), or into a box with three.");
+    d.option(
+        "fit", &TransformOptions::fit,
+        "Then scales alike along all axes, so that the parts' bounding box just fits into a cube with "
+        "this side (120mm: its longest side gets this length), or into a box with three. A percentage is "
+        "of the side that it replaces, so that 50% halves the parts.");
     d.option("translate", &TransformOptions::translate, "Three lengths.");
     d.option("centre", &TransformOptions::centre,
              "Then moves the centre of the parts' bounding box to the origin.");

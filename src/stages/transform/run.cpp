@@ -4,6 +4,7 @@
 #include "stages/transform/help.hpp"
 #include "stages/transform/report.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::transform_stage {
@@ -51,6 +52,14 @@ class Mover {
         return all.empty() ? Vec3{} : all.centre();
     }
 
+    /// A percentage that names no other whole is of the side that there is.
+    static Length of_own_side(const Length& side, double own) {
+        if (side.kind != Length::Kind::percent || side.of != Length::Of::stage) return side;
+        Length length = Length::scene(side.amount / 100 * own);
+        length.text = side.text;
+        return length;
+    }
+
     /// What scales the box into that of fit; its sides without extent fit in any case.
     std::optional<double> fit_factor() const {
         if (o_.fit.empty() || box().empty()) return {};
@@ -58,8 +67,10 @@ class Mover {
         double factor = HUGE_VAL;
         for (std::size_t i = 0; i < 3; ++i) {
             const Length& side = o_.fit[o_.fit.size() == 1 ? 0 : i];
-            const std::string name = o_.fit.size() == 1 ? "fit" : fmt::format("fit.{}", "xyz"[i]);
-            const double length = context_.resolve(side, scene_, name);
+            const bool one = o_.fit.size() == 1;
+            const double own = one ? std::max({extent.x, extent.y, extent.z}) : extent[i];
+            const double length = context_.resolve(of_own_side(side, own), scene_,
+                                                   one ? "fit" : fmt::format("fit.{}", "xyz"[i]));
             if (extent[i] > 0) factor = std::min(factor, length / extent[i]);
         }
         if (!(factor > 0) || !std::isfinite(factor))
