@@ -302,6 +302,8 @@ class Parser {
         if (negated)
             value = Value::scalar("false", key_mark);
         else if (equals == argument.npos && wants_value(key, known)) {
+            if (all_[at_] == "--") ++at_; // as in front of a bare value
+            if (at_end_of_step()) return wrong("a value is missing behind '--'");
             value = given(all_[at_], key, known, mark());
             ++at_;
         } else if (equals == argument.npos)

@@ -54,6 +54,11 @@ TEST_CASE("bare values, options and separators become steps", "[cli]") {
 TEST_CASE("values may begin with a dash", "[cli]") {
     CHECK(same("load - ! relax --lambda -0.5", "[{load: '-'}, {relax: {lambda: -0.5}}]"));
     CHECK(same("thicken -- -2mm ! load -- --a.stl", "[{thicken: -2mm}, {load: '--a.stl'}]")); // as in a shell
+    CHECK(same("transform --translate -- -1,2,3 --centre",
+               "[{transform: {translate: [-1, 2, 3], centre: true}}]"));
+    CHECK(same("load --path -- --a.stl", "[{load: {path: '--a.stl'}}]"));
+    CHECK(yaml("transform --translate -- ! orient")
+              .starts_with("command line:1:41: error[E-PIPE]: a value is missing behind '--'"));
     CHECK(yaml("relax -- ! orient").starts_with("command line:1:25: error[E-PIPE]: a value is missing"));
 }
 
