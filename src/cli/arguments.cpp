@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "base/spelling.hpp"
 #include "base/words.hpp"
 
 #include <CLI/CLI.hpp>
@@ -35,20 +36,32 @@ std::string negative(const std::string& text) {
     return fmt::format("expected a number of 0 or more, found '{}'", text);
 }
 
-/// For each value between the commas, what CLI11 checks of one: one of the choices, if there are any.
-CLI::Validator for_each_value(const std::vector<std::string>& choices) {
-    const CLI::Validator one_of = CLI::IsMember(choices);
-    const bool any = choices.empty();
+/// Refuses a text that is none of the choices. CLI11's own check would be told in its words.
+CLI::Validator one_of(const Argument& a) {
+    return CLI::Validator(
+        [called = a.names, choices = a.choices](const std::string& text) -> std::string {
+            if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
+            const std::string name = std::string(split_at_commas(called).back());
+            throw NotAChoice(fmt::format("{} is one of {}, found '{}'", name, fmt::join(choices, ", "), text),
+                             text, did_you_mean(text, choices));
+        },
+        fmt::format("{{{}}}", fmt::join(a.choices, ",")));
+}
+
+/// For each value between the commas, what is checked of one: one of the choices, if there are any.
+CLI::Validator for_each_value(const Argument& a) {
+    const CLI::Validator each = one_of(a);
+    const bool any = a.choices.empty();
     return CLI::Validator(
         [=](const std::string& text) -> std::string {
             const auto values = split_at_commas(text);
             if (values.empty() || std::find(values.begin(), values.end(), "") != values.end())
                 return fmt::format("expected a value before and after each comma, found '{}'", text);
             for (const auto value : values)
-                if (std::string why = any ? "" : one_of(std::string(value)); !why.empty()) return why;
+                if (!any) each(std::string(value));
             return {};
         },
-        any ? "" : one_of.get_description());
+        any ? "" : each.get_description());
 }
 
 /// Values that came as one word each, value by value.
@@ -82,9 +95,9 @@ void declare(CLI::App& app, const Argument& a) {
     if (a.needed) option->required();
     if (!a.value.empty()) option->type_name(a.value);
     if (a.in_one_word)
-        option->check(for_each_value(a.choices));
+        option->check(for_each_value(a));
     else if (!a.choices.empty())
-        option->check(CLI::IsMember(a.choices));
+        option->check(one_of(a));
     if (a.range) option->check(CLI::Range(a.range->first, a.range->second));
     if (a.at_least_0) option->check(negative);
     if (a.is_hidden)

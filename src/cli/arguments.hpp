@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -83,6 +85,13 @@ struct Parsed {
     std::vector<std::string> extras; ///< what belongs to no argument
 };
 
+/// A value that is none of its argument's choices: what() says so, with all of them.
+struct NotAChoice : std::invalid_argument {
+    NotAChoice(const std::string& why, std::string found, std::string meant)
+        : std::invalid_argument(why), value(std::move(found)), hint(std::move(meant)) {}
+    std::string value, hint; ///< the hint names the nearest choice; empty: none is near
+};
+
 class Arguments {
   public:
     /// Declares one; refine what is returned at once, the next declaration may move it.
@@ -94,7 +103,7 @@ class Arguments {
     /// The option of this name ("-j", "--threads"), or null.
     const Argument* find(const std::string& name) const;
     /// Reads words into the targets. the_rest: what the usage line of --help names behind them. Throws
-    /// std::invalid_argument, with the reason, when they cannot be read.
+    /// std::invalid_argument, with the reason, when they cannot be read; NotAChoice is one.
     Parsed parse(const std::string& command, const std::string& about, std::vector<std::string> words,
                  const std::string& the_rest = {}) const;
 

@@ -83,6 +83,7 @@ std::string hint_for(const std::vector<std::string>& words, const std::vector<st
                "info IN";
     if (docs::ready_pipeline(name))
         return fmt::format("a pipeline runs by facetmill run {} -D input=FILE", name);
+    if (const std::string_view chain = chain_called(name); !chain.empty()) return std::string(chain);
     if (const std::string_view stage = stage_called(name); !stage.empty()) return as_pipe(stage, words);
     return suggestion(name, names);
 }
@@ -219,6 +220,10 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
     Parsed parsed;
     try {
         parsed = arguments.parse(command.name, command.about, std::move(words), command.the_rest);
+    } catch (const NotAChoice& e) {
+        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
+                    e.hint.empty() ? fmt::format("see facetmill {} --help", command.name) : e.hint,
+                    line.value(e.value));
     } catch (const std::invalid_argument& e) {
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
                     hint_for(command, arguments, "FILE", line), line.mark(0));

@@ -15,4 +15,10 @@ TEST_CASE("stages are found by what other programs call them", "[stage]") {
         CHECK(stage_named(stage_called(word)) != nullptr);
         CHECK(stage_named(word) == nullptr);
     }
+    // What a few stages do together.
+    for (const char* word : {"remesh", "Remeshing", "isotropic-remeshing"})
+        CHECK(hint_for_stage(word, stage_names()) ==
+              "edges of about one length come of three stages: split: {max_edge: 2%}, simplify: {ratio: 40%, "
+              "method: shortest-edge}, relax: {iterations: 3, method: taubin}");
+    CHECK(chain_called("simplify").empty());
 }
