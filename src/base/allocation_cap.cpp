@@ -9,9 +9,11 @@
 namespace {
 
 constinit thread_local std::size_t most_at_once = std::numeric_limits<std::size_t>::max();
+constinit thread_local std::size_t requests = 0;
 
 /// As the C++ library's own, but for the cap and the size of pages; null where it would throw.
 void* requested(std::size_t bytes) noexcept {
+    ++requests;
     if (bytes > most_at_once) return nullptr;
     void* const memory = std::malloc(bytes == 0 ? 1 : bytes);
     if (memory) facetmill::ask_for_large_pages(memory, bytes);
@@ -33,6 +35,8 @@ namespace facetmill {
 
 AllocationCap::AllocationCap(std::size_t bytes) : outer_(most_at_once) { most_at_once = bytes; }
 AllocationCap::~AllocationCap() { most_at_once = outer_; }
+
+std::size_t allocations_of_thread() { return requests; }
 
 } // namespace facetmill
 

@@ -19,4 +19,7 @@ class AllocationCap {
     std::size_t outer_;
 };
 
+/// How many requests this thread has made to operator new: work that tests can count.
+std::size_t allocations_of_thread();
+
 } // namespace facetmill

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <nettle/sha2.h>
 
 namespace facetmill {
@@ -35,8 +34,13 @@ void Sha256::add(std::span<const std::byte> bytes) {
 std::string Sha256::digest() {
     std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
     sha256_digest(&state_->context, digest.size(), digest.data());
+    constexpr const char* digits = "0123456789abcdef";
     std::string text;
-    for (const std::uint8_t byte : digest) text += fmt::format("{:02x}", byte);
+    text.reserve(2 * digest.size());
+    for (const std::uint8_t byte : digest) {
+        text += digits[byte >> 4];
+        text += digits[byte & 15];
+    }
     return text;
 }
 

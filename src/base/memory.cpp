@@ -74,8 +74,10 @@ std::uint64_t at_most_memory_there(std::uint64_t bytes) {
     return bytes < not_worth_asking ? bytes : std::min(bytes, memory_there());
 }
 
+bool is_much_memory(double bytes) { return bytes >= static_cast<double>(not_worth_asking); }
+
 void require_memory(double bytes, const std::string& what, const std::string& hint) {
-    if (bytes < static_cast<double>(not_worth_asking)) return;
+    if (!is_much_memory(bytes)) return;
     const auto there = available_memory();
     if (!there || bytes <= static_cast<double>(*there)) return;
     constexpr double gib = 1 << 30;

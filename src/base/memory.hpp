@@ -17,6 +17,9 @@ std::uint64_t memory_there();
 /// system costs a tenth of a millisecond.
 std::uint64_t at_most_memory_there(std::uint64_t bytes);
 
+/// Whether so many bytes may be more than are there; fewer are taken to be there.
+bool is_much_memory(double bytes);
+
 /// Throws limit (E-MEMORY) when bytes are more than are available: "WHAT needs about 3.2 GiB, 1.9 GiB are
 /// available".
 void require_memory(double bytes, const std::string& what, const std::string& hint);

@@ -1,8 +1,10 @@
 #include "base/quick_json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <system_error>
 #include <type_traits>
@@ -17,7 +19,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// A reader by recursive descent. Each of its functions is false where it gives up.
 ///
 /// The library makes an object by adding members one by one. Its members have constant keys, so a vector of
-/// them that grows copies all that is below them. Here members wait on a stack until their number is known.
+/// them that grows copies all that is below them. Here members wait in a list until their number is known,
+/// one list for each level: at a level only one object or array is read at a time.
 class QuickReader {
   public:
     QuickReader(std::string_view text, int deepest, std::span<const std::string_view> unread)
@@ -30,6 +33,18 @@ class QuickReader {
     }
 
   private:
+    /// What of an object or an array has been read, before it is at its end.
+    struct Level {
+        std::vector<std::pair<std::string, Json>> members;
+        std::vector<Json> items;
+    };
+
+    Level& level_at(int depth) {
+        const auto number = static_cast<std::size_t>(depth);
+        while (levels_.size() <= number) levels_.emplace_back();
+        return levels_[number];
+    }
+
     void skip_space() {
         while (at_ != end_ && (*at_ == ' ' || *at_ == '\n' || *at_ == '\r' || *at_ == '\t')) ++at_;
     }
@@ -78,21 +93,21 @@ class QuickReader {
 
     bool object(Json& out, int depth) {
         ++at_;
-        const std::size_t first = members_.size();
+        Level& level = level_at(depth);
+        level.members.clear();
         if (!takes('}')) {
             do {
-                std::string key;
-                Json item;
+                auto& [key, item] = level.members.emplace_back();
                 skip_space();
                 if (at_ == end_ || *at_ != '"' || !string(key) || !takes(':') ||
                     !(is_unread(key, depth) ? emptied(item, depth) : value(item, depth)))
                     return false;
-                members_.emplace_back(std::move(key), std::move(item));
             } while (takes(','));
             if (!takes('}')) return false;
         }
         constexpr std::size_t some = 8; // documents get further lists: without room, they would be copied
-        out = members_from(first, depth == 1 ? some : 0);
+        out = Json::object();
+        gather(level.members, depth == 1 ? some : 0, out.get_ref<Json::object_t&>());
         return true;
     }
 
@@ -138,16 +153,15 @@ class QuickReader {
         return takes(end);
     }
 
-    /// The members from `first` on, which leave the stack. A key that is there again gives its value to the
-    /// first of its name, as in the library.
-    Json::object_t members_from(std::size_t first, std::size_t more) {
+    /// Moves members to an object. A key that is there again gives its value to the first of its name, as in
+    /// the library.
+    static void gather(std::vector<std::pair<std::string, Json>>& members, std::size_t more,
+                       Json::object_t& all) {
         constexpr std::size_t few = 32; // so many keys are compared one by one; more are kept in order
-        const std::size_t count = members_.size() - first;
-        Json::object_t all;
+        const std::size_t count = members.size();
         all.reserve(count + more); // names below refers to its keys
         std::map<std::string_view, Json*> names;
-        for (std::size_t i = first; i < members_.size(); ++i) {
-            std::string& key = members_[i].first;
+        for (auto& [key, item] : members) {
             Json* there = nullptr;
             if (count <= few) {
                 for (auto& member : all)
@@ -156,30 +170,27 @@ class QuickReader {
                 there = found->second;
             }
             if (there) {
-                *there = std::move(members_[i].second);
+                *there = std::move(item);
                 continue;
             }
-            auto& added = all.emplace_back(std::move(key), std::move(members_[i].second));
+            auto& added = all.emplace_back(std::move(key), std::move(item));
             if (count > few) names.emplace(added.first, &added.second);
         }
-        members_.resize(first);
-        return all;
     }
 
     bool array(Json& out, int depth) {
         ++at_;
-        const std::size_t first = items_.size();
+        std::vector<Json>& items = level_at(depth).items;
+        items.clear();
         if (!takes(']')) {
             do {
-                Json item;
-                if (!value(item, depth)) return false;
-                items_.push_back(std::move(item));
+                if (!value(items.emplace_back(), depth)) return false;
             } while (takes(','));
             if (!takes(']')) return false;
         }
-        const auto begin = items_.begin() + static_cast<std::ptrdiff_t>(first);
-        out = Json::array_t(std::make_move_iterator(begin), std::make_move_iterator(items_.end()));
-        items_.erase(begin, items_.end());
+        out = Json::array();
+        out.get_ref<Json::array_t&>().assign(std::make_move_iterator(items.begin()),
+                                             std::make_move_iterator(items.end()));
         return true;
     }
 
@@ -257,11 +268,105 @@ class QuickReader {
     const std::span<const std::string_view> unread_;
     std::string passed_string_; // that nobody asks for
     Json passed_;
-    std::vector<std::pair<std::string, Json>> members_; // of the objects that are not yet at their end
-    std::vector<Json> items_;                           // of such arrays
+    std::deque<Level> levels_; // their places stay when more come
 };
 
+/// Whether a string is written as it is: ASCII, and nothing that is escaped.
+bool is_plain(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x20 && byte < 0x80 && byte != '"' && byte != '\\';
+    });
+}
+
+void write_string(std::string& out, const std::string& text) {
+    if (is_plain(text)) {
+        out += '"';
+        out += text;
+        out += '"';
+    } else {
+        out += Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+}
+
+template <class T>
+void write_integer(std::string& out, T value) {
+    std::array<char, 24> digits;
+    out.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+/// Real numbers as the library spells them, by its own function.
+void write_real(std::string& out, double value) {
+    if (!std::isfinite(value)) {
+        out += "null";
+        return;
+    }
+    std::array<char, 64> digits;
+    out.append(digits.data(),
+               nlohmann::detail::to_chars(digits.data(), digits.data() + digits.size(), value));
+}
+
+void write_value(std::string& out, const Json& json) {
+    char before = 0;
+    switch (json.type()) {
+    case Json::value_t::object:
+        out += '{';
+        for (const auto& [key, item] : json.get_ref<const Json::object_t&>()) {
+            if (before) out += before;
+            before = ',';
+            write_string(out, key);
+            out += ':';
+            write_value(out, item);
+        }
+        out += '}';
+        return;
+    case Json::value_t::array:
+        out += '[';
+        for (const Json& item : json.get_ref<const Json::array_t&>()) {
+            if (before) out += before;
+            before = ',';
+            write_value(out, item);
+        }
+        out += ']';
+        return;
+    case Json::value_t::string:
+        return write_string(out, json.get_ref<const std::string&>());
+    case Json::value_t::number_unsigned:
+        return write_integer(out, json.get_ref<const Json::number_unsigned_t&>());
+    case Json::value_t::number_integer:
+        return write_integer(out, json.get_ref<const Json::number_integer_t&>());
+    case Json::value_t::number_float:
+        return write_real(out, json.get_ref<const Json::number_float_t&>());
+    case Json::value_t::boolean:
+        out += json.get_ref<const Json::boolean_t&>() ? "true" : "false";
+        return;
+    default: // null, and what no text gives
+        out += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+}
+
 } // namespace
+
+std::string quick_text(const Json& json) {
+    std::string text;
+    write_value(text, json);
+    return text;
+}
+
+void discard(Json& json) {
+    if (json.is_array()) {
+        auto& items = json.get_ref<Json::array_t&>();
+        for (Json& item : items)
+            if (item.is_structured()) discard(item);
+        items.clear();
+    } else if (json.is_object()) {
+        auto& members = json.get_ref<Json::object_t&>();
+        for (auto& member : members)
+            if (member.second.is_structured()) discard(member.second);
+        members.clear();
+    }
+    json = nullptr;
+}
 
 std::optional<Json> quick_json(std::string_view text, int deepest, std::span<const std::string_view> unread) {
     std::optional<Json> read(std::in_place);

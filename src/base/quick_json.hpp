@@ -1,10 +1,11 @@
 #pragma once
-// JSON as files mostly have it, read several times as fast as by the library.
+// JSON as files mostly have it, read, written and given up several times as fast as by the library.
 
 #include "base/json.hpp"
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace facetmill {
@@ -17,5 +18,25 @@ namespace facetmill {
 /// out empty.
 std::optional<Json> quick_json(std::string_view text, int deepest = 256,
                                std::span<const std::string_view> unread = {});
+
+/// The text of a value in one line, the same as json.dump(-1, ' ', false, Json::error_handler_t::replace). It
+/// recurses, as the library does.
+std::string quick_text(const Json& json);
+
+/// Makes a value null. The library moves all that is below a value to a list first, lest it recurse; this
+/// recurses.
+void discard(Json& json);
+
+/// Discards a value where its scope ends.
+class Discarded {
+  public:
+    explicit Discarded(Json& json) : json_(json) {}
+    ~Discarded() { discard(json_); }
+    Discarded(const Discarded&) = delete;
+    Discarded& operator=(const Discarded&) = delete;
+
+  private:
+    Json& json_;
+};
 
 } // namespace facetmill

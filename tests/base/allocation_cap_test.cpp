@@ -39,3 +39,12 @@ TEST_CASE("an allocation cap refuses larger requests of its thread while it live
     }
     CHECK(is_given(2000));
 }
+
+TEST_CASE("requests for memory are counted by thread", "[base]") {
+    const std::size_t before = allocations_of_thread();
+    CHECK(is_given(10));
+    CHECK(allocations_of_thread() > before);
+    std::size_t other = 1;
+    std::jthread([&] { other = allocations_of_thread(); }).join();
+    CHECK(other == 0);
+}

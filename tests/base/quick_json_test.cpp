@@ -1,11 +1,14 @@
 #include "base/quick_json.hpp"
 
+#include "base/allocation_cap.hpp"
 #include "base/random.hpp"
 
 #include "support/catch.hpp"
 
 #include <array>
+#include <bit>
 #include <fmt/format.h>
+#include <limits>
 
 using namespace facetmill;
 
@@ -151,4 +154,69 @@ TEST_CASE("damaged JSON is read as the library reads it, or left to it", "[base]
         accepted += read.has_value();
     }
     CHECK(accepted > 100);
+}
+
+TEST_CASE("JSON is written as the library writes it", "[base]") {
+    const auto by_library_too = [](const Json& json) {
+        INFO(json.dump(-1, ' ', true, Json::error_handler_t::replace));
+        CHECK(quick_text(json) == json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    };
+    by_library_too(by_library(document));
+    for (const Json& json :
+         {Json(),
+          Json(true),
+          Json(false),
+          Json(0),
+          Json(-1),
+          Json(INT64_MIN),
+          Json(UINT64_MAX),
+          Json(0.0),
+          Json(-0.0),
+          Json(1.0),
+          Json(0.1f),
+          Json(1e15),
+          Json(1e16),
+          Json(1e-5),
+          Json(5e-324),
+          Json(1.7976931348623157e308),
+          Json(std::numeric_limits<double>::infinity()),
+          Json(std::numeric_limits<double>::quiet_NaN()),
+          Json(""),
+          Json("plain ~"),
+          Json("a\"b\\c/d\n\t\x01\x7f"),
+          Json("\xc3\xa9 \xf0\x9f\x98\x80"),
+          Json("\xff \xc3"),
+          Json::array(),
+          Json::object(),
+          Json::array({Json::array({Json::object()}), nullptr}),
+          Json::object({{"a \"key\"", 1}, {"\xc3", Json::array()}, {"", Json::object({{"x", 0.5}})}})})
+        by_library_too(json);
+    for (std::uint64_t i = 0; i < 20000; ++i) // of all sizes, and such as float32 has
+        by_library_too(Json::array({std::bit_cast<double>(hashed(i, 1)),
+                                    std::bit_cast<float>(static_cast<std::uint32_t>(hashed(i, 2))),
+                                    static_cast<double>(hashed(i, 3) % 1000000) / 1000}));
+}
+
+TEST_CASE("reading, writing and giving up JSON asks for memory as often as there are values that need it",
+          "[base]") {
+    constexpr std::size_t count = 1000;
+    std::string text = "[";
+    for (std::size_t i = 0; i < count; ++i)
+        text += fmt::format(R"({}{{"bufferView":{},"type":"VEC3","min":[0.5,1.5,2.5]}})", i ? "," : "", i);
+    text += "]";
+    std::size_t before = allocations_of_thread();
+    auto read = quick_json(text);
+    REQUIRE(read);
+    // An object and its members, an array and its items, a string.
+    CHECK(allocations_of_thread() - before < 5 * count + 100);
+    before = allocations_of_thread();
+    CHECK(quick_text(*read) == text);
+    CHECK(allocations_of_thread() - before < 40);
+    before = allocations_of_thread();
+    discard(*read);
+    CHECK(allocations_of_thread() == before); // the library: a list for each object and array
+    CHECK(read->is_null());
+    Json other = by_library(document);
+    { const Discarded at_end(other); }
+    CHECK(other.is_null());
 }

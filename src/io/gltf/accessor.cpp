@@ -141,7 +141,8 @@ Span Source::range(const Place& owner) const {
 
 void Source::need(double bytes) {
     needed_ += bytes;
-    require_memory(needed_, "what the document makes of its buffers", "use a machine with more memory");
+    if (is_much_memory(needed_))
+        require_memory(needed_, "what the document makes of its buffers", "use a machine with more memory");
 }
 
 bool Source::without_bytes(std::size_t index) const {

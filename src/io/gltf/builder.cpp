@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "base/quick_json.hpp"
 #include "io/gltf/encode.hpp"
 
 #include <algorithm>
@@ -57,6 +58,11 @@ Builder::Builder(Json document, const std::vector<Bytes>* buffers)
     : original_(document), json_(std::move(document)), source_(original_, buffers ? *buffers : no_buffers_),
       current_(json_, buffers ? *buffers : no_buffers_, &new_views_) {
     for (std::size_t i = 0; i < count_of(json_, "bufferViews"); ++i) old_view_.push_back(i);
+}
+
+Builder::~Builder() {
+    discard(original_);
+    discard(json_);
 }
 
 std::size_t Builder::add(const char* name, Json value) {

@@ -17,6 +17,9 @@ namespace facetmill::io::gltf {
 class Builder {
   public:
     Builder(Json document, const std::vector<Bytes>* buffers);
+    ~Builder();
+    Builder(const Builder&) = delete;
+    Builder& operator=(const Builder&) = delete;
 
     Json& json() { return json_; }
     /// The document as it was read.

@@ -3,6 +3,7 @@
 #include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/progress.hpp"
+#include "base/quick_json.hpp"
 #include "base/words.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/instances.hpp"
@@ -135,10 +136,8 @@ void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>&
 }
 
 /// of_points: those are read apart.
-void read_parts(Scene& scene, Source& source, const ReadSettings& settings, bool of_points, ReadLog& log) {
-    const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
-        log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
-    });
+void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
+                const ReadSettings& settings, bool of_points, ReadLog& log) {
     std::map<int, std::size_t> first_part; // of each mesh: instances copy it
     std::size_t vertices = 0;
     double bytes = 0; // of copies: a node costs few bytes of JSON
@@ -150,7 +149,8 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, bool
         Part part;
         if (const auto known = first_part.find(placement.mesh); known != first_part.end()) {
             bytes += bytes_of(scene.parts[known->second].mesh);
-            require_memory(bytes, "copying the meshes of nodes", "use a machine with more memory");
+            if (is_much_memory(bytes))
+                require_memory(bytes, "copying the meshes of nodes", "use a machine with more memory");
             part.mesh = scene.parts[known->second].mesh;
         } else {
             DecodedMesh decoded =
@@ -278,6 +278,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     document->name = input.name();
     document->json = std::string(chunks.json);
     Json json = parse_document(document->json);
+    const Discarded after(json);
     check_asset(json);
     document->buffers = load_buffers(json, chunks.binary, input, log);
     document->files = load_images(json, input, log);
@@ -293,9 +294,11 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     for (std::size_t i = 0; i < count_of(json, "materials"); ++i)
         scene.materials.push_back(read_material(item(json, "materials", i), i));
     Source source(json, document->buffers);
-    const auto frames = node_frames(json);
+    const auto frames = node_frames(json, [&](const char* id, std::string message) {
+        log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
+    });
     const bool of_points = is_of_points(json, frames);
-    read_parts(scene, source, settings, of_points, log);
+    read_parts(scene, source, frames, settings, of_points, log);
     if (of_points) {
         read_points(scene, source, frames, *document, settings.max_vertices, log);
         return scene;
@@ -338,6 +341,7 @@ void peek(const Input& input, FileHeader& header) {
         // Most of a document, and nothing that is asked here.
         constexpr std::array<std::string_view, 2> unread{"accessors", "bufferViews"};
         Json json = parse_document(chunks_of(input).json, unread);
+        const Discarded after(json);
         check_asset(json);
         part_lines(json);
         const std::vector<Placement> placed = placements(json, node_frames(json));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace facetmill::io::gltf {
@@ -55,9 +56,7 @@ Json parse_document(std::string_view text, std::span<const std::string_view> unr
     }
 }
 
-std::string to_string(const Json& document) {
-    return document.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string to_string(const Json& document) { return quick_text(document); }
 
 std::string Place::path() const {
     std::string path = above_ ? *above_ : "";
@@ -94,7 +93,9 @@ const Place::Member* Place::member(const char* key) const {
     if (!json_->is_object()) expected("an object");
     const std::string_view wanted(key);
     for (const auto& member : json_->get_ref<const Json::object_t&>())
-        if (member.first == wanted) return &member;
+        if (member.first.size() == wanted.size() &&
+            std::memcmp(member.first.data(), wanted.data(), wanted.size()) == 0)
+            return &member;
     return nullptr;
 }
 
@@ -180,12 +181,22 @@ std::optional<Place> list(const Json& document, const char* name) {
 }
 
 std::size_t count_of(const Json& document, const char* name) {
-    const auto found = list(document, name);
-    return found ? found->size() : 0;
+    const Place whole(document);
+    const auto* const found = whole.member(name);
+    if (!found) return 0;
+    return found->second.is_array() ? found->second.size() : list(document, name)->size(); // which refuses it
 }
 
 Place item(const Json& document, const char* name, std::size_t i) {
-    return Place(document, "").at(name).at(i);
+    const Place whole(document);
+    const auto* const found = whole.member(name);
+    if (!found || !found->second.is_array() || i >= found->second.size())
+        return whole.at(name).at(i); // which refuses it
+    Place place(found->second[i]);
+    place.steps_[0] = {&found->first, 0};
+    place.steps_[1] = {nullptr, i};
+    place.step_count_ = 2;
+    return place;
 }
 
 std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count) {

@@ -59,7 +59,12 @@ class Place {
     Place(const Place& from, const Step& step, const Json& json);
 
   private:
+    friend std::size_t count_of(const Json& document, const char* name);
+    friend Place item(const Json& document, const char* name, std::size_t i);
+
     using Member = Json::object_t::value_type;
+
+    explicit Place(const Json& document) : json_(&document) {}
 
     [[noreturn]] void expected(const char* what) const;
     const Member* member(const char* key) const;

@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/quick_json.hpp"
 #include "geometry/edit/equal_wedges.hpp"
 #include "io/attributes.hpp"
 #include "io/gltf/draco/draco.hpp"
@@ -37,7 +38,8 @@ struct Merge {
 
     void need(double more) {
         bytes += more;
-        require_memory(bytes, "reading " + mesh_place.path(), "use a machine with more memory");
+        if (is_much_memory(bytes))
+            require_memory(bytes, "reading " + mesh_place.path(), "use a machine with more memory");
     }
 
     void warn(const char* id, const std::string& message, const std::string& hint = {}) {
@@ -76,7 +78,7 @@ void add_targets(Merge& merge, Block& block, const Place& primitive) {
         if (!target.json().is_object()) target.fail("expected an object");
         for (const auto& [name, reference] : target.json().items())
             add_accessor_attribute(merge, block, fmt::format("TARGET_{}_{}", t, name),
-                                   Place(reference, target.path() + "." + name));
+                                   Place(target, {&name, 0}, reference));
     }
 }
 
@@ -101,7 +103,8 @@ void add_vertices(Merge& merge, Block& block) {
 std::size_t plain_block(Merge& merge, const Place& primitive) {
     const Place attributes = primitive.at("attributes");
     const auto targets = primitive.find("targets");
-    const std::string key = attributes.json().dump() + (targets ? targets->json().dump() : "");
+    const std::string key =
+        quick_text(attributes.json()) + (targets ? quick_text(targets->json()) : std::string());
     if (const auto known = merge.block_of.find(key); known != merge.block_of.end()) return known->second;
     Block block;
     const Accessor positions = accessor(merge.source, attributes.at("POSITION"));
@@ -111,7 +114,7 @@ std::size_t plain_block(Merge& merge, const Place& primitive) {
     block.positions = to_vectors(to_attribute(merge, "POSITION", positions, block.count));
     for (const auto& [name, reference] : attributes.json().items())
         if (name != "POSITION")
-            add_accessor_attribute(merge, block, name, Place(reference, attributes.path() + "." + name));
+            add_accessor_attribute(merge, block, name, Place(attributes, {&name, 0}, reference));
     add_targets(merge, block, primitive);
     add_vertices(merge, block);
     return merge.block_of[key] = merge.blocks.size() - 1;
@@ -157,7 +160,7 @@ std::size_t draco_block(Merge& merge, const Place& primitive, const Place& draco
     const Place attributes = primitive.at("attributes"), ids = draco.at("attributes");
     bool positions = false;
     for (const auto& [name, reference] : attributes.json().items()) {
-        const Place place(reference, attributes.path() + "." + name);
+        const Place place(attributes, {&name, 0}, reference);
         const auto id = ids.find(name.c_str());
         if (!id) {
             add_accessor_attribute(merge, block, name, place);
@@ -207,14 +210,14 @@ Primitive primitive_info(const Merge& merge, const Place& primitive, const Block
             static_cast<Index>(material->index(count_of(merge.source.json(), "materials"), "material"));
     info.attributes.push_back("POSITION"); // an empty list would mean all
     for (const auto& a : block.attributes) info.attributes.push_back(a.name);
-    Json kept = Json::object();
+    Json kept;
     if (const auto extras = primitive.find("extras")) kept["extras"] = extras->json();
     if (const auto extensions = primitive.find("extensions")) {
         Json others = extensions->json();
         others.erase("KHR_draco_mesh_compression");
         if (!others.empty()) kept["extensions"] = std::move(others);
     }
-    if (!kept.empty()) info.json = to_string(kept);
+    if (!kept.is_null()) info.json = to_string(kept);
     return info;
 }
 

@@ -1,5 +1,6 @@
 #include "io/gltf/nodes.hpp"
 
+#include "base/quick_json.hpp"
 #include "base/unique_names.hpp"
 #include "io/gltf/gltf.hpp"
 
@@ -229,9 +230,16 @@ namespace facetmill::io {
 
 namespace {
 
+/// Whether a document may have a member of this name: a text without escapes says it as it is.
+bool may_have(const std::string& json, const char* name) {
+    return json.find(name) != std::string::npos || json.find('\\') != std::string::npos;
+}
+
 /// The animated nodes of a document and all below them.
 std::set<int> moving_nodes(const Document& document) {
-    const Json json = gltf::parse_document(document.json);
+    if (!may_have(document.json, "animations")) return {};
+    Json json = gltf::parse_document(document.json);
+    const Discarded after(json);
     const auto animated = gltf::animated_nodes(json);
     std::set<int> moving;
     if (animated.empty()) return moving;

@@ -159,6 +159,12 @@ bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Va
 
 /// All parts of one mesh of the patched document.
 void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& variants) {
+    const bool all_original =
+        std::all_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
+    if (all_original) {
+        for (auto& variant : variants) variant.mesh = static_cast<int>(mesh);
+        return;
+    }
     Json& meshes = patch.builder.json()["meshes"];
     const Json before = meshes[mesh];
     bool slot_free =

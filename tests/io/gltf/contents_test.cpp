@@ -61,3 +61,14 @@ TEST_CASE("animations and skins name nodes and have digests of their numbers", "
     CHECK(contents["cameras"].empty());
     CHECK(io::document_contents(Scene{}).is_null());
 }
+
+TEST_CASE("what an animation drives is known, however the document spells it", "[io]") {
+    std::string text = document(0, picture);
+    const std::size_t bone = text.find("\"node\":1");
+    text.replace(bone, 8, "\"node\":0");
+    const std::vector<bool> driven{true}, still{false};
+    CHECK(io::animated_parts(test::read_text(text)) == driven);
+    CHECK(io::animated_parts(test::read_text(document(0, picture))) == still);
+    text.replace(text.find("\"animations\""), 12, R"("\u0061nimations")");
+    CHECK(io::animated_parts(test::read_text(text)) == driven);
+}

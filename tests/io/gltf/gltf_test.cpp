@@ -1,3 +1,4 @@
+#include "base/allocation_cap.hpp"
 #include "io/codec.hpp"
 #include "io/gltf/draco/quantise.hpp"
 #include "mesh/shapes.hpp"
@@ -471,4 +472,26 @@ TEST_CASE("nodes of lines beside triangles are parts, and those of points are na
     REQUIRE(log.warnings.size() == 1);
     CHECK(log.warnings[0].id == "W-SKIPPED");
     CHECK(log.warnings[0].message.starts_with("nodes[1] and 1 more have no triangles and no lines"));
+}
+
+TEST_CASE("a part more asks for memory as often as its mesh and its document need it", "[io]") {
+    const auto counts = [](std::size_t parts) { // of writing what was read, and of reading it
+        Scene scene = test::scene_in_metres(shapes::cube());
+        for (std::size_t i = 1; i < parts; ++i) {
+            Part part = scene.parts[0];
+            part.mesh.positions[0].x -= static_cast<double>(i) / 1024;
+            part.name = "part " + std::to_string(i);
+            scene.parts.push_back(std::move(part));
+        }
+        const io::Bytes bytes = test::written(scene, "glb").files.at(0).bytes;
+        const std::size_t before = allocations_of_thread();
+        const Scene read = test::read_bytes(bytes, "glb");
+        const std::size_t between = allocations_of_thread();
+        CHECK(test::written(read, "glb").files.at(0).bytes == bytes);
+        return std::pair(between - before, allocations_of_thread() - between);
+    };
+    const auto [read_few, written_few] = counts(50);
+    const auto [read_many, written_many] = counts(150);
+    CHECK(read_many - read_few < 100 * 56);
+    CHECK(written_many - written_few < 100 * 80);
 }
