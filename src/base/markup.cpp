@@ -63,6 +63,19 @@ std::string for_terminal(std::string_view text) {
     return out;
 }
 
+Painted& Painted::operator+=(std::string_view text) {
+    text_ += for_terminal(text);
+    return *this;
+}
+
+Painted& Painted::paint(std::string_view code, std::string_view text) {
+    if (!colour_) return *this += text;
+    text_.append("\033[").append(code).append("m");
+    *this += text;
+    text_ += "\033[0m";
+    return *this;
+}
+
 std::string for_shell(std::string_view text) {
     static constexpr std::string_view plain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._/=:,%+@";

@@ -22,6 +22,21 @@ std::string markdown_escaped(std::string_view text);
 /// commands: each becomes '?', but for line ends and tabs; those of UTF-8 (C1) and bytes that are none, too.
 std::string for_terminal(std::string_view text);
 
+/// A text for a terminal: all that is added is as for_terminal() has it, and some may have a colour.
+class Painted {
+  public:
+    explicit Painted(bool colour) : colour_(colour) {}
+
+    Painted& operator+=(std::string_view text);
+    /// Adds it in a colour, "1;31" as terminals number them; as it is where colours are off.
+    Painted& paint(std::string_view code, std::string_view text);
+    const std::string& text() const { return text_; }
+
+  private:
+    bool colour_;
+    std::string text_;
+};
+
 /// The text as one word for sh: as it is when nothing in it has a meaning, else in single quotes.
 std::string for_shell(std::string_view text);
 

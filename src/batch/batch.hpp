@@ -2,6 +2,7 @@
 // Many assets through one pipeline in one process: what the assets are, a run of its own for each, with all
 // of them on shared threads, what an earlier batch has done already, and one summary.
 
+#include "base/markup.hpp"
 #include "pipeline/run.hpp"
 
 #include <map>
@@ -135,8 +136,9 @@ int graver(int a, int b);
 /// warnings.
 std::vector<std::size_t> worst_first(const Summary& summary);
 
-/// For a terminal: failures, and as many of the others as fit, or all of them.
-std::string to_terminal(const Summary& summary, bool colour, bool all);
+/// For a terminal: failures, and as many of the others as fit, or all of them. Of errors, which were told as
+/// they arose, it has the ids.
+Painted to_terminal(const Summary& summary, bool colour, bool all);
 /// A report by its suffix (report::form_of). It has neither times nor what was kept, so
 /// that the same assets give the same text. Throws usage (E-REPORT) for another suffix.
 std::string render_for(const std::string& path, const Summary& summary);

@@ -1,6 +1,7 @@
 // What a batch did, as text and JUnit.
 
 #include "base/markup.hpp"
+#include "base/once_each.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "batch/batch.hpp"
@@ -41,18 +42,22 @@ std::size_t place_of(const Outcome& out) {
 
 enum class BatchForm { report, terminal };
 
-std::string paint(bool colour, const char* code, const std::string& text) {
-    return colour ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+/// The ids of its errors, each once: "E-STRICT, E-EMPTY".
+std::string ids_of(const std::vector<Diagnostic>& errors) {
+    OnceEach<std::string> ids;
+    for (const auto& error : errors) ids.add(error.id);
+    return fmt::format("{}", fmt::join(ids.all(), ", "));
 }
 
-/// A line of the table, and the errors below it.
-std::string line_of(const Asset& asset, const Outcome& out, BatchForm form, bool colour) {
+/// A line of the table, and in a report the errors below it.
+void add_line(const Asset& asset, const Outcome& out, BatchForm form, Painted& text) {
     const bool terminal = form == BatchForm::terminal;
     const std::string word = terminal && out.kept ? "kept" : verdict_word(out.verdict);
     const bool bad = out.verdict == Outcome::Verdict::failed || out.verdict == Outcome::Verdict::interrupted;
-    std::string text = fmt::format(
-        "  {}  {}", paint(colour, bad ? "1;31" : "32", fmt::format("{:<11}", word)), one_line(asset.name));
+    text += "  ";
+    text.paint(bad ? "1;31" : "32", fmt::format("{:<11}", word)) += "  " + one_line(asset.name);
     if (out.verdict == Outcome::Verdict::failed) text += fmt::format("  exit code {}", out.exit_code);
+    if (terminal && !out.errors.empty()) text += "  " + ids_of(out.errors);
     if (out.verdict == Outcome::Verdict::ok && out.faces_in + out.faces_out > 0)
         text += fmt::format("  {} -> {} {}", grouped(out.faces_in), grouped(out.faces_out),
                             noun_for(out.faces_out, "face"));
@@ -61,9 +66,9 @@ std::string line_of(const Asset& asset, const Outcome& out, BatchForm form, bool
     if (terminal && out.seconds > 0) text += fmt::format("  {}", timed(out.seconds));
     if (!out.warnings.empty()) text += "  " + counted(out.warnings.size(), "warning");
     text += "\n";
+    if (terminal) return;
     for (const auto& error : out.errors)
         text += fmt::format("{:15}[{}] {}\n", "", error.id, one_line(error.message));
-    return text;
 }
 
 std::string totals(const Summary& summary, BatchForm form) {
@@ -113,32 +118,36 @@ std::string one_line(std::string_view text) {
     return out;
 }
 
-std::string to_terminal(const Summary& summary, bool colour, bool all) {
+Painted to_terminal(const Summary& summary, bool colour, bool all) {
     constexpr std::size_t most = 40; // of what went well
-    std::string text;
-    std::size_t good = 0;
-    for (const std::size_t i : worst_first(summary)) {
-        const Outcome& out = summary.outcomes[i];
-        const bool went_well =
-            out.verdict == Outcome::Verdict::ok || out.verdict == Outcome::Verdict::not_run;
-        if (went_well && ++good > most && !all) continue;
-        text += line_of(summary.assets[i], out, BatchForm::terminal, colour);
-    }
-    if (good > most && !all)
-        text += fmt::format("  ... and {} more (-v or --report lists all)\n", good - most);
+    const auto went_well = [&](std::size_t i) {
+        const auto verdict = summary.outcomes[i].verdict;
+        return verdict == Outcome::Verdict::ok || verdict == Outcome::Verdict::not_run;
+    };
+    const auto order = worst_first(summary);
+    const auto good = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), went_well));
+    const std::size_t told = all || good <= most + 1 ? good : most;
+    Painted text(colour);
+    std::size_t seen = 0;
+    for (const std::size_t i : order)
+        if (!went_well(i) || ++seen <= told)
+            add_line(summary.assets[i], summary.outcomes[i], BatchForm::terminal, text);
+    if (good > told) text += fmt::format("  ... and {} more (-v or --report lists all)\n", good - told);
     for (const auto& path : summary.pruned) text += fmt::format("removed {}\n", one_line(path));
     text += totals(summary, BatchForm::terminal);
     text += fmt::format("; {}, {} at a time", timed(summary.seconds), summary.jobs);
-    return text + (summary.exit_code != 0 ? fmt::format("; exit code {}\n", summary.exit_code) : "\n");
+    return text += summary.exit_code != 0 ? fmt::format("; exit code {}\n", summary.exit_code) : "\n";
 }
 
 std::string to_text(const Summary& summary) {
-    std::string text = summary.pipeline + "\n";
+    Painted text(false);
+    text += summary.pipeline + "\n";
     for (const auto& error : summary.errors)
         text += fmt::format("  [{}] {}\n", error.id, one_line(error.message));
     for (const std::size_t i : worst_first(summary))
-        text += line_of(summary.assets[i], summary.outcomes[i], BatchForm::report, false);
-    return text + fmt::format("{}; exit code {}\n", totals(summary, BatchForm::report), summary.exit_code);
+        add_line(summary.assets[i], summary.outcomes[i], BatchForm::report, text);
+    text += fmt::format("{}; exit code {}\n", totals(summary, BatchForm::report), summary.exit_code);
+    return text.text();
 }
 
 std::string timings_text(const Summary& summary) {

@@ -42,10 +42,10 @@ void tell_contents(const cache::Store& store, bool json) {
                           {"limit", limit},         {"writable", hindrance.empty()}};
         return print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
-    print(fmt::format("{}\n{}, {} of them scenes, {} of at most {}\n", folder,
-                      counted(there.entries, "entry", "entries"), there.scenes, sized(there.bytes),
-                      sized(limit)));
-    if (!hindrance.empty()) print(fmt::format("cannot be written: {}\n", hindrance));
+    show(fmt::format("{}\n{}, {} of them scenes, {} of at most {}\n", folder,
+                     counted(there.entries, "entry", "entries"), there.scenes, sized(there.bytes),
+                     sized(limit)));
+    if (!hindrance.empty()) show(fmt::format("cannot be written: {}\n", hindrance));
 }
 
 int cache_work(const std::string& action, bool json) {

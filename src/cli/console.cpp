@@ -30,6 +30,8 @@ void print(std::string_view text) {
     throw Error(ErrorKind::output, "E-WRITE", fmt::format("standard output: {}", std::strerror(errno)));
 }
 
+void show(std::string_view text) { print(for_terminal(text)); }
+
 namespace {
 
 /// A message on standard error. When nobody reads it any more (facetmill run ... 2>&1 | head), the run goes
@@ -76,11 +78,11 @@ class Bar : public Progress {
     }
 
   private:
-    void begin(double filled, double until, std::string what) {
+    void begin(double filled, double until, const std::string& what) {
         const std::lock_guard lock(guard_);
         filled_ = filled;
         until_ = until;
-        what_ = std::move(what);
+        what_ = for_terminal(what);
         watch_ = {};
         share_ = told_ = 0;
         draw();
@@ -131,11 +133,11 @@ class Lines : public Progress {
                   {"of", number_of},
                   {"seconds", since}});
         else
-            tell("{:7.2f}s  {}/{} {}\n", since, number, number_of, name);
+            tell("{:7.2f}s  {}/{} {}\n", since, number, number_of, for_terminal(name));
     }
     void beside_stages(const std::string& what) override {
         const double since = watch_.seconds();
-        if (!json_) tell("{:7.2f}s  {}\n", since, what);
+        if (!json_) tell("{:7.2f}s  {}\n", since, for_terminal(what));
     }
     void share(double) override {}
     void done() override {}
@@ -205,7 +207,14 @@ void Console::say(std::string_view text) const {
     if (json)
         line({{"level", "info"}, {"message", text}});
     else
-        tell("{}\n", text);
+        tell("{}\n", for_terminal(text));
+}
+
+void Console::say(const Painted& text) const {
+    if (quiet) return;
+    std::string_view lines = text.text();
+    while (lines.ends_with('\n')) lines.remove_suffix(1);
+    tell("{}\n", lines);
 }
 
 void Console::event(const Json& object) const {

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "base/markup.hpp"
 #include "base/progress.hpp"
 
 #include <memory>
@@ -14,6 +15,8 @@ namespace facetmill::cli {
 /// Writes a result to standard output. Throws output (E-WRITE) when that fails, so that a full disk is no
 /// success.
 void print(std::string_view text);
+/// The same for people, in whose terminal no control character of a name may get.
+void show(std::string_view text);
 
 /// The share of a stage that was done when it was told last (0: it was not), seconds after the stage began.
 struct Told {
@@ -35,8 +38,11 @@ class Console {
     bool colour() const;
     void diagnostic(const Diagnostic& diagnostic) const;
     void diagnostics(const Error& error) const;
-    /// For people; left out with quiet. In JSON: {"level": "info", "message": ...}.
+    /// For people, without control characters of names; left out with quiet. In JSON: {"level": "info",
+    /// "message": ...}.
     void say(std::string_view text) const;
+    /// The same with colours; not for JSON.
+    void say(const Painted& text) const;
     /// The same for programs: an object of its own, only with --log json.
     void event(const Json& object) const;
     /// Whether a line may be drawn anew to show progress: on a terminal, unless messages are lines or JSON.

@@ -92,10 +92,12 @@ int diff_of_files(const DiffOptions& options, const CommandLine& line, const Con
     steps.next("compare");
     const ComparedFiles files = compared_files(options, options.a, options.b, line, console);
     steps.done();
-    print(options.json ? report::to_json(files.comparison, options.a, options.b)
-                                 .dump(2, ' ', false, Json::error_handler_t::replace) +
-                             "\n"
-                       : for_terminal(report::to_text(files.comparison, options.a, options.b, options.all)));
+    if (options.json)
+        print(report::to_json(files.comparison, options.a, options.b)
+                  .dump(2, ' ', false, Json::error_handler_t::replace) +
+              "\n");
+    else
+        show(report::to_text(files.comparison, options.a, options.b, options.all));
     write_reports(options, files, console);
     return files.comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
 }

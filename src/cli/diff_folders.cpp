@@ -120,11 +120,11 @@ int diff_of_folders(const DiffOptions& options, const CommandLine& line, const C
         code = batch::graver(code, all.pairs.back().exit_code);
     }
     steps.done();
-    print(
-        options.json
-            ? report::to_json(all, options.a, options.b).dump(2, ' ', false, Json::error_handler_t::replace) +
-                  "\n"
-            : report::to_text(all, options.a, options.b, options.all));
+    if (options.json)
+        print(report::to_json(all, options.a, options.b).dump(2, ' ', false, Json::error_handler_t::replace) +
+              "\n");
+    else
+        show(report::to_text(all, options.a, options.b, options.all));
     write_folder_reports(options, all);
     return code;
 }

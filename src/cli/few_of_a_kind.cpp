@@ -34,8 +34,10 @@ void FewOfAKind::tell(const Diagnostic& diagnostic) {
 void FewOfAKind::finish() {
     for (auto& [name, kind] : kinds_) {
         if (kind.count <= most) continue;
-        kind.last.message = fmt::format("{} more like these", grouped(kind.count - most));
-        kind.last.hint = "a report lists them all: --report run.json";
+        if (kind.count > most + 1) { // one alone takes no more room than that it is left out
+            kind.last.message = fmt::format("{} more like these", grouped(kind.count - most));
+            kind.last.hint = "a report lists them all: --report run.json";
+        }
         console_.diagnostic(kind.last);
     }
     kinds_.clear();

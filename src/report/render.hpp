@@ -1,6 +1,7 @@
 #pragma once
 // Renderers of a run's record.
 
+#include "base/markup.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "report/record.hpp"
 
@@ -26,7 +27,7 @@ Json info_schema();                           ///< ... and of `info --json`
 std::string to_text(const RunRecord& record); ///< the report for people
 /// What was done, for a terminal: with times and memory, without warnings and errors, which were told when
 /// they arose.
-std::string to_terminal(const RunRecord& record, bool colour);
+Painted to_terminal(const RunRecord& record, bool colour);
 /// One self-contained page. view: what its 3D view shows (report/viewer.hpp), or null.
 std::string to_html(const RunRecord& record, const Json& view = nullptr);
 /// ... that also tells times, memory and threads, which differ from run to run.

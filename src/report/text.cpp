@@ -13,13 +13,6 @@ namespace facetmill::report {
 
 namespace {
 
-struct Paint {
-    bool on;
-    std::string operator()(const char* code, const std::string& text) const {
-        return on ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
-    }
-};
-
 /// "12,000 -> 3,000 faces", or one number when the stage left it; vertices, where there are no faces (a cloud
 /// of points).
 std::string size_change(const StageRecord& stage) {
@@ -39,33 +32,33 @@ std::string size_change(const StageRecord& stage) {
 enum class Form { report, terminal };
 constexpr std::size_t most_lines = 20; ///< of a stage on a terminal
 
-void add_warning(const Diagnostic& warning, const std::string& lead, std::string& out) {
-    out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, for_terminal(warning.message));
+void add_warning(const Diagnostic& warning, const std::string& lead, Painted& out) {
+    out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
 }
 
-void add_stage(const StageRecord& stage, std::size_t width, Form form, const Paint& paint, std::string& out) {
-    const std::string name = for_terminal(fmt::format("{:<{}}", stage.name, width));
+void add_stage(const StageRecord& stage, std::size_t width, Form form, Painted& out) {
+    const std::string name = fmt::format("{:<{}}", stage.name, width);
     const std::string lead = fmt::format("  {:<{}}  ", "", width);
     if (stage.skipped) {
-        out += fmt::format("  {}  {}\n", name, paint("2", "skipped"));
+        out += fmt::format("  {}  ", name);
+        out.paint("2", "skipped") += "\n";
         return;
     }
     if (form == Form::terminal)
         out += fmt::format("  {}  {:<34} {:>9}\n", name, size_change(stage), timed(stage.seconds));
     else
         out += fmt::format("  {}  {}\n", name, size_change(stage));
-    const std::size_t told =
-        form == Form::terminal ? std::min(stage.said.size(), most_lines) : stage.said.size();
-    for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, for_terminal(stage.said[i]));
-    if (told < stage.said.size())
-        out += fmt::format("{}  and {} more lines, which --report run.txt has\n", lead,
-                           grouped(stage.said.size() - told));
+    const std::size_t all = stage.said.size(),
+                      told = form == Form::report || all <= most_lines + 1 ? all : most_lines;
+    for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, stage.said[i]);
+    if (told < all)
+        out += fmt::format("{}  and {} more lines, which --report run.txt has\n", lead, grouped(all - told));
     if (form == Form::terminal) return;
     for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }
 
 /// A terminal has been told of those that do not hold.
-void add_checks(const std::vector<Check>& checks, Form form, const Paint& paint, std::string& out) {
+void add_checks(const std::vector<Check>& checks, Form form, Painted& out) {
     if (checks.empty()) return;
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return !c.passed; });
     const auto known = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return c.waived; });
@@ -75,10 +68,14 @@ void add_checks(const std::vector<Check>& checks, Form form, const Paint& paint,
     for (const auto& c : checks) {
         if ((c.passed && !c.waived) || (!c.passed && form == Form::terminal)) continue;
         const std::string where = locations_text(c);
-        out += fmt::format("  {} {} ({}{}): expected {}, found {}{}\n",
-                           c.waived ? paint("2", outcome(c)) : outcome(c), c.name, c.stage,
-                           c.part.empty() ? "" : ", part " + for_terminal(c.part), c.expected, found_text(c),
-                           where.empty() ? "" : "; " + for_terminal(where));
+        out += "  ";
+        if (c.waived)
+            out.paint("2", outcome(c));
+        else
+            out += outcome(c);
+        out += fmt::format(" {} ({}{}): expected {}, found {}{}\n", c.name, c.stage,
+                           c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
+                           where.empty() ? "" : "; " + where);
     }
 }
 
@@ -113,17 +110,16 @@ std::string files_written(const std::vector<FileRecord>& files) {
 }
 
 /// Name and stages, without an end.
-std::string begin(const RunRecord& record, Form form, const Paint& paint) {
-    std::string out = paint("1", for_terminal(record.pipeline)) +
-                      (record.about.empty() ? "" : ": " + for_terminal(record.about)) + "\n";
+void begin(const RunRecord& record, Form form, Painted& out) {
+    out.paint("1", record.pipeline) += (record.about.empty() ? "" : ": " + record.about) + "\n";
     constexpr std::size_t widest = 40;
     std::size_t width = 8;
     for (const auto& stage : record.stages) width = std::max(width, stage.name.size());
-    for (const auto& stage : record.stages) add_stage(stage, std::min(width, widest), form, paint, out);
+    for (const auto& stage : record.stages) add_stage(stage, std::min(width, widest), form, out);
     if (form == Form::report)
         for (const auto& warning : record.warnings) add_warning(warning, "  ", out);
-    add_checks(record.checks, form, paint, out);
-    return out + for_terminal(files_written(record.outputs));
+    add_checks(record.checks, form, out);
+    out += files_written(record.outputs);
 }
 
 /// After a failure; a report may fail after the outputs.
@@ -134,26 +130,27 @@ std::string outputs_left(const RunRecord& record) {
 } // namespace
 
 std::string to_text(const RunRecord& record) {
-    const std::string out = begin(record, Form::report, {false});
-    if (record.exit_code == 0) return out + "ok\n";
+    Painted out(false);
+    begin(record, Form::report, out);
+    if (record.exit_code == 0) return (out += "ok\n").text();
     const std::string why = record.errors.empty() ? ""
                                                   : fmt::format(": [{}] {}", record.errors.front().id,
                                                                 record.errors.front().message);
     const std::string more =
         record.errors.size() > 1 ? fmt::format(" (and {} more)", record.errors.size() - 1) : "";
-    return out +
-           fmt::format("failed{}{}{}; exit code {}\n", why, more, outputs_left(record), record.exit_code);
+    out += fmt::format("failed{}{}{}; exit code {}\n", why, more, outputs_left(record), record.exit_code);
+    return out.text();
 }
 
-std::string to_terminal(const RunRecord& record, bool colour) {
-    const Paint paint{colour};
-    std::string out = begin(record, Form::terminal, paint);
+Painted to_terminal(const RunRecord& record, bool colour) {
+    Painted out(colour);
+    begin(record, Form::terminal, out);
     for (const auto& report : record.reports) out += fmt::format("report {}\n", report);
     if (record.exit_code != 0)
-        return out + fmt::format("{}{}; exit code {}\n", paint("1;31", "failed"), outputs_left(record),
-                                 record.exit_code);
-    return out + fmt::format("{} in {}, peak memory {}\n", paint("1;32", "ok"), timed(record.seconds),
-                             sized(record.peak_memory));
+        return out.paint("1;31", "failed") +=
+               fmt::format("{}; exit code {}\n", outputs_left(record), record.exit_code);
+    return out.paint("1;32", "ok") +=
+           fmt::format(" in {}, peak memory {}\n", timed(record.seconds), sized(record.peak_memory));
 }
 
 } // namespace facetmill::report

@@ -359,6 +359,15 @@ class Batch(Case):
             (self.dir / "in/sub/deep").chmod(0o755)
             self.assertIn("sub/deep/c.obj", self.written())
 
+    def test_an_error_is_told_once(self):
+        self.write("in/junk.off", "no mesh")
+        run = self.batch("-k", "-j1", "--report", "s.txt", expect=6)
+        self.assertEqual(run.stderr.count("error[E-"), 1, run.stderr)
+        message = next(line for line in run.stderr.splitlines() if "error[E-" in line).split("]: ")[1]
+        self.assertEqual(run.stderr.count(message), 1, run.stderr)
+        self.assertRegex(run.stderr, r"  failed       in/junk.off  exit code 6  E-[A-Z]+  ")
+        self.assertIn(message, (self.dir / "out/s.txt").read_text())
+
     def test_names_of_parts_collide(self):
         parts = "".join(f"o {name}\nv {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf -3 -2 -1\n" for i, name in enumerate(("left", "right")))
         self.write("v/z.obj", parts)

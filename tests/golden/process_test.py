@@ -750,6 +750,32 @@ class Process(Case):
         self.assertEqual(len(stages["simplify"]["warnings"]), 30)
         lines = self.mill("pipe", "--log", "json", *words).stderr.splitlines()
         self.assertEqual(sum("W-SIMPLIFY-NOTHING" in line for line in lines), 30)
+        # The line that says how many more there are takes as much room as one.
+        first = self.write("eleven.obj", text[:text.index("o box11\n")])
+        told = self.mill("pipe", "load", first, *words[2:]).stderr
+        self.assertEqual(told.count("at or below the target"), 11)
+        self.assertNotIn("more like these", told)
+
+    def test_control_characters_of_names_do_not_reach_the_terminal(self):
+        name = "a\x1b[31m\x07\x9b5m"
+        self.write("t.off", TRIANGLE)
+        self.write("in/" + name + ".off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages:\n"
+                             "  - {load: '${input}'}\n  - {write: '${input.stem}.ply'}\n")
+        for words in (["new", name + ".yaml"],
+                      ["pipe", "-v", "--report", name + ".json", "load", "t.off", "!", "write", name + ".ply"],
+                      ["run", "-v", "p.yaml", "-D", f"input=in/{name}.off", "-o", "out"],
+                      ["plan", "p.yaml", "-D", f"input=in/{name}.off"],
+                      ["info", f"in/{name}.off"],
+                      ["check", "p.yaml", name + ".yaml"],
+                      ["diff", f"in/{name}.off", "t.off"],
+                      ["diff", "in", "in"],
+                      ["batch", "-v", "p.yaml", "--input", "in/*.off", "-o", "many", "--report", name + ".html"]):
+            run = self.mill(*words, expect=None)
+            self.assertIn(run.returncode, (0, 1), (words, run.stderr))
+            for c in "\x1b\x07\x9b":
+                self.assertNotIn(c, run.stderr + run.stdout, words)
+        self.assertIn("wrote a?[31m", self.mill("new", name + "2.yaml").stderr)
 
 
 class Save(Case):

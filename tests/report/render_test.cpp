@@ -202,7 +202,7 @@ TEST_CASE("many files of a folder are one line", "[report]") {
 TEST_CASE("a terminal is not told again of what was told as it arose", "[report]") {
     RunRecord record = full_record();
     record.reports = {"out/r.json"};
-    CHECK(to_terminal(record, false) ==
+    CHECK(to_terminal(record, false).text() ==
           "p.yaml: Mills <cubes> & more\n"
           "  cut       1,200 -> 12 faces                     0.25 s\n"
           "              1 cap & no more\n"
@@ -217,8 +217,39 @@ TEST_CASE("a terminal is not told again of what was told as it arose", "[report]
     good.pipeline = "p.yaml";
     good.seconds = 0.5;
     good.peak_memory = 2'000'000;
-    CHECK(to_terminal(good, true) ==
+    CHECK(to_terminal(good, true).text() ==
           "\033[1mp.yaml\033[0m\n\033[1;32mok\033[0m in 0.50 s, peak memory 2.0 MB\n");
+}
+
+TEST_CASE("what stands around in names is no command to a terminal, and colours are", "[report]") {
+    RunRecord record = full_record();
+    record.pipeline = "\x1b[2Jp.yaml";
+    record.about = "mills \x1b]0;title\x07";
+    record.reports = {"out/\x1b[8mr.json"};
+    record.outputs = {{"\x1b[1Ab.glb", 500, "", {}}};
+    record.checks[0].name += "\x1b[31m";
+    record.errors = {{Severity::error, "E-X", "of '\x1b[5m'", {}, "", false}};
+    for (const std::string& text : {to_terminal(record, false).text(), to_text(record)}) {
+        CHECK(text.find('\x1b') == std::string::npos);
+        CHECK(text.find('\x07') == std::string::npos);
+        CHECK(text.find("wrote ?[1Ab.glb (500 bytes)\n") != std::string::npos);
+    }
+    const std::string painted = to_terminal(record, true).text();
+    CHECK(painted.starts_with("\033[1m?[2Jp.yaml\033[0m: mills ?]0;title?\n"));
+    CHECK(painted.find("report out/?[8mr.json\n\033[1;31mfailed\033[0m") != std::string::npos);
+}
+
+TEST_CASE("of the lines of a stage one alone is not left out", "[report]") {
+    RunRecord record;
+    auto& stage = record.stages.emplace_back();
+    stage.name = "cut";
+    for (int i = 1; i <= 21; ++i) stage.said.push_back(fmt::format("line {}.", i));
+    CHECK(to_terminal(record, false).text().find("line 21.\n") != std::string::npos);
+    stage.said.push_back("line 22.");
+    const std::string text = to_terminal(record, false).text();
+    CHECK(text.find("line 20.\n") != std::string::npos);
+    CHECK(text.find("line 21.") == std::string::npos);
+    CHECK(text.find("and 2 more lines, which --report run.txt has\n") != std::string::npos);
 }
 
 TEST_CASE("numbers below a chart do not run into each other", "[report]") {
