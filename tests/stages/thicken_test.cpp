@@ -38,6 +38,23 @@ TEST_CASE("thicken resolves folds on request, and names that where they are told
               .count("self_intersections") == 0);
 }
 
+TEST_CASE("thicken says lengths with their unit", "[stages]") {
+    Mesh tent; // two steep sheets
+    tent.positions = {{-0.2, 0, 0}, {-0.2, 1, 0}, {0, 0, 1}, {0, 1, 1}, {0.2, 0, 0}, {0.2, 1, 0}};
+    tent.corners = {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4};
+    const auto thin = [&](Unit unit) {
+        const auto run = run_stage("thicken", "{thickness: 0.5, side: outward}", scene_of(tent, unit));
+        REQUIRE(run.record.warnings.size() > 0);
+        CHECK(run.record.warnings[0].id == "W-THICKEN-THIN");
+        REQUIRE(run.record.said.size() == 1);
+        return run.record.warnings[0].message + " | " + run.record.said[0];
+    };
+    CHECK(thin(Unit::mm).find("is only 0.133296 mm thick where it should be 0.5 mm | part: wall thickness at "
+                              "least 0.133296 mm, mean ") != std::string::npos);
+    CHECK(thin(Unit::unknown).find("0.133296 scene units thick where it should be 0.5 scene units | ") !=
+          std::string::npos);
+}
+
 TEST_CASE("thicken leaves no skin without joints", "[stages]") {
     const auto wires = run_stage("thicken", "{thickness: 0.1, mode: edges}", test::skinned_cube());
     CHECK_FALSE(wires.scene.parts[0].skinned);

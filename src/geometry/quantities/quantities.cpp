@@ -6,6 +6,7 @@
 #include "geometry/measure/measure.hpp"
 #include "geometry/spatial/signed_distances.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/unit_text.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -150,8 +151,7 @@ const Quantity* quantity_called(std::string_view word) {
 }
 
 std::string unit_of(const Quantity& quantity, Unit unit) {
-    const bool known = unit != Unit::unknown;
-    const std::string one = known ? to_string(unit) : "scene unit", many = known ? one : one + "s";
+    const std::string many = unit_text(unit), one = unit == Unit::unknown ? "scene unit" : many;
     switch (quantity.measure) {
     case Measure::degrees:
         return "degrees";

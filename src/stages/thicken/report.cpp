@@ -1,6 +1,7 @@
 #include "stages/thicken/report.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
+#include "mesh/unit_text.hpp"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,8 @@ std::string line_of(const ThickenedSurface& surface) {
     const ThickenResult& r = surface.result;
     std::string line = surface.part + ":";
     if (r.wall)
-        line += fmt::format(" wall thickness at least {:.6g}, mean {:.6g},", r.wall->thinnest, r.wall->mean);
+        line += fmt::format(" wall thickness at least {0:.6g} {2}, mean {1:.6g} {2},", r.wall->thinnest,
+                            r.wall->mean, unit_text(surface.unit));
     if (r.filled > 0) line += fmt::format(" {} filled,", counted(r.filled, "component"));
     if (r.turned > 0) line += fmt::format(" {} turned over,", counted(r.turned, "face"));
     if (r.resolved) line += " folds resolved,";
@@ -105,8 +107,10 @@ void declare_thicken_report(DeclareFields<ThickenReport>& d) {
     });
 }
 
-void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, const ThickenOptions& o,
-                   Context& context) {
+void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor& wall,
+                   const ThickenOptions& o, Context& context) {
+    const double thickness = wall.thickness;
+    const char* unit = unit_text(wall.unit);
     const bool resolves = o.self_intersections == ThickenOptions::SelfIntersections::resolve;
     const std::string way_out =
         resolves ? "" : "thicken: {self_intersections: resolve} makes the solid again without that; or ";
@@ -119,8 +123,8 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, c
     if (r.wall && r.wall->thinnest < 0.5 * thickness)
         context.warn(
             "W-THICKEN-THIN",
-            fmt::format("thicken: the wall of part '{}' is only {:.6g} thick where it should be {:.6g}",
-                        part.name, r.wall->thinnest, thickness),
+            fmt::format("thicken: the wall of part '{}' is only {:.6g} {} thick where it should be {:.6g} {}",
+                        part.name, r.wall->thinnest, unit, thickness, unit),
             "the surface curves or folds within the thickness there; try the other side or a smaller "
             "thickness");
     if (r.self_intersections.value_or(0) > 0)
@@ -132,8 +136,8 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, c
         context.warn(
             "W-THICKEN",
             fmt::format("thicken: {} faces of the walls of part '{}' are inverted, the first at "
-                        "{}: there is no room for {:.6g}",
-                        r.turned, part.name, readable(*r.first_turned), thickness),
+                        "{}: there is no room for {:.6g} {}",
+                        r.turned, part.name, readable(*r.first_turned), thickness, unit),
             way_out +
                 "use a smaller thickness, the other side, or larger and smoother faces (simplify, relax)");
     if (r.buried > 0)
@@ -143,9 +147,9 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, c
                      way_out + "use a smaller thickness, or thicken the components one by one (separate)");
     if (o.looks() && !r.self_intersections)
         context.warn("W-THICKEN",
-                     fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g}, so it was not "
+                     fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g} {}, so it was not "
                                  "searched for self-intersections",
-                                 part.name, thickness),
+                                 part.name, thickness, unit),
                      "is the thickness in the right unit?");
 }
 

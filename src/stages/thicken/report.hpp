@@ -12,7 +12,8 @@ struct ThickenedSurface {
     std::string part;
     ThickenResult result;
     bool has_faces = true;
-    bool looked = false; ///< for self-intersections
+    bool looked = false;       ///< for self-intersections
+    Unit unit = Unit::unknown; ///< of the scene
 };
 /// Of edges that became cylinders.
 struct ThickenedEdges {
@@ -26,8 +27,14 @@ struct ThickenReport {
 };
 void declare_thicken_report(DeclareFields<ThickenReport>& d);
 
-/// Warns where the solid is open, thinner than asked for (in world units), or runs into itself.
-void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, const ThickenOptions& o,
-                   Context& context);
+/// The thickness in the world, and the scene's unit.
+struct WallAskedFor {
+    double thickness = 0;
+    Unit unit = Unit::unknown;
+};
+
+/// Warns where the solid is open, thinner than asked for, or runs into itself.
+void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor& wall,
+                   const ThickenOptions& o, Context& context);
 
 } // namespace facetmill::thicken_stage

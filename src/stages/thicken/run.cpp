@@ -28,8 +28,8 @@ class SurfaceThickener {
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         const bool has_faces = part.mesh.face_count() > 0;
-        if (has_faces) warn_of_walls(part, r, thickness, o_, context);
-        return ThickenedSurface{part.name, std::move(r), has_faces, o_.looks()};
+        if (has_faces) warn_of_walls(part, r, {thickness, scene_.unit}, o_, context);
+        return ThickenedSurface{part.name, std::move(r), has_faces, o_.looks(), scene_.unit};
     }
 
   private:
