@@ -129,7 +129,7 @@ std::span<const MessageId> message_ids() {
         {"E-EMPTY",
          {Kind::malformed, Kind::stage},
          "A file is empty or has no vertices, or there is nothing to write.",
-         "Check what the previous stages kept; `when: {faces: {min: 1}}` skips a write."},
+         "Check what the previous stages kept; `when: {vertices: {min: 1}}` skips a write."},
         {"E-ENCODING",
          {Kind::malformed},
          "A text file is neither UTF-8 nor whole UTF-16.",
@@ -679,7 +679,8 @@ std::span<const MessageId> message_ids() {
         {"W-OPEN-SECTION",
          {},
          "A section has open contours, because the mesh is open where the plane cuts it.",
-         "`clean` closes holes."},
+         "`clean` closes holes. Of a surface that has no inside, such as a terrain, the open lines are the "
+         "section; they have no area."},
         {"W-OPTIMIZE",
          {},
          "The stage optimize erases and joins nothing in a document, because it has an extension that may "

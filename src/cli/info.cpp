@@ -145,17 +145,26 @@ std::string point_text(const Vec3& p) {
     return fmt::format("[{},{},{}]", number_text(p.x), number_text(p.y), number_text(p.z));
 }
 
+/// Of what has no faces (a cloud of points, lines), whether it is closed and the like need no line, nor do
+/// zeros beside that of the faces.
+bool applies(const Property& property, const Properties& properties) {
+    if (properties.faces > 0 || property.name == "faces") return true;
+    const auto value = property.get(properties);
+    return value && *value != 0 && !property.truth();
+}
+
 std::string as_text(const std::string& name, const FileInfo& info) {
     const Box& bounds = info.properties.bounds;
     std::string text = name + "\n";
     for (const Property* p : report::told_properties(info.properties))
-        text += row(p->name, value_text(*p, info.properties));
+        if (applies(*p, info.properties)) text += row(p->name, value_text(*p, info.properties));
     text += row("bounds", bounds.empty() ? "-" : point_text(bounds.min) + " to " + point_text(bounds.max));
     text += row("unit", to_string(info.scene.unit));
     text += row("up", to_string(info.scene.up));
     text += list_text("attributes", attribute_texts(info.scene));
     text += list_text("materials", material_texts(info.scene));
     text += list_text("parts", part_texts(info.scene));
+    if (info.properties.faces == 0) return text;
     text += components_text(info);
     return text + row("face_kinds", kinds_text(info.kinds));
 }
@@ -236,13 +245,11 @@ int info(const InfoOptions& options, const Console& console) {
         else
             text += as_text(mesh, info);
     }
-    if (!options.json)
-        text = for_terminal(text);
-    else
+    if (options.json)
         text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     if (!options.picture.empty()) write_picture(pictures, options.picture);
     steps.done();
-    print(text);
+    options.json ? print(text) : show(text);
     return 0;
 }
 

@@ -183,18 +183,31 @@ Json choice_schema(const std::vector<Choice>& choices) {
     return {{"enum", names}};
 }
 
-std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems) {
-    if (value.deferred) return 0;
+namespace {
+
+std::vector<std::string> names_of_choices(const Option& option) {
     std::vector<std::string> names;
     for (const auto& c : option.choices) names.push_back(c.name);
+    return names;
+}
+
+void refuse_choice(const Option& option, const Value& value, std::string hint, Problems& problems) {
+    problems.add(value.mark, "E-CHOICE",
+                 fmt::format("'{}' is one of {}, found {}", option.name,
+                             fmt::join(names_of_choices(option), ", "), value.described()),
+                 std::move(hint));
+}
+
+} // namespace
+
+std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems) {
+    if (value.deferred) return 0;
+    const std::vector<std::string> names = names_of_choices(option);
     if (value.is_scalar())
         for (std::size_t i = 0; i < names.size(); ++i)
             if (names[i] == value.text) return i;
     const bool near = value.is_scalar() && !nearest(value.text, names).empty();
-    problems.add(
-        value.mark, "E-CHOICE",
-        fmt::format("'{}' is one of {}, found {}", option.name, fmt::join(names, ", "), value.described()),
-        near ? suggestion(value.text, names) : "");
+    refuse_choice(option, value, near ? suggestion(value.text, names) : "", problems);
     return {};
 }
 
@@ -246,6 +259,22 @@ const Option* other_choice(const Declaration& declaration, const Option& primary
     return it == declaration.options.end() || &*it == &primary ? nullptr : &*it;
 }
 
+/// What a bare number may be of, where the bare value is a name: `split: 2`. Empty where there is nothing.
+std::string hint_of_number(const Declaration& declaration, const Option& primary, std::string_view owner,
+                           const Value& value) {
+    constexpr std::size_t most_told = 3;
+    if (primary.kind != OptionKind::choice || !value.is_scalar() || !parse_integer(value.text)) return {};
+    std::vector<std::string> ways;
+    for (const Option& o : declaration.options)
+        if (o.kind == OptionKind::integer && ways.size() < most_told)
+            ways.push_back(fmt::format("{}: {{{}: {}}}", owner, o.name, value.text));
+    if (ways.empty()) return {};
+    const std::string last = ways.back();
+    ways.pop_back();
+    return fmt::format("a number is given by the name of its option: {}{}{}", fmt::join(ways, ", "),
+                       ways.empty() ? "" : " or ", last);
+}
+
 /// More names than one reads through are not listed.
 constexpr std::size_t most_listed = 24;
 
@@ -295,6 +324,10 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
                 value.mark, "E-TYPE",
                 fmt::format("a bare value of {} is its '{}', found {}", owner, bare->name, value.described()),
                 fmt::format("{} is a value of '{}': give it that name", value.text, o->name));
+            return false;
+        }
+        if (const std::string hint = bare ? hint_of_number(*this, *bare, owner, value) : ""; !hint.empty()) {
+            refuse_choice(*bare, value, hint, problems);
             return false;
         }
         if (bare) return parse(as_map(*bare, value), target, owner, problems, also_known);

@@ -195,6 +195,27 @@ TEST_CASE("both sides of several planes are what is in front of all, and the res
     for (const Part& part : run.scene.parts) CHECK(inspect(part.mesh).closed);
 }
 
+TEST_CASE("clip that keeps nothing speaks of the planes or the box that it was given", "[stages]") {
+    const auto told = [](const char* options) {
+        const auto run = run_stage("clip", options, scene_of(shapes::cube()));
+        REQUIRE(run.record.warnings.size() == 1);
+        return run.record.warnings[0].message + " | " + run.record.warnings[0].hint;
+    };
+    CHECK(told("z=2") ==
+          "clip: nothing of part 'part' was kept | check the position and direction of the plane "
+          "(info prints the bounds), or keep the other side (keep: back)");
+    CHECK(told("{plane: z=-2, keep: back}").ends_with(", or keep the other side (keep: front)"));
+    CHECK(told("{box: {min: [5, 5, 5], max: [6, 6, 6]}}") ==
+          "clip: nothing of part 'part' was kept | check the position and size of the box (info prints the "
+          "bounds), or keep the rest (keep: outside)");
+    CHECK(told("{box: {min: [-5, -5, -5], max: [6, 6, 6]}, keep: outside}")
+              .ends_with(", or keep the inside (keep: inside)"));
+    CHECK(
+        told("{box: {min: [-5, -5, -5], max: [6, 6, 6]}}") ==
+        "clip: the box does not cut part 'part', which stays whole | check the position and size of the box "
+        "(info prints the bounds)");
+}
+
 TEST_CASE("clip says when everything or nothing stays, and names open contours", "[stages]") {
     const auto warnings = [](const Value& given, Mesh mesh) {
         std::string all;

@@ -129,12 +129,17 @@ TEST_CASE("crop says when nothing or all is kept", "[stages]") {
 
 TEST_CASE("crop knows a footprint in degrees beside a mesh in metres", "[stages]") {
     Scene scene = scene_of(shapes::grid(4, 3));
-    const auto hint = [&] {
-        return run_stage("crop", "[[8.5, 47.3], [8.6, 47.3], [8.6, 47.4]]", scene).record.warnings.at(0).hint;
+    const auto hint = [&](const char* outline = "[[8.5, 47.3], [8.6, 47.3], [8.6, 47.4]]") {
+        return run_stage("crop", outline, scene).record.warnings.at(0).hint;
     };
     CHECK(hint().find("degrees") == std::string::npos); // both may be metres
     for (Vec3& p : scene.parts[0].mesh.positions) p += Vec3{500000, 4649000, 0};
     CHECK(hint().starts_with("is the footprint in degrees?"));
+    // What is near 0, 0, or as large as a country, counts from another origin.
+    for (const char* local :
+         {"[[0, 0], [1, 0], [1, 1]]", "[[-2, -2], [2, -2], [2, 2]]", "[[20, 30], [60, 30], [60, 80]]"})
+        CHECK(hint(local).find("that both count from one origin") != std::string::npos);
+    CHECK(hint("[[-0.25, 5.5], [-0.15, 5.5], [-0.15, 5.7]]").starts_with("is the footprint in degrees?"));
 }
 
 TEST_CASE("crop refuses footprints before it runs", "[stages]") {

@@ -339,6 +339,19 @@ TEST_CASE("simplify: a bare ratio, and what is reported", "[stages]") {
     CHECK(r.warnings().empty());
 }
 
+TEST_CASE("simplify says of a cloud of points that it has no faces, not that it has no vertices",
+          "[stages]") {
+    Mesh cloud;
+    cloud.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const auto r = run_stage("simplify", options({{"ratio", "50%"}}), scene_of(cloud));
+    CHECK(r.mesh().vertex_count() == 4);
+    REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
+    CHECK(
+        r.record.warnings[0].message ==
+        "part 'part' has no faces, which are what simplify makes fewer: the cloud of points stays as it is");
+    CHECK(r.record.said.empty());
+}
+
 TEST_CASE("simplify: a target at or above the input is said, and is no failure", "[stages]") {
     const auto r = run_stage("simplify", options({{"faces", "5000"}}), scene_of(shapes::cube()));
     CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});

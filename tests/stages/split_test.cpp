@@ -27,6 +27,15 @@ TEST_CASE("split: a mesh in a single point has no edges longer than a percentage
     CHECK(run_stage("split", options({{"max_edge", "3%"}}), scene_of(point)).mesh().face_count() == 4);
 }
 
+TEST_CASE("split: a bare number is answered with the options that take one", "[stages]") {
+    CHECK(problems_of("split", Value::scalar("2"))
+              .ends_with("catmull-clark, found '2' | a number is given by the name of its option: split: "
+                         "{grid: 2}, split: "
+                         "{passes: 2} or split: {max_faces: 2}"));
+    CHECK(problems_of("split", Value::scalar("midpiont"))
+              .ends_with("found 'midpiont' | did you mean 'midpoint'?"));
+}
+
 TEST_CASE("split: targets and what they report", "[stages]") {
     const auto r = run_stage("split", options({{"max_edge", "10%"}}), scene_of(shapes::cube()));
     const auto& part = r.record.result["parts"][0];

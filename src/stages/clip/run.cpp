@@ -38,6 +38,7 @@ struct PartsToClip {
     ClipSettings settings; ///< the same for all; planes, memory and the caps' primitive are set part by part
     std::string cap_material;
     const char *front = ".front", *back = ".back"; ///< added to the names of both sides
+    bool by_box = false;                           ///< for messages
 };
 
 struct ClipReport {
@@ -147,14 +148,20 @@ void declare_report(DeclareFields<ClipReport>& d) {
 }
 
 /// What users should know when all or nothing of the scene was kept.
-void warn(const KeptParts& kept, Context& context) {
+void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
+    const std::string look = fmt::format("check the position and {} (info prints the bounds)",
+                                         how.by_box ? "size of the box" : "direction of the plane");
     if (kept.are_all_untouched())
         context.warn("W-CLIP-ALL",
-                     fmt::format("clip: no plane cuts {}, which stays whole", kept.all_of_them()),
-                     "check the position and direction of the plane; info prints the bounds");
-    if (kept.are_all_emptied())
-        context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of {} was kept", kept.all_of_them()),
-                     "check the position and direction of the plane; keep: back keeps the other side");
+                     fmt::format("clip: {} {}, which stays whole",
+                                 how.by_box ? "the box does not cut" : "no plane cuts", kept.all_of_them()),
+                     look);
+    if (!kept.are_all_emptied()) return;
+    const bool front = how.settings.keep == Keep::front;
+    const char* other = how.by_box ? (front ? "rest (keep: outside)" : "inside (keep: inside)")
+                                   : (front ? "other side (keep: back)" : "other side (keep: front)");
+    context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of {} was kept", kept.all_of_them()),
+                 fmt::format("{}, or keep the {}", look, other));
 }
 
 /// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Warns
@@ -189,7 +196,7 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
         if (settings.keep == Keep::both) sides.part_in_two(part, how.front, how.back, std::move(r.back));
         part.mesh = std::move(settings.keep == Keep::back ? r.back : r.front);
     });
-    warn(report.kept, context);
+    warn(report.kept, how, context);
     if (report.cap_faces > 0) add_material(scene, how.cap_material);
     sides.insert();
     return report;
@@ -204,6 +211,7 @@ PartsToClip parts_to_clip(const ClipOptions& o) {
     how.settings.coplanar = o.coplanar;
     how.settings.snap = o.snap == Snap::automatic;
     how.cap_material = o.cap_material;
+    how.by_box = o.box.has_value();
     if (o.box) {
         how.front = ".inside";
         how.back = ".outside";

@@ -172,10 +172,11 @@ class CropRun {
         std::string text() const {
             return fmt::format("({:.10g}, {:.10g}) to ({:.10g}, {:.10g})", low[0], low[1], high[0], high[1]);
         }
-        /// As longitude and latitude.
-        bool is_in_degrees() const {
+        /// Whether they may be longitudes and latitudes.
+        bool may_be_degrees() const {
             return low[0] >= -180 && high[0] <= 180 && low[1] >= -90 && high[1] <= 90;
         }
+        double longest_side() const { return std::max(high[0] - low[0], high[1] - low[1]); }
     };
     Bounds bounds_of_footprint() const {
         Bounds b;
@@ -195,7 +196,16 @@ class CropRun {
         return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of_footprint().text(),
                            report_.kept.all() == 1 ? "part" : "scene", emptied_.text());
     }
-    bool is_in_degrees() const { return bounds_of_footprint().is_in_degrees() && !emptied_.is_in_degrees(); }
+    /// Whether the footprint seems to be in degrees and the parts in metres. Small numbers may as well count
+    /// from another origin: five degrees are 550 km, and within a degree of 0, 0 is only sea.
+    bool is_in_degrees() const {
+        constexpr double most_degrees = 5, of_sea = 1;
+        const Bounds b = bounds_of_footprint();
+        const bool at_zero =
+            b.low[0] < of_sea && b.high[0] > -of_sea && b.low[1] < of_sea && b.high[1] > -of_sea;
+        return b.may_be_degrees() && b.longest_side() <= most_degrees && !at_zero &&
+               !emptied_.may_be_degrees();
+    }
 
     void note(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
         const bool cloud = faces == 0 && part.mesh.vertex_count() > 0;
@@ -213,8 +223,9 @@ class CropRun {
     }
 
     void warn() {
-        constexpr const char* hint =
-            "check the position of the footprint and the axis; info prints the bounds";
+        constexpr const char* hint = "check the position of the footprint and the axis, and that both count "
+                                     "from one origin; info prints "
+                                     "the bounds";
         const KeptParts& kept = report_.kept;
         if (kept.are_all_emptied())
             context_.warn(

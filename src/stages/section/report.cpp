@@ -50,10 +50,14 @@ void add_volume(SectionReport& report, double spacing, std::optional<double> vol
 
 void warn(const SectionReport& report, Context& context) {
     if (report.open > 0)
-        context.warn("W-OPEN-SECTION",
-                     fmt::format("{} of {} open: the mesh has a boundary where the plane cuts it",
-                                 report.open, counted(report.contours, "contour")),
-                     "use clean first, to weld the mesh or fill its holes");
+        context.warn(
+            "W-OPEN-SECTION",
+            fmt::format("{} of {} open: the mesh has a boundary where the plane cuts it", report.open,
+                        counted(report.contours, "contour")),
+            report.open == report.contours
+                ? "of a surface without an inside (a terrain, a sheet) these lines are the section, and "
+                  "have no area; thicken makes a solid of it, clean welds a mesh or fills its holes"
+                : "use clean first, to weld the mesh or fill its holes");
     if (!report.oriented)
         context.warn("W-UNORIENTED",
                      "neighbouring faces are inconsistent, so nesting decided which contours are outlines "

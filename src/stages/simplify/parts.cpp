@@ -493,7 +493,13 @@ class Simplifier {
 } // namespace
 
 void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context) {
-    if (r.stop == Stop::nothing && asked.less)
+    if (r.faces_before == 0 && asked.less)
+        context.warn("W-SIMPLIFY-NOTHING",
+                     fmt::format("part '{}' has no faces, which are what simplify makes fewer: {} as it is",
+                                 part.name,
+                                 part.mesh.vertex_count() > 0 ? "the cloud of points stays" : "it stays"),
+                     "leave it out with only; crop, clip and tile work on points");
+    else if (r.stop == Stop::nothing && asked.less)
         context.warn("W-SIMPLIFY-NOTHING",
                      fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
                                  counted(r.faces_before, "triangle"),

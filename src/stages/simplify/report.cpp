@@ -254,7 +254,8 @@ std::string line_of(const SimplifiedPart& part) {
 std::vector<std::string> lines_of(const SimplifyReport& report) {
     std::vector<std::string> lines;
     if (report.parts.size() <= few) {
-        for (const auto& part : report.parts) lines.push_back(line_of(part));
+        for (const auto& part : report.parts)
+            if (part.result.faces_before > 0) lines.push_back(line_of(part));
         return lines;
     }
     std::uint64_t before = 0, after = 0;

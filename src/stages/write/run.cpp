@@ -139,10 +139,10 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
     throw Error(
         ErrorKind::stage, "E-EMPTY",
         fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
-                    any ? "points and no faces" : "no faces"),
+                    any ? "points and no faces" : "neither faces nor points"),
         any ? fmt::format("points go to {}; compressed to {} only", fmt::join(formats, ", "),
                           fmt::join(compressing, ", "))
-            : "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
+            : "check what the stages before kept; the common key when: {vertices: {min: 1}} skips a write",
         context.where());
 }
 
