@@ -261,8 +261,7 @@ struct Arrangement::Own {
         Box box;
         Index begin = 0, end = 0;
     };
-    std::vector<Run> runs; ///< of all triangles, in order
-    Box bounds;
+    Box bounds; ///< of all points
 
     void cut() {
         if (soup.pairs.size() > soup.max_pairs) {
@@ -316,7 +315,7 @@ struct Arrangement::Own {
         return both;
     }
 
-    void find_runs() {
+    std::vector<Run> runs_of_all() const {
         constexpr std::size_t longest = 16;
         const std::size_t count = soup.triangles.size();
         const auto among = [&](std::size_t first, std::size_t last) {
@@ -327,16 +326,46 @@ struct Arrangement::Own {
                          some);
             return some;
         };
-        runs =
-            parallel_reduce((count + longest - 1) / longest, std::vector<Run>{}, among, appended<Run>, 512);
-        for (const Run& run : runs) bounds.add(run.box);
+        return parallel_reduce((count + longest - 1) / longest, std::vector<Run>{}, among, appended<Run>,
+                               512);
     }
 
-    /// The triangles whose boxes meet any of these, each with its place; those of one place ascend. Boxes
-    /// that are long the same way are of one tree.
-    std::vector<std::pair<Index, Index>> meetings(const std::array<std::vector<Index>, 3>& places,
-                                                  const std::vector<Box>& boxes) const {
-        using Pairs = std::vector<std::pair<Index, Index>>; // (triangle, box)
+    using Pairs = std::vector<std::pair<Index, Index>>; ///< (triangle, box)
+
+    /// The triangles whose boxes meet any of these, each with its place; those of one place ascend. Four bits
+    /// of each point tell on which sides of a box it is, along the axes that the box is not long on: so the
+    /// points are compared, and of a triangle only bits.
+    Pairs meetings_of_few(const std::array<std::vector<Index>, 3>& places,
+                          const std::vector<Box>& boxes) const {
+        std::vector<std::uint64_t> beside(soup.points.size());
+        parallel_for(beside.size(), [&](std::size_t i) {
+            const Vec3& p = soup.points[i];
+            for (std::size_t k = 0; k < 3; ++k)
+                for (const Index at : places[k])
+                    for (std::size_t j = 1, bit = 4 * at; j < 3; ++j, bit += 2) {
+                        const std::size_t axis = (k + j) % 3;
+                        beside[i] |= std::uint64_t{p[axis] < boxes[at].min[axis]} << bit |
+                                     std::uint64_t{p[axis] > boxes[at].max[axis]} << (bit + 1);
+                    }
+        });
+        const auto among = [&](std::size_t first, std::size_t last) {
+            Pairs pairs;
+            for (auto t = static_cast<Index>(first); t < last; ++t) {
+                const auto& [a, b, c] = soup.triangles[t];
+                std::uint64_t apart = beside[a] & beside[b] & beside[c];
+                for (Index at = 0; at < boxes.size(); ++at, apart >>= 4)
+                    if ((apart & 15) == 0 && boxes_meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
+            }
+            return pairs;
+        };
+        return parallel_reduce(soup.triangles.size(), Pairs{}, among, appended<Pairs::value_type>);
+    }
+
+    /// The same. Boxes that are long the same way are of one tree.
+    Pairs meetings(const std::array<std::vector<Index>, 3>& places, const std::vector<Box>& boxes) const {
+        constexpr std::size_t few = 16; // as many boxes as there are four bits for in a number of 64
+        if (boxes.size() <= few) return meetings_of_few(places, boxes);
+        const std::vector<Run> runs = runs_of_all();
         std::vector<BoxTree> trees;
         for (const auto& of_one : places) {
             std::vector<Box> long_one_way;
@@ -360,7 +389,7 @@ struct Arrangement::Own {
 
 Arrangement::Arrangement(TriangleSoup soup) : own_(std::make_unique<Own>(std::move(soup))) {
     own_->cut();
-    if (!own_->overfull) own_->find_runs();
+    for (const Vec3& p : own_->soup.points) own_->bounds.add(p);
 }
 Arrangement::~Arrangement() = default;
 

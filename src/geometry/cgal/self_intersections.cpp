@@ -114,16 +114,12 @@ class SelfIntersectionSearch::Search {
     const Box& frame() const { return pairs_.all(); }
     void choose(const std::vector<std::uint8_t>& among) { pairs_.choose(of_triangles(among)); }
 
-    /// Before all neighbours are looked at, as the vertices are now.
-    void find_plain_stars() { plain_ = plain_stars(surface_); }
-
-    /// As SelfIntersections::rings, after find_plain_stars.
-    std::vector<std::uint8_t> rings() const {
-        std::vector<std::uint8_t> rings;
-        if (!surface_.faces.empty()) return rings;
-        rings.resize(plain_.size());
-        for (std::size_t v = 0; v < rings.size(); ++v) rings[v] = plain_[v] == Star::ring;
-        return rings;
+    /// As the vertices are now: those given, or, before all neighbours are looked at, those there are.
+    void set_plain_stars(const SelfIntersectionSettings& settings) {
+        if (!settings.stars.empty())
+            plain_ = settings.stars;
+        else if (settings.among.empty())
+            plain_ = plain_stars(surface_);
     }
 
     /// Whether that can be: not where polygons are cut into another number of triangles now.
@@ -187,13 +183,9 @@ class SelfIntersectionSearch::Search {
         }
         for (First* first : {&all.real, &all.touching})
             first->pairs.resize(std::min(limit, first->pairs.size()));
-        return {all.real.count,
-                std::move(all.real.pairs),
-                all.touching.count,
-                std::move(all.touching.pairs),
-                all.box_pairs,
-                false,
-                {}};
+        return {all.real.count,     std::move(all.real.pairs),
+                all.touching.count, std::move(all.touching.pairs),
+                all.box_pairs,      false};
     }
 
     MeetingFaces faces(std::span<const std::pair<Index, Index>> exempt, std::size_t max_box_pairs) const {
@@ -310,10 +302,8 @@ const Box& SelfIntersectionSearch::frame() const { return search_->frame(); }
 
 SelfIntersections SelfIntersectionSearch::pairs(const SelfIntersectionSettings& settings) {
     search_->choose(settings.among);
-    if (settings.among.empty()) search_->find_plain_stars();
-    SelfIntersections found = search_->run(settings);
-    if (settings.tell_rings && settings.among.empty()) found.rings = search_->rings();
-    return found;
+    search_->set_plain_stars(settings);
+    return search_->run(settings);
 }
 
 MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& among,

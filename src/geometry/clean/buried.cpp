@@ -142,7 +142,8 @@ Buried::Buried(const Mesh& mesh, const Solids& solids, const SelfIntersections& 
         all &= has_core[p] != 0 || solids.cluster[p] == none;
     }
     if (!any) return;
-    const auto is_doubtful = all ? std::vector<std::uint8_t>(cores.size(), 0) : doubtful(found, has_core);
+    const auto is_doubtful =
+        all ? std::vector<std::uint8_t>(cores.size(), 0) : doubtful(found, has_core, operands);
     for (Index p = 0; p < cores.size(); ++p)
         if (is_doubtful[p])
             for (const Index t : by_component[p])
@@ -222,11 +223,15 @@ std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bo
 
 /// Of components without a core, those that might wind around something less than zero times.
 std::vector<std::uint8_t> Buried::doubtful(const SelfIntersections& found,
-                                           const std::vector<std::uint8_t>& has_core) const {
+                                           const std::vector<std::uint8_t>& has_core,
+                                           const Operands* operands) const {
     const auto& of_face = solids_.components.of_face;
     std::vector<std::uint8_t> is(has_core.size(), 0);
     for (Index p = 0; p < is.size(); ++p)
         is[p] = solids_.cluster[p] != none && !has_core[p] && solids_.inward[p];
+    for (Index f = 0; operands && f < operands->lost.size();
+         ++f) // where it passes through itself is not known
+        if (operands->lost[f] && !has_core[of_face[f]]) is[of_face[f]] = 1;
     for (const auto& [f, g] : found.pairs)
         if (of_face[f] == of_face[g] && !has_core[of_face[f]]) is[of_face[f]] = 1;
     const auto place = lowest_at_place(mesh_);
@@ -250,6 +255,8 @@ std::vector<std::uint8_t> Buried::doubtful(const SelfIntersections& found,
         while (end < edges.size() && same(i, end)) ++end;
         if (end != i + 2 || std::get<3>(edges[i]) == std::get<3>(edges[i + 1])) is[std::get<2>(edges[i])] = 1;
     }
+    if (operands && operands->operation != CombineOperation::unite)
+        for (Index p = 0; p < is.size(); ++p) is[p] = is[p] && operands->second[p];
     return is;
 }
 

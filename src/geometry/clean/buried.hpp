@@ -25,11 +25,11 @@ struct NearPoint {
 ///
 /// Let K be the union of the cores of components that bury: of a union all; of a difference those that are
 /// taken away; of an intersection those of the second operand (see below). Those are left out whose box meets
-/// the box of a component that might wind around something less than zero times: any but those with a core,
-/// which wind at least zero times around every point (count along the ray from a point of the core), and
-/// those that are manifold, turned outward and do not pass through themselves. So in K a union has
-/// the winding number 1 at least, and of a difference all is taken away: nowhere there is a face of the
-/// result.
+/// the box of a component that might wind around something less than zero times (of a difference or an
+/// intersection only components of the second operand count): any but those with a core, which wind at least
+/// zero times around every point (count along the ray from a point of the core), and those that are manifold,
+/// turned outward and are known not to pass through themselves. So in K a union has the winding number 1 at
+/// least, and of a difference all is taken away: nowhere there is a face of the result.
 ///
 /// **What meets in K only need not be cut along each other.** Suppose that all other pairs are, and call what
 /// is then a piece or an uncut face a leaf.
@@ -97,7 +97,8 @@ class Buried {
     std::optional<Core> core_of(std::span<const Index> triangles, bool turned,
                                 std::vector<Wall>& walls) const;
     std::vector<std::uint8_t> doubtful(const SelfIntersections& found,
-                                       const std::vector<std::uint8_t>& has_core) const;
+                                       const std::vector<std::uint8_t>& has_core,
+                                       const Operands* operands) const;
 
     Corners corners(Index triangle) const;
     bool holds(const Core& core, const NearPoint& p) const;

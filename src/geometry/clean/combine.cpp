@@ -1,6 +1,8 @@
 #include "geometry/clean/combine.hpp"
 
 #include "base/memory.hpp"
+#include "base/parallel.hpp"
+#include "geometry/clean/lost_faces.hpp"
 #include "geometry/clean/trial.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/orient/orient.hpp"
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 
 namespace facetmill {
 
@@ -37,13 +40,14 @@ std::span<const std::uint32_t> mesh_of_faces(const Mesh& mesh) {
 
 /// Takes faces without area out of what stays closed without them.
 void take_out_degenerate(Work& work) {
-    const Mesh& mesh = work.mesh;
-    for (Index f = 0; f < mesh.face_count(); ++f)
-        if (is_degenerate(mesh, f)) {
-            take_out_flat(work);
-            remove_degenerate(work);
-            return;
-        }
+    const auto is_any = [&](std::size_t begin, std::size_t end) {
+        int any = 0;
+        for (auto f = static_cast<Index>(begin); f < end && any == 0; ++f) any = is_degenerate(work.mesh, f);
+        return any;
+    };
+    if (parallel_reduce(work.mesh.face_count(), 0, is_any, std::bit_or<>()) == 0) return;
+    take_out_flat(work);
+    remove_degenerate(work);
 }
 
 /// Of the first face whose component is no solid.
@@ -77,13 +81,17 @@ class Combining {
   public:
     Combining(std::vector<Mesh> meshes, const CombineSettings& settings)
         : settings_(settings), meshes_(meshes.size()) {
+        if (meshes_ == 2 && settings_.operation == CombineOperation::unite) settings_.second = 1;
         work_.mesh = all_of(std::move(meshes));
     }
 
     CombineResult run() {
         take_out_degenerate(work_);
         constexpr std::uint64_t bytes_a_pair = 32; // and as much again is left for what follows
-        SelfIntersections found = crossings_and_rings(work_.mesh, memory_there() / (2 * bytes_a_pair));
+        const auto place = lowest_at_place(work_.mesh);
+        std::vector<std::uint8_t> lost = what_is_lost();
+        auto [found, rings] =
+            crossings_and_rings(work_.mesh, place, memory_there() / (2 * bytes_a_pair), lost);
         if (found.count > found.pairs.size()) {
             CombineResult result =
                 failed({fmt::format("there is not enough memory to list the {} pairs of faces that intersect",
@@ -92,7 +100,7 @@ class Combining {
             result.short_of_memory = true;
             return result;
         }
-        Solids solids = find_solids(work_.mesh, {}, std::move(found.rings));
+        Solids solids = find_solids(work_.mesh, {}, std::move(rings));
         if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
         if (auto failure = turned_over(work_.mesh, solids, meshes_)) return failed(std::move(*failure));
         for (const auto& pair : overlaps_at_edges(work_.mesh, solids.rings, solids.edges))
@@ -100,7 +108,8 @@ class Combining {
         std::sort(found.pairs.begin(), found.pairs.end());
         found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
         make_one_cluster(solids);
-        const Operands operands = operands_of(solids);
+        Operands operands = operands_of(solids);
+        operands.lost = std::move(lost);
         if (settings_.operation == CombineOperation::subtract) {
             turn_what_is_taken();
             solids.edges = LooseEdges(work_.mesh, solids.rings); // other corners run along them now
@@ -123,12 +132,20 @@ class Combining {
         return operands;
     }
 
-    void turn_what_is_taken() {
+    /// [faces] 1 for those of the second operand.
+    std::vector<std::uint8_t> second_faces() const {
         const auto meshes = mesh_of_faces(work_.mesh);
         std::vector<std::uint8_t> flags(meshes.size());
         for (Index f = 0; f < meshes.size(); ++f) flags[f] = meshes[f] >= settings_.second;
-        turned_ = flip_faces(work_.mesh, flags);
+        return flags;
     }
+
+    std::vector<std::uint8_t> what_is_lost() const {
+        if (settings_.second >= meshes_) return {};
+        return lost_faces(work_.mesh, second_faces(), settings_.operation);
+    }
+
+    void turn_what_is_taken() { turned_ = flip_faces(work_.mesh, second_faces()); }
 
     CombineResult combine(const Solids& solids, const SelfIntersections& found, const Operands& operands) {
         const CleanSettings settings;

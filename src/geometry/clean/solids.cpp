@@ -1,6 +1,7 @@
 #include "geometry/clean/solids.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/clean/touched_cells.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "geometry/spatial/components_around.hpp"
@@ -78,15 +79,47 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
     return all;
 }
 
-SelfIntersections crossings(const Mesh& mesh, const SelfIntersectionSettings& settings,
-                            const std::vector<Index>& place) {
+/// The bare mesh, vertices at one place being one.
+Mesh at_places(const Mesh& mesh, const std::vector<Index>& place) {
     Mesh plain;
     plain.positions = mesh.positions;
     plain.face_offsets = mesh.face_offsets;
     plain.corners.resize(mesh.corner_count());
     parallel_for(plain.corners.size(),
                  [&](std::size_t c) { plain.corners[c] = place[mesh.vertex(static_cast<Index>(c))]; });
-    return find_self_intersections(plain, settings);
+    return plain;
+}
+
+/// Of a mesh of triangles.
+std::vector<Star> stars_of(const Mesh& mesh) {
+    if (!mesh.has_seams()) return plain_stars(mesh.positions, mesh.corners);
+    std::vector<Index> corners(mesh.corner_count());
+    parallel_for(corners.size(), [&](std::size_t c) { corners[c] = mesh.vertex(static_cast<Index>(c)); });
+    return plain_stars(mesh.positions, corners);
+}
+
+/// The pairs of which no face is lost.
+SelfIntersections find_but(const std::vector<std::uint8_t>& lost, const Mesh& mesh, std::size_t limit,
+                           std::vector<Star> stars) {
+    if (lost.empty()) return find_self_intersections(mesh, {.limit = limit, .stars = std::move(stars)});
+    const std::vector<Index> faces = faces_without(lost);
+    Mesh rest;
+    rest.positions = mesh.positions;
+    if (!mesh.all_triangles()) rest.face_offsets.push_back(0);
+    std::size_t corners = 0;
+    for (std::size_t i = 0; i < faces.size() && !mesh.all_triangles(); ++i)
+        rest.face_offsets.push_back(static_cast<Index>(corners += mesh.face_size(faces[i])));
+    rest.corners.resize(mesh.all_triangles() ? 3 * faces.size() : corners);
+    parallel_for(faces.size(), [&](std::size_t i) {
+        const Index from = mesh.face_begin(faces[i]), to = rest.face_begin(static_cast<Index>(i));
+        for (Index k = 0; k < mesh.face_size(faces[i]); ++k) rest.corners[to + k] = mesh.vertex(from + k);
+    });
+    SelfIntersections found = find_self_intersections(rest, {.limit = limit, .stars = std::move(stars)});
+    for (auto& [f, g] : found.pairs) {
+        f = faces[f];
+        g = faces[g];
+    }
+    return found;
 }
 
 } // namespace
@@ -98,14 +131,19 @@ bool are_distinct(const std::vector<Index>& place) {
 }
 
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, std::size_t max_box_pairs) {
-    return crossings(mesh, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs},
-                     lowest_at_place(mesh));
+    return find_self_intersections(
+        at_places(mesh, lowest_at_place(mesh)),
+        {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs});
 }
 
-SelfIntersections crossings_and_rings(const Mesh& mesh, std::size_t limit) {
-    const auto place = lowest_at_place(mesh);
-    if (!are_distinct(place)) return crossings(mesh, {.limit = limit}, place);
-    return find_self_intersections(mesh, {.limit = limit, .tell_rings = true});
+CrossingsAndRings crossings_and_rings(const Mesh& mesh, const std::vector<Index>& place, std::size_t limit,
+                                      const std::vector<std::uint8_t>& lost) {
+    if (!are_distinct(place)) return {find_but(lost, at_places(mesh, place), limit, {}), {}};
+    if (!mesh.all_triangles()) return {find_but(lost, mesh, limit, {}), {}};
+    std::vector<Star> stars = stars_of(mesh);
+    Rings rings(stars.size());
+    for (std::size_t v = 0; v < rings.size(); ++v) rings[v] = stars[v] == Star::ring;
+    return {find_but(lost, mesh, limit, std::move(stars)), std::move(rings)};
 }
 
 Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
@@ -129,50 +167,6 @@ Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
 
 namespace {
 
-/// The cells of a grid that some boxes touch: tells quickly of most other boxes that they meet none of them.
-class TouchedCells {
-  public:
-    explicit TouchedCells(std::span<const Box> boxes) : bounds_(box_of_all(boxes)) {
-        const Vec3 extent = bounds_.max - bounds_.min;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            scale_[axis] = extent[axis] > 0 ? cells / extent[axis] : 0;
-        for (const Box& box : boxes)
-            rows_of(box, [&](std::uint64_t& row, std::uint64_t mask) {
-                row |= mask;
-                return false;
-            });
-    }
-
-    /// False: the box meets none.
-    bool may_meet(const Box& box) {
-        return rows_of(box, [](std::uint64_t row, std::uint64_t mask) { return (row & mask) != 0; });
-    }
-
-  private:
-    static constexpr std::size_t cells = 64; ///< along each axis; those of one row are the bits of a number
-
-    /// Never lower for what is higher, so that boxes that meet have a cell in common.
-    std::size_t cell(double x, std::size_t axis) const {
-        const double at = (x - bounds_.min[axis]) * scale_[axis];
-        return !(at > 0) ? 0 : at >= cells - 1 ? cells - 1 : static_cast<std::size_t>(at);
-    }
-    /// stop(row, bits of the box) for the rows that a box touches, until it is true. Whether it was.
-    template <class Stop>
-    bool rows_of(const Box& box, Stop&& stop) {
-        const auto low = [&](std::size_t axis) { return cell(box.min[axis], axis); };
-        const auto high = [&](std::size_t axis) { return cell(box.max[axis], axis); };
-        const std::uint64_t mask = ~std::uint64_t{0} >> (63 - high(2)) & ~std::uint64_t{0} << low(2);
-        for (std::size_t x = low(0); x <= high(0); ++x)
-            for (std::size_t y = low(1); y <= high(1); ++y)
-                if (stop(rows_[x * cells + y], mask)) return true;
-        return false;
-    }
-
-    Box bounds_;
-    Vec3 scale_;
-    std::vector<std::uint64_t> rows_ = std::vector<std::uint64_t>(cells * cells, 0);
-};
-
 /// Those whose boxes meet the box of a flagged face, ascending.
 std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     const auto box_of = [&](Index f) {
@@ -183,13 +177,15 @@ std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>&
     std::vector<Box> boxes;
     for (Index f = 0; f < flags.size(); ++f)
         if (flags[f]) boxes.push_back(box_of(f));
-    TouchedCells touched(boxes);
+    const FaceCells cells(mesh, box_of_all(boxes));
+    TouchedCells touched;
+    for (Index f = 0; f < flags.size(); ++f)
+        if (flags[f]) touched.mark(cells[f]);
     const BoxTree tree(std::move(boxes));
     std::vector<std::uint8_t> near(flags);
     parallel_for(near.size(), [&](std::size_t f) {
-        if (near[f]) return;
-        if (const Box box = box_of(static_cast<Index>(f)); touched.may_meet(box))
-            tree.visit(box, [&](Index) { near[f] = 1; });
+        if (!near[f] && touched.may_meet(cells[f]))
+            tree.visit(box_of(static_cast<Index>(f)), [&](Index) { near[f] = 1; });
     });
     std::vector<Index> faces;
     for (Index f = 0; f < near.size(); ++f)

@@ -91,8 +91,14 @@ SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = 
                             std::size_t max_box_pairs = std::size_t(-1));
 /// place: of lowest_at_place. Whether no two vertices are at one place.
 bool are_distinct(const std::vector<Index>& place);
-/// As many of them as are asked for, with the rings of the mesh, unless vertices are at one place.
-SelfIntersections crossings_and_rings(const Mesh& mesh, std::size_t limit);
+struct CrossingsAndRings {
+    SelfIntersections found;
+    Rings rings; ///< of a mesh of triangles, unless vertices are at one place
+};
+/// As many of them as are asked for, but for pairs with a face that is flagged as lost (lost_faces). place:
+/// of lowest_at_place.
+CrossingsAndRings crossings_and_rings(const Mesh& mesh, const std::vector<Index>& place, std::size_t limit,
+                                      const std::vector<std::uint8_t>& lost);
 /// The same pairs of faces that are flagged, for a few of many faces: only what is near them is looked at.
 SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
                                  std::size_t max_box_pairs = std::size_t(-1));

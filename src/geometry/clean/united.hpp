@@ -26,7 +26,8 @@ struct United {
 /// What two solids are combined to. The second is inside out where it is taken away from the first.
 struct Operands {
     CombineOperation operation = CombineOperation::unite;
-    std::vector<std::uint8_t> second; ///< [components] those of the second
+    std::vector<std::uint8_t> second;    ///< [components] those of the second
+    std::vector<std::uint8_t> lost = {}; ///< [faces] of lost_faces: not all pairs with these are known
 };
 
 /// Cuts the faces of the clusters that intersect along each other, asks for the winding number on both sides

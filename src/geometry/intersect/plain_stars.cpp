@@ -18,12 +18,12 @@ struct Sector {
 class Sectors {
   public:
     void begin() { count_ = 0; }
-    void add(const Surface& surface, const Sector& s) {
+    void add(std::span<const Vec3> positions, const Sector& s) {
         if (count_ < most) {
-            const Vec3& v = surface.positions[s.vertex];
+            const Vec3& v = positions[s.vertex];
             sectors_[count_] = s;
-            from_[count_] = surface.positions[s.from] - v;
-            to_[count_] = surface.positions[s.to] - v;
+            from_[count_] = positions[s.from] - v;
+            to_[count_] = positions[s.to] - v;
         }
         ++count_;
     }
@@ -75,13 +75,13 @@ class Sectors {
 
 } // namespace
 
-std::vector<Star> plain_stars(const Surface& surface) {
+std::vector<Star> plain_stars(std::span<const Vec3> positions, std::span<const Index> corners) {
     const auto buckets =
-        fill_buckets<Sector>(surface.size(), surface.positions.size(), [&](Index t, auto&& emit) {
-            const Index* const c = &surface.corners[std::size_t{3} * t];
+        fill_buckets<Sector>(corners.size() / 3, positions.size(), [&](Index t, auto&& emit) {
+            const Index* const c = &corners[std::size_t{3} * t];
             for (std::size_t i = 0; i < 3; ++i) emit(c[i], Sector{c[i], c[(i + 1) % 3], c[(i + 2) % 3]});
         });
-    std::vector<Star> stars(surface.positions.size(), Star::unknown);
+    std::vector<Star> stars(positions.size(), Star::unknown);
     parallel_chunks(
         buckets.count(),
         [&](std::size_t first, std::size_t last) {
@@ -98,7 +98,7 @@ std::vector<Star> plain_stars(const Surface& surface) {
                 for (std::size_t i = 0; i < order.size();) { // begin[v] is now the end of v
                     const Index v = sectors[order[i]].vertex;
                     around.begin();
-                    for (; i < begin[v - lowest]; ++i) around.add(surface, sectors[order[i]]);
+                    for (; i < begin[v - lowest]; ++i) around.add(positions, sectors[order[i]]);
                     stars[v] = around.kind();
                 }
             }

@@ -4,6 +4,7 @@
 #include "mesh/surface.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace facetmill {
@@ -19,6 +20,10 @@ enum class Star : std::uint8_t {
 /// the third of one at most. Seen so, no two of them have more in common than the vertex, or the edge that
 /// they share by its vertices; so they meet nowhere else in space either. Signs are those that floating point
 /// is sure of: of what is unknown nothing is said. Parallel.
-std::vector<Star> plain_stars(const Surface& surface);
+/// corners: three for each triangle, into positions.
+std::vector<Star> plain_stars(std::span<const Vec3> positions, std::span<const Index> corners);
+inline std::vector<Star> plain_stars(const Surface& surface) {
+    return plain_stars(surface.positions, surface.corners);
+}
 
 } // namespace facetmill

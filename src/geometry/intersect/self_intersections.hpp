@@ -1,6 +1,7 @@
 #pragma once
 // Which faces of a mesh run into each other.
 
+#include "geometry/intersect/plain_stars.hpp"
 #include "mesh/mesh.hpp"
 
 #include <cstddef>
@@ -15,8 +16,9 @@ namespace facetmill {
 struct SelfIntersectionSettings {
     std::size_t limit = 10;               ///< how many pairs are listed; all are counted
     std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
-    bool tell_rings = false;              ///< with all pairs: SelfIntersections::rings is filled
-    bool separate_touching = false;       ///< pairs that only touch are counted and listed separately
+    /// [vertices] of plain_stars; where none are given and all pairs are asked for, they are found.
+    std::vector<Star> stars = {};
+    bool separate_touching = false; ///< pairs that only touch are counted and listed separately
     /// When the boxes of more pairs of triangles meet, nothing is looked at. They are counted first.
     std::size_t max_box_pairs = std::size_t(-1);
 };
@@ -31,10 +33,6 @@ struct SelfIntersections {
     /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
     std::size_t box_pairs = 0;
     bool too_many = false; ///< box_pairs, which were counted up to one more than the limit: the rest is empty
-    /// With `tell_rings`, of a mesh of triangles: [vertices] 1 where the faces around the vertex are one
-    /// closed ring that runs the same way all round, as far as that was seen quickly. Each edge there has two
-    /// faces, which run along it both ways.
-    std::vector<std::uint8_t> rings = {};
 };
 
 /// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly

@@ -153,12 +153,7 @@ int side(const Vec3& a, const Vec3& b, const Vec3& p, std::size_t u, std::size_t
 }
 
 int crossing(const FaceTree::Triangle& t, const Vec3& p, std::size_t axis, bool forward) {
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const int way = side(t.a, t.b, p, u, v); // 1: the front faces along the axis
-    if (way == 0 || side(t.b, t.c, p, u, v) != way || side(t.c, t.a, p, u, v) != way) return 0;
-    const int over = orientation_3d(t.a, t.b, t.c, p) * way; // 1: p is beyond the triangle along the axis
-    if (forward ? over >= 0 : over <= 0) return 0;
-    return forward ? way : -way;
+    return passes_along_axis(p, axis, forward, t.a, t.b, t.c);
 }
 
 bool holds(const FaceTree::Triangle& t, const Vec3& p) {
@@ -206,6 +201,16 @@ class PointQuery {
 };
 
 } // namespace
+
+int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3& a, const Vec3& b,
+                      const Vec3& c) {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const int way = side(a, b, p, u, v); // 1: the front faces along the axis
+    if (way == 0 || side(b, c, p, u, v) != way || side(c, a, p, u, v) != way) return 0;
+    const int over = orientation_3d(a, b, c, p) * way; // 1: p is beyond the triangle along the axis
+    if (forward ? over >= 0 : over <= 0) return 0;
+    return forward ? way : -way;
+}
 
 int winding(const FaceTree& tree, const Vec3& p) {
     if (tree.empty() || !is_finite(p)) return 0;

@@ -57,6 +57,10 @@ HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all);
 void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, bool forward,
                       const std::function<void(Index face, int way)>& hit);
 
+/// Of one triangle, as above: 1, -1, or 0 where the ray does not pass through it.
+int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3& a, const Vec3& b,
+                      const Vec3& c);
+
 /// How often the surface winds around p, which must not lie on it: 1 inside a closed surface, 0 outside, 2
 /// where two overlap, -1 inside one that is inside out. By the crossings of a ray along an axis, exact.
 /// Without a meaning for open surfaces.
