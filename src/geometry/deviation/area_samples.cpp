@@ -5,6 +5,7 @@
 #include "geometry/deviation/deviation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace facetmill {
@@ -27,44 +28,51 @@ std::vector<double> areas_up_to(const Surface& surface) {
 } // namespace
 
 AreaSamples::AreaSamples(const Surface& surface, std::size_t count, std::uint64_t seed)
-    : surface_(surface), seed_(seed), start_u_(uniform(hashed(seed, 0))), start_v_(uniform(hashed(seed, 1))),
-      firsts_(surface.size() + 1) {
+    : surface_(surface), seed_(seed), start_u_(uniform(hashed(seed, 0))), start_v_(uniform(hashed(seed, 1))) {
     const std::vector<double> areas = areas_up_to(surface);
-    if (areas.empty() || !(areas.back() > 0) || !std::isfinite(areas.back())) return;
-    size_ = count;
-    area_ = areas.back();
-    parallel_for(areas.size() - 1, [&](std::size_t t) { firsts_[t + 1] = count_before(areas[t]); });
-    firsts_.back() = size_; // also those that rounding leads past the end; the last need not have an area
+    if (!areas.empty() && areas.back() > 0 && std::isfinite(areas.back())) place_all(count, areas);
 }
 
-/// Where in the area the k-th part begins; not before the sample of an earlier one.
-double AreaSamples::begin_of(std::size_t k) const {
-    return static_cast<double>(k) / static_cast<double>(size_) * area_;
+/// Sample k lies at a random place of the k-th part of the area, so places ascend.
+void AreaSamples::place_all(std::size_t count, const std::vector<double>& areas) {
+    const auto place_of = [&](std::size_t k) {
+        const double within = uniform(hashed(seed_, k + 2));
+        return (static_cast<double>(k) + within) / static_cast<double>(count) * areas.back();
+    };
+    triangles_.resize(count);
+    parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
+        auto after = std::upper_bound(areas.begin(), areas.end(), place_of(begin));
+        for (std::size_t k = begin; k < end; ++k) {
+            const double place = place_of(k);
+            while (after != areas.end() && !(*after > place)) ++after;
+            const auto t = static_cast<std::size_t>(after - areas.begin()); // rounding may lead past the end
+            triangles_[k] = static_cast<Index>(std::min(t, areas.size() - 1));
+        }
+    });
 }
 
-double AreaSamples::place_of(std::size_t k) const {
-    const double within = uniform(hashed(seed_, k + 2));
-    return (static_cast<double>(k) + within) / static_cast<double>(size_) * area_;
-}
-
-/// Rounding is monotone, so most are told by their parts alone.
-bool AreaSamples::is_before(std::size_t k, double area) const {
-    if (begin_of(k) >= area) return false;
-    return begin_of(k + 1) < area || place_of(k) < area;
-}
-
-/// How many samples lie before the end of so much of the area.
-std::size_t AreaSamples::count_before(double area) const {
-    if (size_ == 0) return 0;
-    std::size_t k = std::min(static_cast<std::size_t>(area / area_ * static_cast<double>(size_)), size_ - 1);
-    while (k > 0 && !is_before(k - 1, area)) --k;
-    while (k < size_ && is_before(k, area)) ++k;
-    return k;
-}
-
-std::size_t AreaSamples::triangle_of(std::size_t k) const {
-    const auto after = std::upper_bound(firsts_.begin(), firsts_.end(), k);
-    return static_cast<std::size_t>(after - firsts_.begin()) - 1;
+std::vector<AreaSamples::Run> AreaSamples::runs(std::span<const Index> order) const {
+    std::vector<Run> ascending;
+    std::vector<std::uint64_t> has(surface_.size() / 64 + 1); // a bit for each triangle, and
+    std::vector<Index> before(has.size());                    // how many runs are of those before 64 of them
+    for (std::size_t k = 0; k < size();) {
+        const Index t = triangles_[k];
+        const std::size_t begin = k;
+        while (k < size() && triangles_[k] == t) ++k;
+        ascending.push_back({t, begin, k});
+        has[t / 64] |= std::uint64_t{1} << t % 64;
+    }
+    for (std::size_t i = 1; i < has.size(); ++i)
+        before[i] = before[i - 1] + static_cast<Index>(std::popcount(has[i - 1]));
+    std::vector<Run> runs;
+    runs.reserve(ascending.size());
+    for (const Index t : order) {
+        const std::uint64_t bit = std::uint64_t{1} << t % 64;
+        if ((has[t / 64] & bit) == 0) continue;
+        runs.push_back(
+            ascending[before[t / 64] + static_cast<std::size_t>(std::popcount(has[t / 64] & (bit - 1)))]);
+    }
+    return runs;
 }
 
 AreaSamples::OnTriangle AreaSamples::on(std::size_t triangle) const {
@@ -81,11 +89,7 @@ std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count
     const AreaSamples points(surface, count, seed);
     std::vector<SurfaceSample> samples(points.size());
     parallel_chunks(samples.size(), [&](std::size_t begin, std::size_t end) {
-        std::size_t t = points.triangle_of(begin);
-        for (std::size_t k = begin; k < end; ++k) {
-            while (points.first(t + 1) <= k) ++t;
-            samples[k] = {points.point(k, t), static_cast<Index>(t)};
-        }
+        for (std::size_t k = begin; k < end; ++k) samples[k] = {points.point(k), points.triangle_of(k)};
     });
     return samples;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace facetmill {
@@ -17,12 +18,17 @@ class AreaSamples {
     /// Of a surface that stays as it is for as long as its samples are asked for. None when it has no area.
     AreaSamples(const Surface& surface, std::size_t count, std::uint64_t seed);
 
-    std::size_t size() const { return size_; }
-    /// The first of a triangle, or of those after it; first(surface.size()) is size().
-    std::size_t first(std::size_t triangle) const { return firsts_[triangle]; }
-    std::size_t triangle_of(std::size_t k) const;
-    /// Sample k, which is one of the triangle.
-    Vec3 point(std::size_t k, std::size_t triangle) const { return on(triangle).point(k); }
+    std::size_t size() const { return triangles_.size(); }
+    Index triangle_of(std::size_t k) const { return triangles_[k]; }
+    Vec3 point(std::size_t k) const { return on(triangles_[k]).point(k); }
+
+    /// Those of one triangle.
+    struct Run {
+        Index triangle;
+        std::size_t begin, end;
+    };
+    /// Of all triangles that have samples, in the order of the triangles that is given.
+    std::vector<Run> runs(std::span<const Index> order) const;
 
     /// A triangle, to ask for several of its samples.
     class OnTriangle {
@@ -48,16 +54,12 @@ class AreaSamples {
     OnTriangle on(std::size_t triangle) const;
 
   private:
-    double begin_of(std::size_t k) const;
-    double place_of(std::size_t k) const;
-    bool is_before(std::size_t k, double area) const;
-    std::size_t count_before(double area) const;
+    void place_all(std::size_t count, const std::vector<double>& areas);
 
     const Surface& surface_;
-    std::size_t size_ = 0;
     std::uint64_t seed_;
-    double area_ = 0, start_u_, start_v_;
-    std::vector<std::size_t> firsts_; ///< [triangles + 1]
+    double start_u_, start_v_;
+    std::vector<Index> triangles_; ///< [samples] ascending
 };
 
 } // namespace facetmill

@@ -113,7 +113,8 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk
         }
     }
     steps.next();
-    if (sums.count < samples.points.size()) raise_maximum(d, from, walk.farthest_sample(samples, d.maximum));
+    if (sums.count < samples.points.size())
+        raise_maximum(d, from, walk.farthest_sample(samples, d.maximum, near));
     set_means(d, sums);
 }
 
@@ -133,7 +134,7 @@ DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order
         return d;
     }
     ShareOfSteps steps({1, 12, settings.certify ? 26.0 : 0.0});
-    MeasuredSamples samples(from, settings.samples, settings.seed);
+    MeasuredSamples samples(from, order, settings.samples, settings.seed);
     d.samples = samples.points.size();
     steps.next();
     if (samples.points.size() == 0)

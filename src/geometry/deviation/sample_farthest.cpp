@@ -72,7 +72,9 @@ struct SampleWalk::Candidates {
     Index hint = none;
     std::span<Index> found{};             ///< [vertices] to be set to what is near them
     std::span<const Index> near_corner{}; ///< the same, that was set
-    Attempts attempts{}, corner_attempts{};
+    Attempts attempts{}, corner_attempts{}, across_attempts{};
+    static constexpr std::size_t fewest = 8; ///< are worth looking at together
+    std::size_t size = GroupDistances::most; ///< up to so many are
     Known known{};
 
     void add_vertex(Index v) {
@@ -80,25 +82,24 @@ struct SampleWalk::Candidates {
         if (waiting.size() == GroupDistances::most) finish();
     }
 
-    void add_unmeasured(const MeasuredSamples& samples, Index t) {
+    void add_unmeasured(const MeasuredSamples& samples, const AreaSamples::Run& run) {
         constexpr std::size_t many = 16; // are more work one by one than together, and than the corners
-        const std::size_t begin = samples.points.first(t), end = samples.points.first(t + std::size_t{1});
-        if (begin == end) return;
-        const bool together = end - begin >= many;
-        if (samples.parts > 0) add_known(samples, t);
+        const Index t = run.triangle;
+        const bool together = run.end - run.begin >= many;
+        if (have_same_near(t)) return;
+        if (samples.parts > 0) add_known(samples, run);
         if (together && is_within(t)) return;
         const AreaSamples::OnTriangle on = samples.points.on(t);
-        MeasuredSamples::each_of(samples.parts, MeasuredSamples::all_parts, begin, end,
+        MeasuredSamples::each_of(samples.parts, MeasuredSamples::all_parts, run.begin, run.end,
                                  [&](std::size_t i) { add_sample(on.point(i), t, together); });
         if (waiting.size() >= GroupDistances::most / 2) finish();
     }
 
-    void add_known(const MeasuredSamples& samples, Index t) {
-        const std::size_t begin = samples.points.first(t);
+    void add_known(const MeasuredSamples& samples, const AreaSamples::Run& run) {
         std::size_t left = Known::few;
-        for (std::size_t i = samples.points.first(t + std::size_t{1}); i > begin && left > 0;) {
+        for (std::size_t i = run.end; i > run.begin && left > 0;) {
             if (samples.distances[--i] == MeasuredSamples::unmeasured) continue;
-            known.add(samples.points.point(i, t), at_most(samples.distances[i]), samples.nearest[i]);
+            known.add(samples.points.point(i), at_most(samples.distances[i]), samples.nearest[i]);
             --left;
         }
     }
@@ -113,6 +114,14 @@ struct SampleWalk::Candidates {
             return closest_on(walk.to_, near, corner).distance <= best.distance - distance_of_none(corner);
         };
         return near != none && is_near(a) && is_near(b) && is_near(c);
+    }
+
+    /// Whether the corners are within the farthest of the same triangle, and so all between them.
+    bool have_same_near(Index t) const {
+        if (near_corner.empty()) return false;
+        const Index* const corners = &walk.from_.corners[3 * std::size_t{t}];
+        const Index near = near_corner[corners[0]];
+        return near != none && near == near_corner[corners[1]] && near == near_corner[corners[2]];
     }
 
     void add_sample(const Vec3& p, Index t, bool together) {
@@ -151,7 +160,7 @@ struct SampleWalk::Candidates {
     }
 
     void compare(std::span<Waiting> some) {
-        if (some.size() <= GroupDistances::most) return compare_group(some);
+        if (some.size() <= size) return compare_group(some);
         const std::size_t half = halved(some);
         compare(some.first(half));
         compare(some.subspan(half));
@@ -159,13 +168,17 @@ struct SampleWalk::Candidates {
 
     /// Those that are not yet known to be within the farthest are looked up, one after the other. What is
     /// closest to one is tried for the others.
-    void compare_group(std::span<const Waiting> some) {
+    void compare_group(std::span<Waiting> some) {
         points.clear();
         for (const Waiting& w : some) points.push_back(w.point);
         std::uint32_t left = ~std::uint32_t{0} >> (GroupDistances::most - some.size());
         double laid_out = 0;
         if (some[0].near != none) hint = some[0].near;
         if (hint != none) leave_out(within(left, laid_out), some, left);
+        if (!leave_out_across(some, left, laid_out) && some.size() > fewest) {
+            size = std::max(fewest, some.size() / 2);
+            return compare(those_of(left, some));
+        }
         while (left != 0) {
             const Waiting& w = some[static_cast<std::size_t>(std::countr_zero(left))];
             const Closest c = walk.consider(w.point, w.triangle, w.near == none ? hint : w.near, best);
@@ -174,6 +187,32 @@ struct SampleWalk::Candidates {
             leave_out(left & ~(left - 1), some, left);
             leave_out(within(left, laid_out), some, left);
         }
+    }
+
+    /// Brings those to the front.
+    static std::span<Waiting> those_of(std::uint32_t those, std::span<Waiting> some) {
+        std::size_t count = 0;
+        for (; those != 0; those &= those - 1)
+            std::swap(some[count++], some[static_cast<std::size_t>(std::countr_zero(those))]);
+        return some.first(count);
+    }
+
+    /// Those that lie across from a triangle, within the farthest. False where fewer are to be tried
+    /// together.
+    bool leave_out_across(std::span<const Waiting> some, std::uint32_t& left, double& laid_out) {
+        constexpr int enough = 4; // else each by itself is as fast
+        if (std::popcount(left) < enough || best.distance == 0) return true;
+        if (some.size() <= fewest && !across_attempts.next()) return true;
+        if (laid_out == 0 && together.lay_out(points, best.distance)) laid_out = best.distance;
+        if (laid_out == 0) return true;
+        std::uint32_t others = left;
+        const bool tried = together.take_across(points, laid_out, others, [&](std::size_t i, Index triangle) {
+            hint = triangle;
+            leave_out(std::uint32_t{1} << i, some, left);
+        });
+        if (some.size() <= fewest) across_attempts.note(tried);
+        if (tried && 2 * some.size() > size) size = std::min(2 * size, GroupDistances::most);
+        return tried;
     }
 
     /// Those that the triangle `hint` is near.
@@ -194,15 +233,15 @@ struct SampleWalk::Candidates {
     }
 };
 
-/// The farthest of what add(triangle, candidates) adds for each triangle, in chunks of so many.
+/// The farthest of what add(i, candidates) adds for each number below count, in chunks of so many.
 template <class Add>
-Farthest SampleWalk::farthest(double least, std::size_t chunk, const Add& add) const {
+Farthest SampleWalk::farthest(std::size_t count, double least, std::size_t chunk, const Add& add) const {
     Share::loop_tells();
     return parallel_reduce(
-        order_.size(), Farthest{},
+        count, Farthest{},
         [&](std::size_t begin, std::size_t end) {
             Candidates candidates{*this, GroupDistances(to_), {{}, {}, least}};
-            for (std::size_t i = begin; i < end; ++i) add(order_[i], candidates);
+            for (std::size_t i = begin; i < end; ++i) add(i, candidates);
             candidates.finish();
             return candidates.best;
         },
@@ -211,7 +250,8 @@ Farthest SampleWalk::farthest(double least, std::size_t chunk, const Add& add) c
 
 Farthest SampleWalk::farthest_vertex(double least, std::vector<Index>& near) const {
     near.assign(from_.positions.size(), none);
-    return farthest(least, 4096, [&](Index t, Candidates& candidates) {
+    return farthest(order_.size(), least, 4096, [&](std::size_t i, Candidates& candidates) {
+        const Index t = order_[i];
         candidates.found = near;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = from_.corners[3 * std::size_t{t} + k];
@@ -222,9 +262,9 @@ Farthest SampleWalk::farthest_vertex(double least, std::vector<Index>& near) con
 
 Farthest SampleWalk::farthest_sample(const MeasuredSamples& samples, double least,
                                      std::span<const Index> near) const {
-    return farthest(least, samples_chunk(), [&](Index t, Candidates& candidates) {
+    return farthest(samples.runs.size(), least, samples.chunk(), [&](std::size_t i, Candidates& candidates) {
         candidates.near_corner = near;
-        candidates.add_unmeasured(samples, t);
+        candidates.add_unmeasured(samples, samples.runs[i]);
     });
 }
 

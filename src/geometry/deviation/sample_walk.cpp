@@ -58,7 +58,7 @@ std::vector<Vec3> SampleWalk::vertices() const {
     return points;
 }
 
-std::size_t SampleWalk::samples_chunk() const { return std::clamp<std::size_t>(order_.size() / 64, 1, 4096); }
+std::size_t MeasuredSamples::chunk() const { return std::clamp<std::size_t>(runs.size() / 64, 1, 4096); }
 
 /// Samples that wait to be measured together. Only those that may be the farthest are looked up.
 struct SampleWalk::Groups {
@@ -80,12 +80,10 @@ struct SampleWalk::Groups {
     Attempts attempts{};
 
     /// The samples of a triangle that are of the parts before this and are not measured.
-    void add(Index t, std::size_t parts) {
-        const std::size_t begin = samples.points.first(t), end = samples.points.first(t + std::size_t{1});
-        if (begin == end) return;
-        const AreaSamples::OnTriangle on = samples.points.on(t);
-        MeasuredSamples::each_of(samples.parts, parts, begin, end, [&](std::size_t i) {
-            waiting.push_back({on.point(i), i, t});
+    void add(const AreaSamples::Run& run, std::size_t parts) {
+        const AreaSamples::OnTriangle on = samples.points.on(run.triangle);
+        MeasuredSamples::each_of(samples.parts, parts, run.begin, run.end, [&](std::size_t i) {
+            waiting.push_back({on.point(i), i, run.triangle});
         });
         if (waiting.size() >= GroupDistances::most / 2) finish();
     }
@@ -162,14 +160,14 @@ struct SampleWalk::Groups {
 Farthest SampleWalk::measure(MeasuredSamples& samples, std::size_t parts, double least) const {
     Share::loop_tells();
     const Farthest farthest = parallel_reduce(
-        order_.size(), Farthest{},
+        samples.runs.size(), Farthest{},
         [&](std::size_t begin, std::size_t end) {
             Groups groups{*this, samples, GroupDistances(to_), {{}, {}, least}};
-            for (std::size_t i = begin; i < end; ++i) groups.add(order_[i], parts);
+            for (std::size_t i = begin; i < end; ++i) groups.add(samples.runs[i], parts);
             groups.finish();
             return groups.best;
         },
-        farther_of, samples_chunk());
+        farther_of, samples.chunk());
     samples.parts = std::max(samples.parts, parts);
     return farthest;
 }

@@ -21,8 +21,11 @@ struct MeasuredSamples {
     /// part of the farthest so far.
     static constexpr double most_errors = 256, least_part = 1.0 / 16384;
 
-    MeasuredSamples(const Surface& surface, std::size_t count, std::uint64_t seed)
-        : points(surface, count, seed), distances(points.size(), unmeasured), nearest(points.size(), none) {}
+    /// order: the triangles, each near the one before.
+    MeasuredSamples(const Surface& surface, std::span<const Index> order, std::size_t count,
+                    std::uint64_t seed)
+        : points(surface, count, seed), runs(points.runs(order)), distances(points.size(), unmeasured),
+          nearest(points.size(), none) {}
 
     /// Calls call(i) for those samples in [begin, end) that are of parts [first, last), in their order. A
     /// part is spread evenly over all samples; so are several, as far as they go.
@@ -41,10 +44,13 @@ struct MeasuredSamples {
             }
     }
 
+    std::size_t chunk() const; ///< how many runs a thread takes at a time
+
     AreaSamples points;
-    std::size_t parts = 0;         ///< those before it are measured
-    std::vector<double> distances; ///< [samples]
-    std::vector<Index> nearest;    ///< [samples] of those measured, a triangle of the other surface's tree
+    std::vector<AreaSamples::Run> runs; ///< in the order of the walk
+    std::size_t parts = 0;              ///< those before it are measured
+    std::vector<double> distances;      ///< [samples]
+    std::vector<Index> nearest; ///< [samples] of those measured, a triangle of the other surface's tree
 
   private:
     /// Of the first samples, one of each part: bit i if the i-th is of a part before that.
@@ -87,8 +93,7 @@ class SampleWalk {
     struct Candidates;
     struct Groups;
     template <class Add>
-    Farthest farthest(double least, std::size_t chunk, const Add& add) const;
-    std::size_t samples_chunk() const;
+    Farthest farthest(std::size_t count, double least, std::size_t chunk, const Add& add) const;
     Closest consider(const Vec3& p, Index triangle, Index hint, Farthest& best) const;
 
     const Surface& from_;

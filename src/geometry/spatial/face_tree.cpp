@@ -38,7 +38,7 @@ std::vector<Index> finite_triangles(const Surface& surface) {
 }
 
 constexpr int coarse_run_bits = 3;
-constexpr std::size_t coarse_run = std::size_t{1} << coarse_run_bits;
+constexpr std::size_t node_run = 4; ///< the triangles of a node
 
 Box box_of_triangle(const Surface& surface, std::size_t t) {
     Box box;
@@ -46,22 +46,23 @@ Box box_of_triangle(const Surface& surface, std::size_t t) {
     return box;
 }
 
-/// Whether triangles that follow each other lie beside each other, as in most files. Judged by a thousand
-/// runs of them: in rows of a grid a run is three times as long as a triangle, sorted along a curve twice.
-bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& kept) {
-    constexpr double near = 6;
-    const std::size_t runs = kept.size() / coarse_run;
+/// Whether triangles that follow each other lie beside each other, as in most files: runs of so many are at
+/// most `near` times as long as a triangle. Judged by a thousand of them: in rows of a grid a run of eight is
+/// three times as long, sorted along a curve twice.
+bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& kept, std::size_t length,
+                            double near) {
+    const std::size_t runs = kept.size() / length;
     double of_runs = 0, of_triangles = 0;
     for (std::size_t run = 0; run < runs; run += runs / 1024 + 1) {
         Box all;
         double sum = 0;
-        for (std::size_t i = run * coarse_run; i < (run + 1) * coarse_run; ++i) {
+        for (std::size_t i = run * length; i < (run + 1) * length; ++i) {
             const Box box = box_of_triangle(surface, kept[i]);
             all.add(box);
             sum += box.diagonal();
         }
         of_runs += all.diagonal();
-        of_triangles += sum / coarse_run;
+        of_triangles += sum / static_cast<double>(length);
     }
     return of_runs <= near * of_triangles;
 }
@@ -105,23 +106,26 @@ std::vector<Index> FaceTree::along_curve(const Surface& surface, const std::vect
     return order;
 }
 
-std::vector<Index> FaceTree::runs_along_curve(const Surface& surface, const std::vector<Index>& kept) const {
-    const std::size_t runs = kept.size() / coarse_run;
+std::vector<Index> FaceTree::runs_along_curve(const Surface& surface, const std::vector<Index>& kept,
+                                              std::size_t length) const {
+    const std::size_t runs = kept.size() / length;
     const std::vector<Index> order = order_along_curve(runs, {{-1, -1, -1}, {1, 1, 1}}, [&](std::size_t run) {
-        return local(surface.point(kept[run * coarse_run + coarse_run / 2], 0));
+        return local(surface.point(kept[run * length + length / 2], 0));
     });
     std::vector<Index> out = kept; // what is too few for a run stays at the end
     parallel_for(runs, [&](std::size_t i) {
-        for (std::size_t k = 0; k < coarse_run; ++k)
-            out[i * coarse_run + k] = kept[order[i] * coarse_run + k];
+        for (std::size_t k = 0; k < length; ++k) out[i * length + k] = kept[order[i] * length + k];
     });
     return out;
 }
 
 std::vector<Index> FaceTree::in_order(const Surface& surface, const std::vector<Index>& kept, Use use) const {
-    if (use == Use::coarse && has_neighbours_in_runs(surface, kept)) return runs_along_curve(surface, kept);
-    if (use == Use::coarse || use == Use::few) return along_curve(surface, kept);
-    return in_median_order(surface, kept);
+    if (use != Use::coarse && use != Use::few) return in_median_order(surface, kept);
+    // Runs of triangles are as good as single ones where they are short: at most so many times as long.
+    const std::size_t length = use == Use::coarse ? std::size_t{1} << coarse_run_bits : node_run;
+    if (has_neighbours_in_runs(surface, kept, length, use == Use::coarse ? 6 : 3))
+        return runs_along_curve(surface, kept, length);
+    return along_curve(surface, kept);
 }
 
 FaceTree::FaceTree(const Surface& surface, Use use) { build_over(surface, surface.bounds(), use, true); }

@@ -95,7 +95,8 @@ struct FaceTree : BoxLevels {
     /// The triangles that were kept, in the order of the tree.
     std::vector<Index> in_median_order(const Surface& surface, const std::vector<Index>& kept) const;
     std::vector<Index> along_curve(const Surface& surface, const std::vector<Index>& kept) const;
-    std::vector<Index> runs_along_curve(const Surface& surface, const std::vector<Index>& kept) const;
+    std::vector<Index> runs_along_curve(const Surface& surface, const std::vector<Index>& kept,
+                                        std::size_t length) const;
     std::vector<Index> in_order(const Surface& surface, const std::vector<Index>& kept, Use use) const;
 
     std::span<const Vec3> positions_; ///< of the surface that stays, and so on

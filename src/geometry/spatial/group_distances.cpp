@@ -12,9 +12,7 @@ namespace {
 constexpr std::size_t few_nodes = 24;  ///< of one level; with more, smaller groups are as fast
 constexpr std::size_t many_nodes = 64; ///< likewise; with more, smaller groups of parts are as fast
 constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are too coarse for points beyond
-/// How far a sum of a few float32 numbers below 2 may be off; points that close to an edge count as beside
-/// it.
-constexpr float rounding = 0x1p-20F;
+constexpr float rounding = TriangleSlabs::rounding; ///< points that close to an edge count as beside it
 
 Float4 four(float x) { return Float4{x, x, x, x}; }
 
@@ -320,6 +318,61 @@ bool GroupDistances::lay_out(std::span<const Vec3> points, double distance) {
     if (!place(points, box.centre(), box.diagonal() + distance)) return false;
     done_square_ = enough_square(distance);
     return done_square_ > 0;
+}
+
+/// Finds the nodes whose boxes are within a distance of that of the points in `among`; false when they are
+/// many.
+bool GroupDistances::gather_near(std::span<const Vec3> points, double distance, std::uint32_t among) {
+    Box box;
+    for (std::uint32_t left = among; left != 0; left &= left - 1)
+        box.add(points[static_cast<std::size_t>(std::countr_zero(left))]);
+    if (!gather(box, distance, few_nodes)) return false;
+    return true;
+}
+
+/// Which points are within a distance of the box of a node, give or take rounding: bit i for the i-th.
+std::uint32_t GroupDistances::near_node(std::uint32_t node, double distance) const {
+    const FaceTree::Node& boxes = tree_.node(0, node);
+    Float4 low[3], high[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto in_group = [&](float x, double off) {
+            const double at = double{x} / tree_.scale + tree_.middle[axis] - centre_[axis] + off;
+            return four(static_cast<float>(at * scale_));
+        };
+        low[axis] = in_group(*std::min_element(boxes.min[axis], boxes.min[axis] + 4), -distance);
+        high[axis] = in_group(*std::max_element(boxes.max[axis], boxes.max[axis] + 4), distance);
+    }
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < fours_; ++i) {
+        const Int4 inside = (x_[i] >= low[0]) & (x_[i] <= high[0]) & (y_[i] >= low[1]) & (y_[i] <= high[1]) &
+                            (z_[i] >= low[2]) & (z_[i] <= high[2]);
+        near |= bits_of(inside) << 4 * i;
+    }
+    return near;
+}
+
+TriangleSlabs GroupDistances::slabs_of(std::uint32_t node) const {
+    using Triangle = FaceTree::Triangle;
+    std::array<Triangle, 4> in_node; // the last again where there are no more
+    for (std::size_t i = 0; i < 4; ++i)
+        in_node[i] = tree_.triangle(std::min(4 * std::size_t{node} + i, tree_.size() - 1));
+    const auto rounded = [&](const auto& of) {
+        const Vec3 p[] = {of(in_node[0]), of(in_node[1]), of(in_node[2]), of(in_node[3])};
+        const auto number = [&](std::size_t i, std::size_t k) {
+            return static_cast<float>(p[i][k] * scale_);
+        };
+        Float4x3 all;
+        for (std::size_t k = 0; k < 3; ++k)
+            all[k] = Float4{number(0, k), number(1, k), number(2, k), number(3, k)};
+        return all;
+    };
+    return {{rounded([&](const Triangle& t) { return t.a - centre_; }),
+             rounded([&](const Triangle& t) { return t.b - centre_; }),
+             rounded([&](const Triangle& t) { return t.c - centre_; })},
+            {rounded([](const Triangle& t) { return t.b - t.a; }),
+             rounded([](const Triangle& t) { return t.c - t.b; }),
+             rounded([](const Triangle& t) { return t.a - t.c; })},
+            done_square_};
 }
 
 void GroupDistances::remove_within(std::span<const Vec3> points, double distance,

@@ -5,8 +5,10 @@
 
 #include "base/simd.hpp"
 #include "geometry/spatial/face_tree.hpp"
+#include "geometry/spatial/triangle_slabs.hpp"
 
 #include <array>
+#include <bit>
 #include <span>
 #include <vector>
 
@@ -38,6 +40,29 @@ class GroupDistances {
         return which_within(points, done_square_, triangle, among);
     }
 
+    /// Takes out of `among` the points laid out that lie across from the inside of a triangle, within the
+    /// distance: call(i, triangle) for each of them. A point beside an edge or a corner may stay though it is
+    /// within the distance. False, and nothing is tried, where so many triangles are near that fewer points
+    /// are as fast.
+    template <class Call>
+    bool take_across(std::span<const Vec3> points, double distance, std::uint32_t& among, const Call& call) {
+        if (!gather_near(points, distance, among)) return false;
+        for (const std::uint32_t node : nodes_) {
+            std::uint32_t near = near_node(node, distance) & among;
+            if (near == 0) continue;
+            const TriangleSlabs slabs = slabs_of(node);
+            for (; near != 0; near &= near - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(near));
+                const unsigned holding = slabs.holding(x_[i / 4][i % 4], y_[i / 4][i % 4], z_[i / 4][i % 4]);
+                if (holding == 0) continue;
+                among &= ~(std::uint32_t{1} << i);
+                call(i, 4 * node + static_cast<Index>(std::countr_zero(holding)));
+            }
+            if (among == 0) break;
+        }
+        return true;
+    }
+
     /// Removes from `sets`, of which each has bit i for the i-th of 1 to `most` finite points, those whose
     /// points all are within a distance of one and the same triangle: so is all between them. What cannot be
     /// told stays. hint as above.
@@ -57,6 +82,9 @@ class GroupDistances {
   private:
     struct Flat;
 
+    bool gather_near(std::span<const Vec3> points, double distance, std::uint32_t among);
+    std::uint32_t near_node(std::uint32_t node, double distance) const;
+    TriangleSlabs slabs_of(std::uint32_t node) const;
     bool place(std::span<const Vec3> points, const Vec3& centre, double reach);
     bool gather(const Box& box, double limit, std::size_t most_nodes);
     bool compare_until(float enough_square, std::span<const Vec3> points, const Box& box, double limit);

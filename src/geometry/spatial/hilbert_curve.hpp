@@ -46,13 +46,29 @@ constexpr std::array<std::array<Step, 8>, 24> make_steps() {
 }
 inline constexpr auto steps = make_steps();
 
+/// Two steps at once, into one of 64 cells: two bits of x, then of y and z.
+constexpr std::array<std::array<Step, 64>, 24> make_double_steps() {
+    std::array<std::array<Step, 64>, 24> doubles{};
+    for (std::size_t state = 0; state < doubles.size(); ++state)
+        for (unsigned cell = 0; cell < 64; ++cell) {
+            const Step outer = steps[state][(cell >> 1 & 1) | (cell >> 3 & 1) << 1 | (cell >> 5 & 1) << 2];
+            const Step inner = steps[outer.state][(cell & 1) | (cell >> 2 & 1) << 1 | (cell >> 4 & 1) << 2];
+            doubles[state][cell] = {static_cast<std::uint8_t>(outer.turn << 3 | inner.turn), inner.state};
+        }
+    return doubles;
+}
+inline constexpr auto double_steps = make_double_steps();
+
 /// The place along the curve of the cell with these coordinates, axis_bits each.
 constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    std::uint64_t along = 0;
-    std::size_t state = 0;
-    for (int bit = axis_bits - 1; bit >= 0; --bit) {
-        const Step step = steps[state][(x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2];
-        along = along << 3 | step.turn;
+    static_assert(axis_bits % 2 == 1, "one step, then two at a time");
+    constexpr int top = axis_bits - 1;
+    const Step first = steps[0][(x >> top & 1) | (y >> top & 1) << 1 | (z >> top & 1) << 2];
+    std::uint64_t along = first.turn;
+    std::size_t state = first.state;
+    for (int bit = top - 2; bit >= 0; bit -= 2) {
+        const Step step = double_steps[state][(x >> bit & 3) | (y >> bit & 3) << 2 | (z >> bit & 3) << 4];
+        along = along << 6 | step.turn;
         state = step.state;
     }
     return along;

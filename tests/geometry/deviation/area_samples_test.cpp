@@ -26,8 +26,6 @@ TEST_CASE("the k-th sample lies in the k-th of equal parts of the area", "[geome
         for (const std::size_t count : {1, 7, 1000, 40000}) {
             const AreaSamples samples(surface, count, 5);
             REQUIRE(samples.size() == count);
-            CHECK(samples.first(0) == 0);
-            CHECK(samples.first(surface.size()) == count);
             double all = 0;
             std::vector<double> areas;
             for (std::size_t t = 0; t < surface.size(); ++t) {
@@ -37,10 +35,10 @@ TEST_CASE("the k-th sample lies in the k-th of equal parts of the area", "[geome
                 all += areas.back();
             }
             double before = 0;
+            std::size_t k = 0;
             for (std::size_t t = 0; t < surface.size(); ++t) {
                 const double after = before + areas[t], slack = 1e-9 * all;
-                for (std::size_t k = samples.first(t); k < samples.first(t + 1); ++k) {
-                    REQUIRE(samples.triangle_of(k) == t);
+                for (; k < count && samples.triangle_of(k) == t; ++k) {
                     const double part = all / static_cast<double>(count),
                                  begin = static_cast<double>(k) * part;
                     REQUIRE(before < begin + part + slack);
@@ -49,6 +47,27 @@ TEST_CASE("the k-th sample lies in the k-th of equal parts of the area", "[geome
                 }
                 before = after;
             }
+            CHECK(k == count); // so they ascend
+        }
+}
+
+TEST_CASE("runs have all samples, triangle by triangle in the order that is asked for", "[geometry]") {
+    for (const Surface& surface : sampled_surfaces())
+        for (const std::size_t count : {1, 70, 40000}) {
+            const AreaSamples samples(surface, count, 5);
+            std::vector<Index> order(surface.size());
+            for (std::size_t t = 0; t < order.size(); ++t)
+                order[t] = static_cast<Index>(order.size() - 1 - t);
+            std::size_t found = 0, last = order.size();
+            for (const AreaSamples::Run& run : samples.runs(order)) {
+                REQUIRE(run.triangle < last);
+                last = run.triangle;
+                REQUIRE(run.begin < run.end);
+                for (std::size_t k = run.begin; k < run.end; ++k)
+                    REQUIRE(samples.triangle_of(k) == run.triangle);
+                found += run.end - run.begin;
+            }
+            CHECK(found == count);
         }
 }
 
@@ -60,7 +79,7 @@ TEST_CASE("a sample by itself is the one of all, on its triangle", "[geometry]")
         for (std::size_t k = 0; k < all.size(); k += 17) {
             const std::size_t t = all[k].triangle;
             REQUIRE(samples.triangle_of(k) == t);
-            REQUIRE(samples.point(k, t) == all[k].point);
+            REQUIRE(samples.point(k) == all[k].point);
             const Vec3 &a = surface.point(t, 0), &b = surface.point(t, 1), &c = surface.point(t, 2);
             const Vec3 n = cross(b - a, c - a), p = all[k].point;
             const double slack = -1e-9 * dot(n, n);

@@ -217,6 +217,23 @@ TEST_CASE("tiny, huge and far surfaces lose nothing", "[geometry]") {
     }
 }
 
+TEST_CASE("two steps down the curve at once are as two", "[geometry]") {
+    for (std::uint64_t k = 0; k < 2000; ++k) {
+        std::array<std::uint32_t, 3> at{};
+        for (std::uint64_t axis = 0; axis < 3; ++axis)
+            at[axis] = static_cast<std::uint32_t>(hashed(k, axis)) & ((1U << hilbert::axis_bits) - 1);
+        std::uint64_t along = 0;
+        std::size_t state = 0;
+        for (int bit = hilbert::axis_bits - 1; bit >= 0; --bit) {
+            const hilbert::Step step =
+                hilbert::steps[state][(at[0] >> bit & 1) | (at[1] >> bit & 1) << 1 | (at[2] >> bit & 1) << 2];
+            along = along << 3 | step.turn;
+            state = step.state;
+        }
+        REQUIRE(hilbert::index(at[0], at[1], at[2]) == along);
+    }
+}
+
 TEST_CASE("neighbours on the curve are neighbours in space", "[geometry]") {
     std::vector<std::array<std::uint32_t, 3>> cells(512);
     std::set<std::uint64_t> seen;

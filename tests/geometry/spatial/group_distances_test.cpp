@@ -4,6 +4,8 @@
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/group_distances.hpp"
 
+#include <bit>
+
 using namespace facetmill;
 
 namespace {
@@ -135,6 +137,51 @@ TEST_CASE("points are within a distance of a triangle for certain, those that ar
         CHECK(near > 500);
         CHECK(far > 500);
     }
+}
+
+TEST_CASE("points that lie across from a triangle are within the distance of it, most of those on a surface",
+          "[geometry]") {
+    std::vector<Mesh> meshes = grouped_meshes();
+    for (const double far : {1e3, 1e7}) { // of the origin
+        meshes.push_back(test::noisy_icosphere(4, 0.1, 1));
+        for (Vec3& p : meshes.back().positions) p += Vec3{far, -far, far};
+    }
+    std::size_t across = 0;
+    for (const Mesh& mesh : meshes) {
+        const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
+        GroupDistances together(tree);
+        for (std::uint64_t k = 0; k < 2000; ++k) {
+            const auto points = group_of(mesh, k);
+            const double distance = std::pow(10.0, -static_cast<double>(k % 5));
+            const std::uint32_t all = ~std::uint32_t{0} >> (GroupDistances::most - points.size());
+            std::uint32_t among = all & static_cast<std::uint32_t>(hashed(5, k) | hashed(6, k));
+            const std::uint32_t asked = among;
+            if (among == 0 || !together.lay_out(points, distance)) continue;
+            std::uint32_t found = 0;
+            together.take_across(points, distance, among, [&](std::size_t i, Index triangle) {
+                REQUIRE(closest_on(tree, triangle, points[i]).distance <= distance);
+                REQUIRE((found >> i & 1) == 0);
+                found |= std::uint32_t{1} << i;
+            });
+            REQUIRE(among == (asked & ~found));
+            REQUIRE((found & ~asked) == 0);
+            across += static_cast<std::size_t>(std::popcount(found));
+        }
+    }
+    CHECK(across > 20000);
+    const Surface finer = surface_of(test::noisy_icosphere(5, 0.01, 2));
+    const FaceTree tree(surface_of(test::noisy_icosphere(4, 0.01, 1)), FaceTree::Use::near);
+    GroupDistances together(tree);
+    std::size_t missed = 0;
+    for (std::size_t t = 0; t < finer.size(); t += 8) {
+        std::vector<Vec3> points;
+        for (std::size_t i = 0; i < 8; ++i) points.push_back(finer.point(t + i, 0));
+        std::uint32_t among = 255;
+        REQUIRE(together.lay_out(points, 0.05));
+        together.take_across(points, 0.05, among, [](std::size_t, Index) {});
+        missed += static_cast<std::size_t>(std::popcount(among));
+    }
+    CHECK(missed < finer.size() / 10);
 }
 
 TEST_CASE("what float32 cannot tell from 0 in a wide group is not shown to be within a distance",
