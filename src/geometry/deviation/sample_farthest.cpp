@@ -70,12 +70,13 @@ struct SampleWalk::Candidates {
     std::vector<Waiting> waiting{};
     std::vector<Vec3> points{};
     Index hint = none;
-    std::span<Index> found{};             ///< [vertices] to be set to what is near them
+    std::span<Index> found{};             ///< [vertices] to be set to what they are within the farthest of
     std::span<const Index> near_corner{}; ///< the same, that was set
     Attempts attempts{}, corner_attempts{}, across_attempts{};
     static constexpr std::size_t fewest = 8; ///< are worth looking at together
     std::size_t size = GroupDistances::most; ///< up to so many are
     Known known{};
+    double rounding = 0; ///< of samples on triangles at the group's vertices
 
     void add_vertex(Index v) {
         waiting.push_back({walk.from_.positions[v], none, none, v});
@@ -116,7 +117,7 @@ struct SampleWalk::Candidates {
         return near != none && is_near(a) && is_near(b) && is_near(c);
     }
 
-    /// Whether the corners are within the farthest of the same triangle, and so all between them.
+    /// Whether the corners are within the farthest of the same triangle, and so all samples between them.
     bool have_same_near(Index t) const {
         if (near_corner.empty()) return false;
         const Index* const corners = &walk.from_.corners[3 * std::size_t{t}];
@@ -172,6 +173,9 @@ struct SampleWalk::Candidates {
         points.clear();
         for (const Waiting& w : some) points.push_back(w.point);
         std::uint32_t left = ~std::uint32_t{0} >> (GroupDistances::most - some.size());
+        rounding = 0;
+        if (!found.empty())
+            for (const Vec3& p : points) rounding = std::max(rounding, distance_of_none(p));
         double laid_out = 0;
         if (some[0].near != none) hint = some[0].near;
         if (hint != none) leave_out(within(left, laid_out), some, left);
@@ -184,10 +188,15 @@ struct SampleWalk::Candidates {
             const Closest c = walk.consider(w.point, w.triangle, w.near == none ? hint : w.near, best);
             hint = c.triangle;
             known.add(w.point, c.distance, c.triangle);
-            leave_out(left & ~(left - 1), some, left);
+            left &= left - 1;
+            if (!found.empty() && c.distance <= within_what()) found[w.vertex] = c.triangle;
             leave_out(within(left, laid_out), some, left);
         }
     }
+
+    /// What is left out is shown to be within that: for vertices less than the farthest by what the rounding
+    /// of samples between them may add.
+    double within_what() const { return best.distance - rounding; }
 
     /// Brings those to the front.
     static std::span<Waiting> those_of(std::uint32_t those, std::span<Waiting> some) {
@@ -203,7 +212,7 @@ struct SampleWalk::Candidates {
         constexpr int enough = 4; // else each by itself is as fast
         if (std::popcount(left) < enough || best.distance == 0) return true;
         if (some.size() <= fewest && !across_attempts.next()) return true;
-        if (laid_out == 0 && together.lay_out(points, best.distance)) laid_out = best.distance;
+        if (laid_out == 0 && together.lay_out(points, within_what())) laid_out = within_what();
         if (laid_out == 0) return true;
         std::uint32_t others = left;
         const bool tried = together.take_across(points, laid_out, others, [&](std::size_t i, Index triangle) {
@@ -226,7 +235,7 @@ struct SampleWalk::Candidates {
     /// Which of them are within the farthest of the triangle `hint`, as far as that is tried.
     std::uint32_t within(std::uint32_t left, double& laid_out) {
         if (left == 0 || !attempts.next()) return 0;
-        if (laid_out < best.distance) laid_out = together.lay_out(points, best.distance) ? best.distance : 0;
+        if (laid_out < within_what()) laid_out = together.lay_out(points, within_what()) ? within_what() : 0;
         const std::uint32_t near = laid_out > 0 ? together.within(points, hint, left) & left : 0;
         attempts.note(near != 0);
         return near;
