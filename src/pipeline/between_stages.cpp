@@ -10,6 +10,14 @@
 
 namespace facetmill::pipeline {
 
+namespace {
+
+bool same_bits(double a, double b) { // they may be no numbers
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+} // namespace
+
 std::string names_hint(const Scene& scene) {
     std::string names;
     for (const auto& part : scene.parts) append_item(names, part.name);
@@ -39,16 +47,23 @@ void check_invariants(const Step& step, const Scene& scene) {
 
 void check_left(const Step& step, const Flow::Left& left, const Scene& scene) {
     const auto same = [](const PartSurface& a, const PartSurface& b) {
-        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); }; // it may be no number
-        return a.name == b.name && a.faces == b.faces && bits(a.area) == bits(b.area);
+        return a.name == b.name && a.faces == b.faces && same_bits(a.area, b.area);
     };
     const auto surfaces = left.surfaces ? surfaces_of_parts(scene) : std::vector<PartSurface>();
+    const auto is_right = [&](const Part& part, const PartSurface& known) {
+        if (!known.size) return true;
+        const SurfaceSize size = surface_size(part.mesh, part.transform);
+        return same_bits(size.area, known.size->area) &&
+               size.volume.has_value() == known.size->volume.has_value() &&
+               same_bits(size.volume.value_or(0), known.size->volume.value_or(0));
+    };
     const report::Brief brief = report::brief_of(scene);
     if (left.brief.parts == brief.parts && left.brief.vertices == brief.vertices &&
         left.brief.faces == brief.faces && left.brief.bounds.min == brief.bounds.min &&
         left.brief.bounds.max == brief.bounds.max &&
         (!left.surfaces ||
-         std::equal(surfaces.begin(), surfaces.end(), left.surfaces->begin(), left.surfaces->end(), same)))
+         (std::equal(surfaces.begin(), surfaces.end(), left.surfaces->begin(), left.surfaces->end(), same) &&
+          std::equal(scene.parts.begin(), scene.parts.end(), left.surfaces->begin(), is_right))))
         return;
     throw Error(ErrorKind::bug, "E-INVARIANT",
                 fmt::format("before '{}' the scene is no longer as the stage before left it", step.name));

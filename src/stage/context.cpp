@@ -124,6 +124,29 @@ double Context::resolve(const Length& length, const Scene& scene, std::string_vi
     return is;
 }
 
+SurfaceSize Context::size_before(const Scene& scene, std::size_t part) const {
+    if (part < sizes_before_.size() && sizes_before_[part]) return *sizes_before_[part];
+    return surface_size(scene.parts[part].mesh, scene.parts[part].transform);
+}
+
+void Context::keep_size(std::size_t part, const SurfaceSize& size) {
+    if (part >= sizes_after_.size()) sizes_after_.resize(part + 1);
+    sizes_after_[part] = size;
+}
+
+std::vector<std::optional<SurfaceSize>> Context::kept_sizes(const Scene& scene) const {
+    if (sizes_after_.size() > scene.parts.size()) return {};
+    auto sizes = sizes_after_;
+    if (!sizes.empty()) sizes.resize(scene.parts.size());
+    return sizes;
+}
+
+void Context::know_surfaces(const std::vector<PartSurface>& surfaces) {
+    sizes_before_.clear();
+    sizes_after_.clear();
+    for (const PartSurface& s : surfaces) sizes_before_.push_back(s.size);
+}
+
 void Context::warn(std::string id, std::string message, std::string hint) {
     record_.warnings.push_back(
         {Severity::warning, std::move(id), std::move(message), where_, std::move(hint)});

@@ -7,9 +7,12 @@
 #include "options/fields.hpp"
 #include "options/quantities.hpp"
 #include "report/record.hpp"
+#include "stage/surface_loss.hpp"
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace facetmill {
 
@@ -64,6 +67,15 @@ class Context {
     double resolve(const Length& length, const Scene& scene, std::string_view option,
                    const Part* part = nullptr);
 
+    /// Of a part as the stage found it, in world space: as the stage before measured it, or anew.
+    SurfaceSize size_before(const Scene& scene, std::size_t part) const;
+    /// Of a part as the stage leaves it, so that it need not be measured again.
+    void keep_size(std::size_t part, const SurfaceSize& size);
+    /// Those that were kept, [parts]; empty when there are none or the scene has other parts.
+    std::vector<std::optional<SurfaceSize>> kept_sizes(const Scene& scene) const;
+    /// [parts] of the scene that the stage is to find.
+    void know_surfaces(const std::vector<PartSurface>& surfaces);
+
     void warn(std::string id, std::string message, std::string hint = {});
     void attribute_changes(const Part& part, const AttributeChanges& changes);
     /// What the stage wants in the report under "result".
@@ -96,6 +108,7 @@ class Context {
     Box entering_;
     Mark where_;
     bool leaves_lines_ = false;
+    std::vector<std::optional<SurfaceSize>> sizes_before_, sizes_after_; ///< [parts]
 };
 
 } // namespace facetmill

@@ -66,8 +66,9 @@ Scene perform(const StageInfo& stage, Scene scene, const void* options, Context&
     if (stage.checks || stage.loads || may_lose == MayLose::all)
         return stage.run(std::move(scene), options, context);
     const auto before = known ? *std::move(known) : surfaces_of_parts(scene);
+    context.know_surfaces(before);
     scene = stage.run(std::move(scene), options, context);
-    auto after = surfaces_of_parts(scene);
+    auto after = surfaces_of_parts(scene, context.kept_sizes(scene));
     warn_of_lost_surface(before, after, may_lose, context);
     surfaces = std::move(after);
     return scene;

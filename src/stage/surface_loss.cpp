@@ -1,7 +1,6 @@
 #include "stage/surface_loss.hpp"
 
 #include "base/readable_numbers.hpp"
-#include "geometry/edit/moved.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/transform.hpp"
 #include "stage/context.hpp"
@@ -69,17 +68,19 @@ double area_at(const Mesh& mesh, const std::vector<Transform>& places) {
 
 } // namespace
 
-std::vector<PartSurface> surfaces_of_parts(const Scene& scene) {
+std::vector<PartSurface> surfaces_of_parts(const Scene& scene,
+                                           std::span<const std::optional<SurfaceSize>> sizes) {
     const auto places = io::places_of_instances(scene);
     std::vector<PartSurface> surfaces;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const Part& part = scene.parts[i];
-        if (places[i].empty())
-            surfaces.push_back(
-                {part.name, part.mesh.face_count(), surface_size(part.mesh, part.transform, false).area});
-        else
-            surfaces.push_back(
-                {part.name, part.mesh.face_count() * places[i].size(), area_at(part.mesh, places[i])});
+        const auto size = sizes.empty() ? std::nullopt : sizes[i];
+        PartSurface& surface = surfaces.emplace_back(PartSurface{part.name, part.mesh.face_count(), 0, size});
+        if (!places[i].empty()) {
+            surface.faces *= places[i].size();
+            surface.area = area_at(part.mesh, places[i]);
+        } else
+            surface.area = size ? size->area : surface_size(part.mesh, part.transform, false).area;
     }
     return surfaces;
 }

@@ -1,8 +1,11 @@
 #pragma once
 // Promise 3 for the surface itself: no stage loses it in silence.
 
+#include "geometry/edit/moved.hpp"
 #include "mesh/scene.hpp"
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,10 +27,12 @@ struct PartSurface {
     std::string name;
     std::size_t faces = 0;
     double area = 0;
+    std::optional<SurfaceSize> size{}; ///< of the mesh at the part's transform, where a stage measured it
 };
 /// Of each part. O(corners), parallel; for instances scaled by different factors along the axes, O(corners)
-/// each.
-std::vector<PartSurface> surfaces_of_parts(const Scene& scene);
+/// each. sizes: [parts] those that are known, or empty.
+std::vector<PartSurface> surfaces_of_parts(const Scene& scene,
+                                           std::span<const std::optional<SurfaceSize>> sizes = {});
 
 /// Warns (W-SURFACE-LOST) of what a stage took beyond that: all faces, or more of the area. Part by part as
 /// long as these are the same before and after; else of the scene as a whole. Areas that are not finite or 0

@@ -114,6 +114,63 @@ TEST_CASE("what one stage leaves of the surface is what the next one finds", "[s
     CHECK_FALSE(surfaces);
 }
 
+TEST_CASE("the size that a stage measured is what the next one finds, part by part", "[stage]") {
+    test::StageRun run;
+    const PartFilter all;
+    Scene scene = scene_of(shapes::icosphere(2));
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "other";
+    scene.parts[1].transform.m[1][1] = 2;
+    StageInfo stage{.name = "eat", .about = "", .details = "", .examples = {}};
+    const SurfaceSize told{1, 2};
+    stage.run = [&](Scene entering, const void*, Context& context) {
+        context.keep_size(1, told);
+        return entering;
+    };
+    std::optional<std::vector<PartSurface>> surfaces;
+    Context first(*run.state, run.record, all, scene.bounds(), {});
+    scene = perform(stage, std::move(scene), nullptr, first, surfaces);
+    REQUIRE(surfaces);
+    CHECK_FALSE(surfaces->at(0).size);
+    REQUIRE(surfaces->at(1).size);
+    CHECK(surfaces->at(1).area == told.area);
+
+    stage.run = [&](Scene entering, const void*, Context& context) {
+        const Part& part = entering.parts[0];
+        CHECK(context.size_before(entering, 0).area == surface_size(part.mesh, part.transform).area);
+        CHECK(context.size_before(entering, 1).volume == told.volume);
+        context.keep_size(1, told);
+        entering.parts.pop_back(); // the size is of none of the parts
+        return entering;
+    };
+    Context second(*run.state, run.record, all, scene.bounds(), {});
+    scene = perform(stage, std::move(scene), nullptr, second, surfaces);
+    CHECK_FALSE(surfaces->at(0).size);
+}
+
+TEST_CASE("relax and simplify leave the sizes that they measured", "[stages]") {
+    for (const auto& [name, options] :
+         {std::pair("relax", "{iterations: 1}"), std::pair("simplify", "{ratio: 50%}")}) {
+        const StageInfo& stage = test::stage_for_test(name);
+        Problems problems;
+        const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
+        const auto parsed = test::options_of(stage, pipeline::parse_yaml(source, problems), problems);
+        Scene scene = scene_of(shapes::icosphere(3));
+        scene.parts[0].transform.m[1][1] = 2;
+        test::StageRun run;
+        const PartFilter all;
+        Context context(*run.state, run.record, all, scene.bounds(), {});
+        std::optional<std::vector<PartSurface>> surfaces;
+        scene = perform(stage, std::move(scene), parsed.get(), context, surfaces);
+        REQUIRE(surfaces);
+        REQUIRE(surfaces->at(0).size);
+        const SurfaceSize anew = surface_size(scene.parts[0].mesh, scene.parts[0].transform);
+        CHECK(surfaces->at(0).size->area == anew.area);
+        CHECK(surfaces->at(0).size->volume == anew.volume);
+        CHECK(surfaces->at(0).area == surfaces_of_parts(scene).at(0).area);
+    }
+}
+
 TEST_CASE("areas beyond numbers are not compared", "[stage]") {
     Scene wide = sheet();
     for (Vec3& p : wide.parts[0].mesh.positions) p = p * 1e200;

@@ -65,11 +65,13 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
             settings.until = std::max(context.resolve(*o.until, scene, "until", &part),
                                       std::numeric_limits<double>::min());
         settings.mask = masks.of(part);
-        const SurfaceSize before = surface_size(part.mesh, settings.to_world);
+        const auto number = static_cast<std::size_t>(&part - scene.parts.data());
+        const SurfaceSize before = context.size_before(scene, number);
         RelaxResult r = relax(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         const SurfaceSize after = surface_size(part.mesh, settings.to_world, before.volume.has_value());
+        context.keep_size(number, after);
         if (r.shrank)
             context.warn(
                 "W-RELAX-STOPPED",

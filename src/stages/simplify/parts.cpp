@@ -92,8 +92,7 @@ struct Measured {
     DeviationResult deviation;
 };
 
-Size size_of(const Part& part) {
-    const SurfaceSize size = surface_size(part.mesh, part.transform);
+Size size_of(const Part& part, const SurfaceSize& size) {
     return {size.area, part.mesh.face_count() > 0 ? size.volume : 0};
 }
 
@@ -342,7 +341,7 @@ class Simplifier {
             const bool is_first = measures() && measured_as_[p] == p;
             if (is_first) {
                 before_[p].surface = surface_of(scene_.parts[p]);
-                before_[p].size = size_of(scene_.parts[p]);
+                before_[p].size = size_of(scene_.parts[p], context_.size_before(scene_, p));
             }
             if (changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
             limits_[p] = settings_for(set).max_quadric_error;
@@ -460,7 +459,9 @@ class Simplifier {
             return carried(measured_[as][number_of_level], by);
         }
         const Before& before = before_[number];
-        Measured m{{before.size, size_of(part)},
+        const SurfaceSize size = surface_size(part.mesh, part.transform);
+        if (!o_.lods) context_.keep_size(number, size); // else other parts come between
+        Measured m{{before.size, size_of(part, size)},
                    deviation(before.surface, surface_of(part),
                              {.samples = samples_[number], .certify = o_.certify})};
         measured_[number].push_back(m);
