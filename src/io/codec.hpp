@@ -38,6 +38,8 @@ struct ReadLog {
 /// always.
 enum class Weld { automatic, off, exact };
 
+class DracoDecodings;
+
 struct ReadSettings {
     Weld weld = Weld::automatic;
     std::optional<Unit> unit; ///< overrides what the format says
@@ -50,6 +52,7 @@ struct ReadSettings {
     bool drop_not_finite = false;
     /// Folders below which the neighbours of a file may lie, besides its own.
     std::vector<std::filesystem::path> asset_roots{};
+    const DracoDecodings* decoded = nullptr; ///< those that are known already
 };
 
 struct DracoSettings {
@@ -57,6 +60,7 @@ struct DracoSettings {
     int position_bits = 14, normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12;
     int speed = 0;                ///< 0 smallest .. 10 fastest
     bool keep_degenerate = false; ///< faces that name a vertex twice stay, in a primitive of their own
+    bool keep_decoded = false;    ///< Written::decoded is wanted, to read the file back
 };
 
 /// KHR_mesh_quantization: attributes as small integers on a grid. What is stored as integers already stays.
@@ -170,6 +174,7 @@ struct Written {
     std::size_t dropped_faces = 0; ///< that the scene has and the file has not, for the read-back
     VertexCacheUse cache{};        ///< of the meshes that were put in order
     std::optional<TilesWritten> tiles{};
+    std::shared_ptr<const DracoDecodings> decoded{}; ///< what Draco data in the files was decoded to
 };
 
 /// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill

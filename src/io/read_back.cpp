@@ -435,7 +435,8 @@ Json ReadBack::json() const {
 }
 
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, const WriteSettings& settings,
-                   std::size_t dropped_faces) {
+                   const Written& written) {
+    const std::size_t dropped_faces = written.dropped_faces;
     const std::optional<Scene> filled = codec.can.polygons ? std::nullopt : with_filled_faces(given);
     const Scene& scene = filled ? *filled : given;
     ReadBack back;
@@ -446,8 +447,10 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
     };
     ShareOfSteps steps({4, 1, 5});
     ReadLog log;
+    ReadSettings how;
+    how.decoded = written.decoded.get();
     try {
-        back.scene = read_scene(file, {}, log, &codec);
+        back.scene = read_scene(file, how, log, &codec);
     } catch (const Error& error) {
         refuse(error.diagnostics().front().message);
     }

@@ -42,8 +42,8 @@ struct ReadBack {
 /// to the nearest one of the other side, and so of the ends of lines, within what float32 or the grid's bits
 /// allow. Throws output (E-READBACK) when it does not hold what was written. What such rounding, or what the
 /// format cannot hold, did to closedness, manifoldness, orientation and degenerate or duplicate faces is
-/// told, not judged. dropped_faces: degenerate triangles that the codec said it left out.
+/// told, not judged. written: what the codec said of the file, without which no face may be left out.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
-                   std::size_t dropped_faces = 0);
+                   const Written& written = {});
 
 } // namespace facetmill::io

@@ -8,6 +8,10 @@
 
 #include <map>
 
+namespace facetmill::io {
+class DracoDecodings;
+}
+
 namespace facetmill::io::gltf {
 
 /// glTF's names for number types.
@@ -48,6 +52,8 @@ class Source {
     /// Accounts for memory that few bytes of the file ask for. Throws limit (E-MEMORY) when it is too much in
     /// all.
     void need(double bytes);
+
+    const DracoDecodings* decoded = nullptr; ///< those that are known already
 
   private:
     const Json* json_;

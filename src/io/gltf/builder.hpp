@@ -5,6 +5,7 @@
 #include "io/codec.hpp"
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/compress.hpp"
+#include "io/gltf/draco/draco.hpp"
 #include "io/gltf/quantise.hpp"
 
 #include <functional>
@@ -35,6 +36,8 @@ class Builder {
 
     /// Positions with the bits that float32 has not, for whoever rounds them again: by accessor.
     std::map<std::size_t, std::vector<Vec3>> exact_positions;
+    /// What the Draco data of the views is decoded to.
+    DracoDecodings decoded;
     /// Appends to a top-level array, which is made when missing. Returns the index.
     std::size_t add(const char* list, Json value);
 

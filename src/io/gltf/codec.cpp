@@ -294,6 +294,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     for (std::size_t i = 0; i < count_of(json, "materials"); ++i)
         scene.materials.push_back(read_material(item(json, "materials", i), i));
     Source source(json, document->buffers);
+    source.decoded = settings.decoded;
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
@@ -472,6 +473,7 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
         shorten(builder.json(), settings.whole_positions ? Box{} : scene.bounds());
     add_main_files(patch, stem, std::move(buffer), binary);
     for (auto& image : images) written.files.push_back(std::move(image));
+    written.decoded = std::make_shared<const DracoDecodings>(std::move(builder.decoded));
     return written;
 }
 

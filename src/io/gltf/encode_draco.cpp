@@ -51,7 +51,7 @@ void set_positions(const Mesh& mesh, const Table& table, DracoInput& input) {
 }
 
 const DracoColumn& decoded_column(const DracoOutput& output, std::uint32_t id) {
-    for (const auto& column : output.decoded.columns)
+    for (const auto& column : output.decoded->columns)
         if (column.id == id) return column;
     throw Error(ErrorKind::bug, "E-DRACO", "Draco lost an attribute that it was given");
 }
@@ -100,7 +100,7 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     DracoOutput output = encode_draco(input, settings.draco);
 
     Json ids = {{"POSITION", output.position_id}};
-    const auto& positions = decoded_column(output, output.position_id);
+    const auto& positions = output.positions;
     primitive["attributes"] = {
         {"POSITION", builder.add_accessor(accessor_json(positions.data, 3, false, true))}};
     for (std::size_t c = 0; c < used.size(); ++c) {
@@ -109,11 +109,12 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
         primitive["attributes"][used[c]->semantic] = builder.add_accessor(
             accessor_json(decoded.data, decoded.components, used[c]->data.normalised, false));
     }
-    const bool wide = output.decoded.points > 65535;
+    const bool wide = output.decoded->points > 65535;
     primitive["indices"] = builder.add_accessor({{"componentType", wide ? int(uint32) : int(uint16)},
-                                                 {"count", output.decoded.triangles.size()},
+                                                 {"count", output.decoded->triangles.size()},
                                                  {"type", "SCALAR"}});
     if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
+    if (settings.draco.keep_decoded) builder.decoded.add(output.bytes, output.decoded);
     primitive["extensions"]["KHR_draco_mesh_compression"] = {
         {"bufferView", builder.add_view(std::move(output.bytes))}, {"attributes", ids}};
     builder.use_extension("KHR_draco_mesh_compression", true);

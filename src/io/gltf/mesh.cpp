@@ -148,7 +148,8 @@ std::size_t draco_block(Merge& merge, const Place& primitive, const Place& draco
                         std::vector<Index>& indices) {
     DracoMesh decoded;
     try {
-        decoded = decode_draco(merge.source.view(draco.at("bufferView")));
+        decoded = decode_draco(merge.source.view(draco.at("bufferView")), DracoContents::mesh,
+                               merge.source.decoded);
     } catch (const Error& e) {
         Diagnostic why = e.diagnostics().front();
         why.message = draco.path() + ": " + why.message;

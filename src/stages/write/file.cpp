@@ -278,8 +278,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
     }
     if (!main || !run.read_back) return;
     steps.next();
-    const io::ReadBack back =
-        io::read_back(run.outputs.staged(*main), codec, scene, settings, written.dropped_faces);
+    const io::ReadBack back = io::read_back(run.outputs.staged(*main), codec, scene, settings, written);
     run.record.outputs[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",

@@ -1,6 +1,10 @@
 #include "support/catch.hpp"
 
+#include "base/error.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/read_back.hpp"
+#include "mesh/shapes.hpp"
+#include "support/run_stage.hpp"
 
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>
@@ -94,5 +98,47 @@ TEST_CASE("what Draco has quantised is the same as its own decoder gives, types 
                 },
                 column->data);
         }
+    }
+}
+
+TEST_CASE("Draco data that is known is not decoded again, other data is", "[io]") {
+    const std::vector<char> one = encoded(false), other = encoded(true);
+    const auto bytes_of = [](const std::vector<char>& chars) { return std::as_bytes(std::span(chars)); };
+    const auto told = std::make_shared<io::DracoMesh>();
+    told->points = 7;
+    io::DracoDecodings known;
+    known.add(bytes_of(one), told);
+    CHECK(io::decode_draco(bytes_of(one), io::DracoContents::mesh, &known).points == 7);
+    CHECK(io::decode_draco(bytes_of(one), io::DracoContents::mesh, nullptr).points ==
+          io::decode_draco(bytes_of(one)).points);
+    CHECK(io::decode_draco(bytes_of(other), io::DracoContents::mesh, &known).points ==
+          io::decode_draco(bytes_of(other)).points);
+    std::vector<char> changed = one;
+    changed.back() = static_cast<char>(changed.back() + 1); // a fault of the disk is not hidden
+    CHECK(io::DracoDecodings(known).decode(bytes_of(one), io::DracoContents::mesh).points == 7);
+    std::size_t decoded = 0;
+    try {
+        decoded = known.decode(bytes_of(changed), io::DracoContents::mesh).points;
+    } catch (const Error&) {
+    }
+    CHECK(decoded != 7);
+}
+
+TEST_CASE("a file is read back by what its Draco data was decoded to as it is without", "[io]") {
+    const Scene scene = test::scene_of(shapes::icosphere(3));
+    for (const char* name : {"glb", "drc"}) {
+        const io::Codec& codec = *io::codec_named(name);
+        io::WriteSettings settings;
+        settings.draco.on = settings.draco.keep_decoded = true;
+        const io::Written written = codec.write(scene, settings);
+        REQUIRE(written.decoded);
+        const auto input = io::Input::of("a", written.files[0].bytes);
+        const io::ReadBack by_known = io::read_back(input, codec, scene, settings, written);
+        const io::ReadBack anew = io::read_back(input, codec, scene, settings);
+        CHECK(by_known.json() == anew.json());
+        CHECK(by_known.scene.parts[0].mesh.positions == anew.scene.parts[0].mesh.positions);
+        CHECK(by_known.scene.parts[0].mesh.corners == anew.scene.parts[0].mesh.corners);
+        settings.draco.keep_decoded = false;
+        CHECK(codec.write(scene, settings).files[0].bytes == written.files[0].bytes);
     }
 }

@@ -67,7 +67,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog&) {
     Part part;
     part.name = std::filesystem::path(input.name()).stem().string();
     try {
-        DracoMesh decoded = decode_draco(input.bytes(), DracoContents::mesh_or_points);
+        DracoMesh decoded = decode_draco(input.bytes(), DracoContents::mesh_or_points, settings.decoded);
         if (decoded.points > settings.max_vertices)
             throw Error(ErrorKind::limit, "E-LIMIT",
                         fmt::format("more than {} vertices", settings.max_vertices));
@@ -175,7 +175,13 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         return written;
     }
     leave_degenerate(input, settings.draco, written);
-    written.files.push_back({name, encode_draco(input, settings.draco).bytes});
+    DracoOutput output = encode_draco(input, settings.draco);
+    if (settings.draco.keep_decoded) {
+        DracoDecodings decoded;
+        decoded.add(output.bytes, std::move(output.decoded));
+        written.decoded = std::make_shared<const DracoDecodings>(std::move(decoded));
+    }
+    written.files.push_back({name, std::move(output.bytes)});
     return written;
 }
 

@@ -5,6 +5,7 @@
 #include "io/gltf/gltf.hpp"
 
 #include "base/allocation_cap.hpp"
+#include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
@@ -277,6 +278,19 @@ DracoMesh decode_draco(Span bytes, DracoContents contents) {
     return result;
 }
 
+void DracoDecodings::add(Span bytes, std::shared_ptr<const DracoMesh> mesh) {
+    meshes_.emplace(sha256(bytes), std::move(mesh));
+}
+
+DracoMesh DracoDecodings::decode(Span bytes, DracoContents contents) const {
+    const auto known = meshes_.find(sha256(bytes));
+    return known == meshes_.end() ? decode_draco(bytes, contents) : *known->second;
+}
+
+DracoMesh decode_draco(Span bytes, DracoContents contents, const DracoDecodings* known) {
+    return known ? known->decode(bytes, contents) : decode_draco(bytes, contents);
+}
+
 // --- encode
 
 namespace {
@@ -538,10 +552,10 @@ DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings)
         DracoMesh decoded = decode_draco(encoded.bytes);
         if (decoded.triangles.size() != input.triangles.size()) continue;
         output.bytes = std::move(encoded.bytes);
-        output.decoded = std::move(decoded);
-        for (auto& column : output.decoded.columns)
-            if (column.id == output.position_id)
-                put_on_grid(std::get<std::vector<float>>(column.data), settled.positions);
+        for (const auto& column : decoded.columns)
+            if (column.id == output.position_id) output.positions = column;
+        put_on_grid(std::get<std::vector<float>>(output.positions.data), settled.positions);
+        output.decoded = std::make_shared<const DracoMesh>(std::move(decoded));
         output.sequential = sequential;
         return output;
     }

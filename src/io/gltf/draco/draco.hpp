@@ -5,6 +5,10 @@
 #include "io/codec.hpp"
 #include "mesh/mesh.hpp"
 
+#include <memory>
+#include <string>
+#include <unordered_map>
+
 namespace facetmill::io {
 
 /// What Draco takes an attribute for: it decides prediction and quantisation.
@@ -35,6 +39,19 @@ enum class DracoContents { mesh, mesh_or_points };
 /// Decodes a mesh, or points without triangles. Throws malformed (E-DRACO), also for what is not asked for.
 DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
 
+/// What bytes were decoded to, by their SHA-256, so that the same bytes are decoded once.
+class DracoDecodings {
+  public:
+    void add(Span bytes, std::shared_ptr<const DracoMesh> mesh);
+    /// As decode_draco, where the bytes are known without decoding them.
+    DracoMesh decode(Span bytes, DracoContents contents) const;
+
+  private:
+    std::unordered_map<std::string, std::shared_ptr<const DracoMesh>> meshes_;
+};
+/// With what is known, if there is any.
+DracoMesh decode_draco(Span bytes, DracoContents contents, const DracoDecodings* known);
+
 /// A mesh to compress.
 struct DracoInput {
     std::vector<float> vertices; ///< x, y, z: one per vertex and not per point, so that seams do not crack
@@ -63,7 +80,8 @@ std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
 
 struct DracoOutput {
     Bytes bytes;
-    DracoMesh decoded; ///< what a reader will see
+    std::shared_ptr<const DracoMesh> decoded; ///< what a reader will see, but for
+    DracoColumn positions;                    ///< those of the grid, alike on every processor
     std::uint32_t position_id = 0;
     std::vector<std::uint32_t> ids; ///< of the columns, in order
     bool sequential = false;
