@@ -4,6 +4,7 @@
 #include "base/storage.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
@@ -57,6 +58,15 @@ std::optional<std::uint64_t> of_process() {
     return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
 }
 
+/// In use, of the memory of the machine.
+std::uint64_t resident() {
+    std::ifstream file("/proc/self/statm");
+    std::uint64_t all = 0, pages = 0;
+    return file >> all >> pages ? pages * std::uint64_t{page_size()} : 0;
+}
+
+std::atomic<std::uint64_t> limit_of_run = 0;
+
 constexpr std::uint64_t not_worth_asking = std::uint64_t{1} << 28;
 
 } // namespace
@@ -66,6 +76,16 @@ std::optional<std::uint64_t> available_memory() {
     for (const auto& bound : {of_group("/sys/fs/cgroup"), of_group("/sys/fs/cgroup/memory"), of_process()})
         if (bound) least = least ? std::min(*least, *bound) : *bound;
     return least;
+}
+
+void set_memory_limit(std::uint64_t bytes) { limit_of_run = bytes; }
+
+std::optional<std::uint64_t> memory_left() {
+    const auto there = available_memory();
+    const std::uint64_t limit = limit_of_run;
+    if (limit == 0) return there;
+    const std::uint64_t left = limit - std::min(limit, resident());
+    return there ? std::min(*there, left) : left;
 }
 
 std::uint64_t memory_there() { return available_memory().value_or(std::uint64_t{4} << 30); }

@@ -1,5 +1,6 @@
 // facetmill batch: one pipeline over many assets, in one process.
 
+#include "base/memory.hpp"
 #include "base/readable_numbers.hpp"
 #include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
@@ -163,6 +164,7 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     batch::Settings settings;
     settings.jobs = options.common.threads;
     settings.memory = memory_bytes(options.memory, line);
+    set_memory_limit(settings.memory);
     settings.keep_going = options.keep_going;
     settings.prune = options.prune;
     settings.check_invariants = options.common.check_invariants;

@@ -142,6 +142,7 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
                     : options.partition == "never" ? When::never
                                                    : When::automatic;
     settings.memory = memory_bytes(options.memory, line);
+    set_memory_limit(settings.memory);
     settings.kept = options.kept_cells;
     if (!settings.kept.empty() && settings.memory == 0 && settings.when == When::automatic)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--keep-cells is for runs in cells",

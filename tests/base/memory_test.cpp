@@ -25,3 +25,13 @@ TEST_CASE("what is asked for is cut to what there is", "[base]") {
     CHECK(at_most_memory_there(1000) == 1000);
     CHECK(at_most_memory_there(std::uint64_t{1} << 62) < (std::uint64_t{1} << 62));
 }
+
+TEST_CASE("what is left of the memory for a run is less than its limit", "[base]") {
+    CHECK(memory_left().has_value());
+    set_memory_limit(1);
+    CHECK(memory_left() == std::optional<std::uint64_t>(0));
+    std::uint64_t limit = 1;
+    for (; *memory_left() == 0; set_memory_limit(limit)) limit *= 2;
+    CHECK(*memory_left() <= limit / 2); // half was not enough for what is in use
+    set_memory_limit(0);
+}

@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "base/memory.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
@@ -171,4 +172,16 @@ TEST_CASE("a part of 'with' that takes a whole component away is not idle", "[st
     const auto run = run_stage("combine", "{operation: difference, with: drill}", scene);
     CHECK(run.mesh().face_count() == 12);
     CHECK(run.warnings().empty());
+}
+
+TEST_CASE("combine ends with E-MEMORY, the place and a way out, where the run may take no more", "[stages]") {
+    set_memory_limit(1);
+    const std::string text = test::failure(
+        [] { run_stage("combine", "{operation: difference, with: drill}", cube_and_drills()); });
+    set_memory_limit(0);
+    INFO(text);
+    for (const char* part :
+         {"E-MEMORY", "part 'block' cannot be combined: there is not enough memory to combine 24 faces (near",
+          "--memory"})
+        CHECK(text.find(part) != std::string::npos);
 }

@@ -87,19 +87,18 @@ class Combining {
 
     CombineResult run() {
         take_out_degenerate(work_);
-        constexpr std::uint64_t bytes_a_pair = 32; // and as much again is left for what follows
+        constexpr std::uint64_t bytes_a_pair = 32;  // and as much again is left for what follows
+        constexpr std::uint64_t bytes_a_face = 170; // measured
+        const std::uint64_t bytes = memory_left().value_or(std::uint64_t{4} << 30);
+        if (work_.mesh.face_count() > 0 && bytes < bytes_a_face * work_.mesh.face_count())
+            return short_of_memory(fmt::format("combine {} faces", work_.mesh.face_count()), 0);
+        const std::size_t most = std::max<std::uint64_t>(1, bytes / (2 * bytes_a_pair));
         const auto place = lowest_at_place(work_.mesh);
         std::vector<std::uint8_t> lost = what_is_lost();
-        auto [found, rings] =
-            crossings_and_rings(work_.mesh, place, memory_there() / (2 * bytes_a_pair), lost);
-        if (found.count > found.pairs.size()) {
-            CombineResult result =
-                failed({fmt::format("there is not enough memory to list the {} pairs of faces that intersect",
-                                    found.count),
-                        none, corner_mean(work_.mesh, found.pairs[0].first)});
-            result.short_of_memory = true;
-            return result;
-        }
+        auto [found, rings] = crossings_and_rings(work_.mesh, place, most, lost);
+        if (found.count > found.pairs.size())
+            return short_of_memory(fmt::format("list the {} pairs of faces that intersect", found.count),
+                                   found.pairs[0].first);
         Solids solids = find_solids(work_.mesh, {}, std::move(rings));
         if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
         if (auto failure = turned_over(work_.mesh, solids, meshes_)) return failed(std::move(*failure));
@@ -175,6 +174,13 @@ class Combining {
         result.mesh = std::move(work.mesh);
         result.cut_faces = work.counts.refined_faces;
         result.covered_faces = work.counts.covered_faces;
+        return result;
+    }
+
+    CombineResult short_of_memory(const std::string& to_do, Index face) const {
+        CombineResult result =
+            failed({"there is not enough memory to " + to_do, none, corner_mean(work_.mesh, face)});
+        result.short_of_memory = true;
         return result;
     }
 

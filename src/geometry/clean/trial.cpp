@@ -1,5 +1,6 @@
 #include "geometry/clean/trial.hpp"
 
+#include "base/memory.hpp"
 #include "geometry/clean/settled.hpp"
 #include "mesh/topology.hpp"
 
@@ -11,6 +12,7 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int max_passes = 8;
+constexpr const char* spreading = "rounding the coordinates of the union makes ever more faces intersect";
 /// Where passes make new crossings, points that are this near (of the size of the mesh) become one, and eight
 /// times as far in each pass after; in the first, only those that round to one place.
 constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
@@ -45,18 +47,24 @@ Trial::Trial(Work work, const Solids& solids, const CleanSettings& settings)
 Failures Trial::run(const SelfIntersections& first, const Operands* operands) {
     for (Index p = 0; p < solids_.components.count; ++p)
         work_.counts.united_components += solids_.cluster[p] != none;
+    is_operation_ = operands != nullptr;
     SelfIntersections found = first;
     double tolerance = 0;
     Solids later;
     for (int pass = 0; pass < max_passes; ++pass) {
         const Solids& solids = pass == 0 ? solids_ : later;
-        if (!one_pass(solids, found, tolerance, pass == 0 ? operands : nullptr)) return std::move(failures_);
+        if (!one_pass(solids, found, tolerance, pass == 0 ? operands : nullptr, effort(pass)))
+            return std::move(failures_);
         tolerance = tolerance > 0
                         ? 8 * tolerance
                         : (settings_.single ? nearest_single : nearest) * work_.mesh.bounds().diagonal();
         if (!is_tidy_) tidy();
         found = crossings_of_fresh();
         if (found.pairs.empty()) return std::move(failures_);
+        if (found.count > found.pairs.size()) {
+            for (const std::uint32_t mark : marks_of(work_.mesh)) fail(mark, spreading);
+            return std::move(failures_);
+        }
         later = find_solids(work_.mesh, found);
         check_marks(later, found);
         if (!failures_.empty()) return std::move(failures_);
@@ -67,6 +75,19 @@ Failures Trial::run(const SelfIntersections& first, const Operands* operands) {
                  fmt::format("the rounded coordinates of the union still intersect after {} passes",
                              max_passes));
     return std::move(failures_);
+}
+
+/// The passes after the first are for what rounding does: were that more than all there was, or a million
+/// pairs, they would not come to an end.
+Effort Trial::effort(int pass) const {
+    if (!is_operation_) return {available_memory()};
+    Effort effort{memory_left(), SIZE_MAX, SIZE_MAX};
+    if (pass == 0) return effort;
+    const Effort least;
+    effort.pairs = std::max(least.pairs, first_pairs_);
+    effort.crossings = std::max(least.crossings, 2 * first_pairs_);
+    effort.too_many = spreading;
+    return effort;
 }
 
 Work Trial::finish() {
@@ -80,9 +101,10 @@ void Trial::fail(std::uint32_t mark, const std::string& why) {
 }
 
 bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, double tolerance,
-                     const Operands* operands) {
-    United united = unite(work_.mesh, solids, found, {tolerance, settings_.single}, operands);
+                     const Operands* operands, const Effort& effort) {
+    United united = unite(work_.mesh, solids, found, {tolerance, settings_.single}, operands, effort);
     short_of_memory_ |= united.short_of_memory;
+    first_pairs_ = std::max(first_pairs_, united.pairs);
     for (const auto& refused : united.refused) { // a cluster of this pass; its marks say which of the first
         for (Index f = 0; f < work_.mesh.face_count(); ++f)
             if (solids.cluster_of_face(f) == refused.cluster) fail(marks_of(work_.mesh)[f], refused.why);

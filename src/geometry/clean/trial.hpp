@@ -26,7 +26,8 @@ class Trial {
   private:
     void fail(std::uint32_t mark, const std::string& why);
     bool one_pass(const Solids& solids, const SelfIntersections& found, double tolerance,
-                  const Operands* operands);
+                  const Operands* operands, const Effort& effort);
+    Effort effort(int pass) const;
     /// What rounding left: equal points, faces without area or twice, and edges that four faces share.
     void tidy();
     SelfIntersections crossings_of_fresh() const;
@@ -39,6 +40,8 @@ class Trial {
     bool is_tidy_ = false;           ///< the mesh is known to be closed, with two faces at each edge
     Failures failures_;
     bool short_of_memory_ = false;
+    bool is_operation_ = false;   ///< someone asked for it, and waits as long as it takes
+    std::size_t first_pairs_ = 0; ///< of triangles, in the first pass
 };
 
 } // namespace facetmill::clean_steps

@@ -1,6 +1,5 @@
 #include "geometry/clean/united.hpp"
 
-#include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "geometry/clean/buried.hpp"
 #include "geometry/clean/redrawn.hpp"
@@ -11,6 +10,7 @@
 #include "mesh/surface.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 
 namespace facetmill::clean_steps {
@@ -21,11 +21,6 @@ constexpr const char* inside_out = "a component is inside out and is not a cavit
                                    "orient first to decide which side is inside";
 constexpr const char* turned_by_rounding =
     "faces run along each other so closely that rounding the coordinates of the union turns pieces over";
-constexpr const char* too_many =
-    "more than a million pairs of triangles intersect, or their intersection lines could cross more than two "
-    "million times: that is more than can be united in reasonable time";
-constexpr const char* no_memory = "there is not enough memory to unite this many intersecting faces";
-
 /// A winding number, by what turns outward and what turns inward.
 struct Winding {
     int outward = 0, inward = 0;
@@ -74,19 +69,22 @@ enum class Fate : std::uint8_t { goes, stays, stays_turned };
 class Uniting {
   public:
     Uniting(Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
-            const Operands* operands)
-        : mesh_(mesh), solids_(solids), found_(found), rounding_(rounding), operands_(operands) {}
+            const Operands* operands, const Effort& effort)
+        : mesh_(mesh), solids_(solids), found_(found), rounding_(rounding), operands_(operands),
+          effort_(effort) {}
 
     United run() {
         gather();
         mark_cut_faces();
         merge_where_cut();
         TriangleSoup soup = triangle_soup();
+        result_.pairs = soup.pairs.size();
         if (refuse_for_memory(soup)) return std::move(result_);
+        const bool is_short = soup.max_crossings < effort_.crossings && soup.pairs.size() <= soup.max_pairs;
         Arrangement arrangement(std::move(soup));
         if (const auto full = arrangement.overfull()) {
-            result_.short_of_memory = operands_ != nullptr;
-            refuse(cluster_of(*full), operands_ ? no_memory : too_many);
+            result_.short_of_memory = is_short;
+            refuse(cluster_of(*full), is_short ? lack_of_memory(result_.pairs) : effort_.too_many);
             return std::move(result_);
         }
         make_leaves(arrangement);
@@ -107,28 +105,30 @@ class Uniting {
         sides[operand_of(p)].add(solids_.inward[p], turn);
     }
 
-    void refuse(Index cluster, const char* why) {
+    void refuse(Index cluster, const std::string& why) {
         for (const auto& r : result_.refused)
             if (r.cluster == cluster) return;
         result_.refused.push_back({cluster, why});
     }
 
-    /// Whoever asks for an operation waits as long as it takes; clean does not.
+    static std::string lack_of_memory(std::size_t pairs) {
+        return fmt::format("there is not enough memory to cut {} pairs of intersecting triangles along each "
+                           "other",
+                           pairs);
+    }
+
     bool refuse_for_memory(TriangleSoup& soup) {
-        constexpr double bytes_a_pair = 3000, bytes_a_triangle = 200, bytes_a_crossing = 1000; // measured
-        const auto available = available_memory();
-        double left = available ? static_cast<double>(*available) : HUGE_VAL;
+        constexpr double bytes_a_pair = 1700, bytes_a_triangle = 100, bytes_a_crossing = 100; // measured
+        double left = effort_.memory ? static_cast<double>(*effort_.memory) : HUGE_VAL;
         left -= bytes_a_pair * static_cast<double>(soup.pairs.size()) +
                 bytes_a_triangle * static_cast<double>(soup.triangles.size());
         if (left > 0) {
-            if (operands_) {
-                soup.max_pairs = SIZE_MAX;
-                soup.max_crossings = static_cast<std::size_t>(
-                    std::min(left / bytes_a_crossing, 1e15)); // however long it takes
-            }
+            soup.max_pairs = effort_.pairs;
+            soup.max_crossings = std::min(effort_.crossings,
+                                          static_cast<std::size_t>(std::min(left / bytes_a_crossing, 1e18)));
             return false;
         }
-        for (Index c = 0; c < solids_.clusters(); ++c) refuse(c, no_memory);
+        for (Index c = 0; c < solids_.clusters(); ++c) refuse(c, lack_of_memory(soup.pairs.size()));
         result_.short_of_memory = true;
         return true;
     }
@@ -480,7 +480,8 @@ class Uniting {
     const Solids& solids_;
     const SelfIntersections& found_;
     Rounding rounding_;
-    const Operands* operands_;                   ///< or nothing
+    const Operands* operands_; ///< or nothing
+    const Effort& effort_;
     std::optional<Buried> buried_;               ///< once triangles are gathered
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
@@ -498,8 +499,8 @@ class Uniting {
 } // namespace
 
 United unite(Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
-             const Operands* operands) {
-    return Uniting(mesh, solids, found, rounding, operands).run();
+             const Operands* operands, const Effort& effort) {
+    return Uniting(mesh, solids, found, rounding, operands, effort).run();
 }
 
 } // namespace facetmill::clean_steps

@@ -132,6 +132,7 @@ Mesh in_space_of(const Part& space, const Part& part) {
     return mesh;
 }
 
+/// Throws E-COMBINE, or limit (E-MEMORY).
 [[noreturn]] void fail(const CombineFailure& failure, const std::vector<const Part*>& parts,
                        bool short_of_memory) {
     const Vec3 at = parts[0]->transform.point(failure.at);
@@ -139,12 +140,14 @@ Mesh in_space_of(const Part& space, const Part& part) {
     if (failure.mesh != none)
         refuse(*parts[failure.mesh], fmt::format("is no solid: {}, at {}", failure.why, place),
                "clean: {holes: minimal} closes it, clean repairs its faces, orient turns it outward");
-    refuse(*parts[0], fmt::format("cannot be combined: {} (near {})", failure.why, place),
-           short_of_memory
-               ? "combine some of the parts at a time, the nearest ones first (with `only`), or simplify "
-                 "them before"
-               : "clean: {precision: single} before makes one of vertices that differ by rounding alone; or "
-                 "clean: {self_intersections: union} for each part first, or move one of them by a little");
+    const std::string why = fmt::format("cannot be combined: {} (near {})", failure.why, place);
+    if (short_of_memory)
+        throw out_of_memory(fmt::format("combine: part '{}' {}", parts[0]->name, why),
+                            "give more --memory, combine some of the parts at a time, the nearest ones first "
+                            "(with `only`), or simplify them before");
+    refuse(*parts[0], why,
+           "clean: {precision: single} before makes one of vertices that differ by rounding alone; or "
+           "clean: {self_intersections: union} for each part first, or move one of them by a little");
 }
 
 /// Takes the numbers of its groups from an operand that the first one is cut by, but for those of caps: they

@@ -5,9 +5,11 @@
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "geometry/clean/combine.hpp"
 #include "geometry/clean/steps.hpp"
+#include "geometry/clean/united.hpp"
 #include "geometry/orient/orient.hpp"
 
 using namespace facetmill;
@@ -245,4 +247,40 @@ TEST_CASE("combine says when rounding is why solids cannot be combined", "[geome
                            {});
     REQUIRE(r.failure);
     CHECK(r.failure->why.find("rounding the coordinates") != std::string::npos);
+}
+
+TEST_CASE("combine takes no more memory than the run may", "[geometry][combine]") {
+    const Mesh a = shapes::icosphere(3), b = test::moved(a, {0.5, 0.1, 0.2});
+    const auto why_within = [&](std::uint64_t bytes) { // more than there are in use
+        std::uint64_t limit = std::uint64_t{1} << 20;
+        for (set_memory_limit(limit); *memory_left() == 0; set_memory_limit(limit)) limit *= 2;
+        set_memory_limit(limit - *memory_left() + bytes);
+        const auto r = combine({a, b}, {});
+        set_memory_limit(0);
+        CHECK(r.short_of_memory == r.failure.has_value());
+        return r.failure ? r.failure->why : "";
+    };
+    CHECK(why_within(1) == "there is not enough memory to combine 2560 faces");
+    CHECK(why_within(500 * 1000).starts_with("there is not enough memory to "));
+    CHECK(why_within(std::uint64_t{1} << 30).empty());
+}
+
+TEST_CASE("uniting refuses what is more than the effort allows", "[geometry][combine]") {
+    using namespace clean_steps;
+    Mesh mesh = shapes::icosphere(2);
+    append(mesh, test::moved(mesh, {0.5, 0.1, 0.2}));
+    const SelfIntersections found = crossings(mesh);
+    const Solids solids = find_solids(mesh, found);
+    const United all = unite(mesh, solids, found, {});
+    CHECK(all.refused.empty());
+    CHECK(all.pairs == found.pairs.size());
+    Effort effort{{}, all.pairs - 1};
+    const United less = unite(mesh, solids, found, {}, nullptr, effort);
+    REQUIRE(less.refused.size() == 1);
+    CHECK(less.refused[0].why == effort.too_many);
+    CHECK(!less.short_of_memory);
+    const United poor = unite(mesh, solids, found, {}, nullptr, {100'000});
+    REQUIRE(poor.refused.size() == 1);
+    CHECK(poor.refused[0].why.find("not enough memory") != std::string::npos);
+    CHECK(poor.short_of_memory);
 }
