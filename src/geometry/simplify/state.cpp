@@ -143,7 +143,6 @@ State lay_out(const Mesh& mesh, const UsedVertices& used) {
     resize_large(s.tri, 3 * m);
     resize_large(s.edges.flags, 3 * m);
     resize_large(s.face_source, m);
-    resize_large(s.edges.cost, 3 * m, never);
     if (mesh.has_seams()) s.wedge.resize(3 * m);
     parallel_for(m, [&](std::size_t i) {
         s.face_source[i] = faces[i].item;

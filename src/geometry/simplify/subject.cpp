@@ -66,6 +66,7 @@ State Subject::state(bool rollback, const std::vector<float>* limits) {
         s.quadrics->attributes =
             attribute_error(s, mesh(), settings_.weights, seams_.shading != NormalSeams::Shading::faceted);
     }
+    resize_large(s.edges.cost, s.tri.size(), never); // now, since quadrics take more while they are made
     s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
                .changes_topology = settings_.topology == SimplifySettings::Topology::allow,
                .apart = lock_.apart && !lock_.vertices.empty() ? &lock_.vertices : nullptr};
