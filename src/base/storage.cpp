@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <sys/mman.h>
 #include <unistd.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace facetmill {
 
@@ -28,6 +31,13 @@ void ask_for_large_pages(void* memory, std::size_t bytes) noexcept {
 #else
     (void)memory;
     (void)bytes;
+#endif
+}
+
+void keep_freed_memory() noexcept {
+#if defined(__GLIBC__)
+    mallopt(M_MMAP_THRESHOLD, 1 << 30); // what is larger has a mapping of its own
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
 

@@ -15,6 +15,11 @@ std::size_t page_size() noexcept;
 /// all that it gives.
 void ask_for_large_pages(void* memory, std::size_t bytes) noexcept;
 
+/// For the whole process, before it does anything: large arrays that were freed serve the next ones, and do
+/// not go back to the system, which would clear their pages again (GNU's malloc; nothing elsewhere). Of
+/// memory at the end of the heap 256 MiB at most are kept so.
+void keep_freed_memory() noexcept;
+
 /// Asks the system for the pages of the memory, in parallel, before it is written. Changes no contents; does
 /// nothing where the system cannot.
 void prefault(void* memory, std::size_t bytes);

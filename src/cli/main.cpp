@@ -1,6 +1,7 @@
 // The only place that catches exceptions, and the exit codes.
 
 #include "base/error.hpp"
+#include "base/storage.hpp"
 #include "base/want_of_memory.hpp"
 #include "cli/command.hpp"
 #include "cli/exhaustion.hpp"
@@ -18,6 +19,7 @@ int fail(const Console& console, const Error& error) {
 }
 
 int entry(int argc, char** argv) {
+    keep_freed_memory();
     Console console;
     try {
         io::clean_up_on_signals();
