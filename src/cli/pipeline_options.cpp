@@ -6,6 +6,7 @@
 #include "base/message_ids.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
+#include "base/quick_json.hpp"
 #include "base/spelling.hpp"
 #include "base/words.hpp"
 #include "cli/depfile.hpp"
@@ -427,7 +428,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
                     console.say(line);
         };
     const auto started = fs::file_time_type::clock::now();
-    const auto record = located(pipeline::run_plan(plan, settings), plan.places);
+    auto record = located(pipeline::run_plan(plan, settings), plan.places);
     if (written) *written = newly_written(record);
     if (store) pipeline::remember(trace, plan, pipeline_file, record.exit_code == 0, *store);
     if (progress) progress->done();
@@ -445,6 +446,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
                       options.restat ? std::optional(started) : std::nullopt);
+    for (auto& stage : record.stages) discard(stage.result); // of many parts, it is large
     return record.exit_code;
 }
 

@@ -90,6 +90,10 @@ Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> siz
     return list;
 }
 
+void add_member(Json& object, const std::string& name, Json value) {
+    object.get_ref<Json::object_t&>().emplace_back(name, std::move(value));
+}
+
 Field& start(Fields& fields, std::string_view name, const char* type, Json schema, std::string_view help,
              int optionals) {
     Field& f = fields.all.emplace_back();
@@ -106,8 +110,9 @@ FieldRef object_field(Fields& fields, std::string_view name, std::string_view he
                       std::shared_ptr<const Fields> inner, int optionals, Each each) {
     Field& f = start(fields, name, "object", nullptr, help, optionals);
     f.put = [inner, each](const Field& self, const void* record, Json& object) {
-        const bool there = each(record, [&](const void* value) { object[self.name] = inner->json(value); });
-        if (!there && self.only_when.empty()) object[self.name] = nullptr;
+        const bool there =
+            each(record, [&](const void* value) { add_member(object, self.name, inner->json(value)); });
+        if (!there && self.only_when.empty()) add_member(object, self.name, nullptr);
     };
     f.fields = std::move(inner);
     f.each = std::move(each);
@@ -122,9 +127,9 @@ FieldRef list_field(Fields& fields, std::string_view name, std::string_view help
         Json all = Json::array();
         const bool there = each(record, [&](const void* item) { all.push_back(inner->json(item)); });
         if (there)
-            object[self.name] = std::move(all);
+            add_member(object, self.name, std::move(all));
         else if (self.only_when.empty())
-            object[self.name] = nullptr;
+            add_member(object, self.name, nullptr);
     };
     f.fields = std::move(inner);
     f.each = std::move(each);

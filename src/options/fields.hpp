@@ -232,6 +232,9 @@ void embed(Fields& fields, const Fields& inner, const Function<const void*(const
 /// The fields, owned.
 std::shared_ptr<const Fields> shared(Fields&& fields);
 
+/// Adds a member to an object that has none of this name: the names of a record's fields differ.
+void add_member(Json& object, const std::string& name, Json value);
+
 template <class T, class ToJson>
 Json inner_json(const T& value, const ToJson& json) {
     if constexpr (is_optional<T>)
@@ -245,11 +248,11 @@ template <class T, class ToJson>
 void put_value(const Field& field, const T& value, const ToJson& json, Json& object) {
     if constexpr (is_optional<T>) {
         if (value)
-            object[field.name] = inner_json(*value, json);
+            add_member(object, field.name, inner_json(*value, json));
         else if (field.only_when.empty())
-            object[field.name] = nullptr;
+            add_member(object, field.name, nullptr);
     } else {
-        object[field.name] = json(value);
+        add_member(object, field.name, json(value));
     }
 }
 

@@ -122,3 +122,25 @@ TEST_CASE("ready pipelines are embedded and right", "[docs]") {
     }
     CHECK(docs::ready_pipeline("nothing") == nullptr);
 }
+
+namespace {
+
+/// Whether no two fields of a record, or of one within it, have one name and may both be there.
+bool names_differ(const Fields& fields) {
+    std::set<std::string> always;
+    for (const Field& field : fields.all) {
+        if (field.only_when.empty() && !always.insert(field.name).second) return false;
+        if (!field.only_when.empty() && always.contains(field.name)) return false;
+        if (field.fields && !names_differ(*field.fields)) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("the fields of a record have names of their own, so that none is looked for", "[docs]") {
+    for (const StageInfo& stage : stages()) {
+        INFO(stage.name);
+        CHECK(names_differ(*stage.result));
+    }
+}
