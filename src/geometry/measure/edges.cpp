@@ -91,10 +91,8 @@ double area_of_face(const Mesh& mesh, Index f, const Vec3& area) {
     return covered_area(corners);
 }
 
-} // namespace
-
-EdgeValues edge_values(const Mesh& mesh, const EdgeSettings& settings, std::span<const Turn> turns) {
-    EdgeTurns t = turns_of(mesh, area_vectors(mesh));
+EdgeValues values_of_edges(const Mesh& mesh, EdgeTurns t, const EdgeSettings& settings,
+                           std::span<const Turn> turns) {
     EdgeValues values{std::vector<double>(t.edges.size()), std::move(t.turn), {}};
     parallel_for(values.length.size(), [&](std::size_t e) {
         const bool here = counts(t.edges.edges[e], turns);
@@ -110,6 +108,16 @@ EdgeValues edge_values(const Mesh& mesh, const EdgeSettings& settings, std::span
         count_turn(r, values.turn[e], settings);
     }
     return values;
+}
+
+/// mesh: of triangles; those of `vertices` are given, the others stand where faces cross themselves.
+CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& areas, const EdgeTurns& t,
+                                    std::size_t vertices, std::span<const Turn> turns_of_vertices);
+
+} // namespace
+
+EdgeValues edge_values(const Mesh& mesh, const EdgeSettings& settings, std::span<const Turn> turns) {
+    return values_of_edges(mesh, turns_of(mesh, area_vectors(mesh)), settings, turns);
 }
 
 FaceValues face_values(const Mesh& mesh) {
@@ -136,7 +144,13 @@ FaceValues face_values(const Mesh& mesh) {
 CurvatureValues curvature_values(const Mesh& given, std::span<const Turn> turns_of_vertices) {
     const Mesh mesh = triangles_of(given); // vertices where faces cross themselves come last
     const std::vector<Vec3> areas = area_vectors(mesh);
-    const EdgeTurns t = turns_of(mesh, areas);
+    return values_of_curvature(mesh, areas, turns_of(mesh, areas), given.vertex_count(), turns_of_vertices);
+}
+
+namespace {
+
+CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& areas, const EdgeTurns& t,
+                                    std::size_t vertices, std::span<const Turn> turns_of_vertices) {
     const VertexLists corners = corners_at_vertices(mesh);
     std::vector<double> turns(mesh.vertex_count()), missing(mesh.vertex_count());
     std::vector<std::uint8_t> open(mesh.vertex_count());
@@ -183,12 +197,10 @@ CurvatureValues curvature_values(const Mesh& given, std::span<const Turn> turns_
         r.mean[v] = turns[v] / 4 / (area / 3);
     });
     for (const double m : missing) r.total += m;
-    r.gaussian.resize(given.vertex_count());
-    r.mean.resize(given.vertex_count());
+    r.gaussian.resize(vertices);
+    r.mean.resize(vertices);
     return r;
 }
-
-namespace {
 
 /// What was measured in scaled coordinates, and is a length to that power.
 void unscale(Statistics& s, int power) {
@@ -220,14 +232,32 @@ void unscale(CurvatureResult& r, const PowerScale& scale) {
     unscale(r.of_mean, -power);
 }
 
-EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings) {
-    const PowerScale scale = even_scale(mesh.bounds());
-    EdgeValues values = edge_values(scale.none() ? mesh : scale(mesh), settings);
+namespace {
+
+EdgeResult result_of(EdgeValues values, const PowerScale& scale) {
     EdgeResult r = values.counts;
     r.length = statistics(std::move(values.length));
     r.turn = statistics(std::move(values.turn));
     if (!scale.none()) unscale(r, scale);
     return r;
+}
+
+CurvatureResult result_of(CurvatureValues values, const PowerScale& scale) {
+    CurvatureResult r;
+    r.total = values.total;
+    r.of_gaussian = statistics(values.gaussian);
+    r.of_mean = statistics(values.mean);
+    r.gaussian = std::move(values.gaussian);
+    r.mean = std::move(values.mean);
+    if (!scale.none()) unscale(r, scale);
+    return r;
+}
+
+} // namespace
+
+EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    return result_of(edge_values(scale.none() ? mesh : scale(mesh), settings), scale);
 }
 
 FaceResult measure_faces(const Mesh& mesh) {
@@ -246,15 +276,19 @@ FaceResult measure_faces(const Mesh& mesh) {
 
 CurvatureResult measure_curvature(const Mesh& mesh) {
     const PowerScale scale = even_scale(mesh.bounds());
-    CurvatureValues values = curvature_values(scale.none() ? mesh : scale(mesh));
-    CurvatureResult r;
-    r.total = values.total;
-    r.of_gaussian = statistics(values.gaussian);
-    r.of_mean = statistics(values.mean);
-    r.gaussian = std::move(values.gaussian);
-    r.mean = std::move(values.mean);
-    if (!scale.none()) unscale(r, scale);
-    return r;
+    return result_of(curvature_values(scale.none() ? mesh : scale(mesh)), scale);
+}
+
+EdgesAndCurvature measure_edges_and_curvature(const Mesh& mesh, const EdgeSettings& settings) {
+    if (!mesh.all_triangles()) return {measure_edges(mesh, settings), measure_curvature(mesh)};
+    const PowerScale scale = even_scale(mesh.bounds());
+    const Mesh scaled = scale.none() ? Mesh{} : scale(mesh);
+    const Mesh& near_one = scale.none() ? mesh : scaled;
+    const std::vector<Vec3> areas = area_vectors(near_one);
+    EdgeTurns turns = turns_of(near_one, areas);
+    CurvatureValues curvature = values_of_curvature(near_one, areas, turns, mesh.vertex_count(), {});
+    return {result_of(values_of_edges(near_one, std::move(turns), settings, {}), scale),
+            result_of(std::move(curvature), scale)};
 }
 
 } // namespace facetmill

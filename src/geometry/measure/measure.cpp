@@ -258,7 +258,9 @@ MassResult MassPieces::result(bool closed) const {
 MassResult measure_mass(const Mesh& mesh) {
     MassPieces all(mesh.bounds());
     all.add(mesh);
-    return all.result(mesh.face_count() > 0 && inspect(mesh).closed);
+    Properties p;
+    set_connectivity(p, connectivity_of(mesh));
+    return all.result(mesh.face_count() > 0 && p.closed);
 }
 
 namespace {

@@ -144,4 +144,11 @@ struct CurvatureResult {
 };
 CurvatureResult measure_curvature(const Mesh& mesh);
 
+/// Both, with one look at how the surface turns at the edges where all faces are triangles.
+struct EdgesAndCurvature {
+    EdgeResult edges;
+    CurvatureResult curvature;
+};
+EdgesAndCurvature measure_edges_and_curvature(const Mesh& mesh, const EdgeSettings& settings = {});
+
 } // namespace facetmill

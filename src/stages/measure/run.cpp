@@ -28,17 +28,16 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
     const Mesh mesh = in_world(part);
     const MassResult mass = measure_mass(mesh);
     FaceResult faces = measure_faces(mesh);
-    CurvatureResult curvature = measure_curvature(mesh);
+    EdgesAndCurvature turns = measure_edges_and_curvature(mesh, {.feature_angle = o.feature_angle.radians});
     all.shell = joined(all.shell, mass.shell);
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
     if (list_faces) all.csv += face_table_rows(part.name, mesh);
     warn_of_inside_out(part.name, mass, context);
     faces.areas.clear();
-    curvature.gaussian.clear();
-    curvature.mean.clear();
+    turns.curvature.gaussian.clear();
+    turns.curvature.mean.clear();
     all.parts.push_back({part.name, mass.shell, measured(mass.solid, o.density), std::move(faces),
-                         measure_edges(mesh, {.feature_angle = o.feature_angle.radians}),
-                         std::move(curvature)});
+                         turns.edges, std::move(turns.curvature)});
 }
 
 /// What deviation is from; null where none is asked for.

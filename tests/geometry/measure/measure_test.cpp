@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 #include "support/measure.hpp"
 
+#include "base/allocation_cap.hpp"
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
@@ -160,6 +161,35 @@ TEST_CASE("curvature of a sphere is one, and the missing angles sum to Euler's n
     CHECK(measure_curvature(shapes::grid(3, 3)).total == Approx(2 * pi).epsilon(1e-13));
     CHECK(measure_curvature(shapes::grid(3, 3)).of_gaussian.count == 4); // those inside
     CHECK(measure_curvature(shapes::quad_cube()).total == Approx(4 * pi).epsilon(1e-13));
+}
+
+TEST_CASE("edges and curvature together are as apart, and look at the edges once", "[geometry]") {
+    const auto same = [](const Statistics& a, const Statistics& b) {
+        return a.count == b.count && a.minimum == b.minimum && a.maximum == b.maximum && a.mean == b.mean &&
+               a.deviation == b.deviation && a.median == b.median && a.sum == b.sum;
+    };
+    for (const Mesh& mesh :
+         {shapes::cube(), shapes::quad_cube(), l_prism(), shapes::grid(3, 3), shapes::fan3(),
+          shapes::icosphere(2), Mesh{}, placed(shapes::torus(9, 7), {1e-200, 1e-200, 1e-200}, {})}) {
+        const EdgeSettings settings{.feature_angle = 0.1};
+        std::size_t before = allocations_of_thread();
+        const EdgeResult edges = measure_edges(mesh, settings);
+        const CurvatureResult curvature = measure_curvature(mesh);
+        const std::size_t apart = allocations_of_thread() - before;
+        before = allocations_of_thread();
+        const EdgesAndCurvature both = measure_edges_and_curvature(mesh, settings);
+        const std::size_t together = allocations_of_thread() - before;
+        CHECK((same(both.edges.length, edges.length) && same(both.edges.turn, edges.turn)));
+        CHECK(both.edges.convex == edges.convex);
+        CHECK(both.edges.feature == edges.feature);
+        CHECK(both.edges.boundary == edges.boundary);
+        CHECK(both.edges.non_manifold == edges.non_manifold);
+        CHECK((same(both.curvature.of_gaussian, curvature.of_gaussian) &&
+               same(both.curvature.of_mean, curvature.of_mean)));
+        CHECK(both.curvature.total == curvature.total);
+        CHECK(both.curvature.mean.size() == mesh.vertex_count());
+        if (mesh.face_count() > 0 && mesh.all_triangles()) CHECK(together + 15 < apart);
+    }
 }
 
 namespace {
