@@ -1,8 +1,13 @@
 #include "support/catch.hpp"
 
 #include "base/arc_tangents.hpp"
+#include "base/inverse_normals.hpp"
 #include "base/portable_math.hpp"
 #include "base/random.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
 
 using namespace facetmill;
 
@@ -123,5 +128,24 @@ TEST_CASE("inverse_normal keeps its relative accuracy from the middle to the tai
     CHECK(inverse_normal(0.25) == -inverse_normal(0.75));
     CHECK(inverse_normal(0) == -HUGE_VAL);
     CHECK(inverse_normal(1) == HUGE_VAL);
+}
+
+TEST_CASE("inverse_normals are inverse_normal's bits, side by side", "[base]") {
+    std::vector<double> p{0, 1, 0.5, -1, 2, 0.02425, 1 - 0.02425, std::numeric_limits<double>::quiet_NaN()};
+    for (double d = 1e-17; d < 0.4; d *= 1.01)
+        for (const double near : {0.5 - d, 0.5 + d, 0.02425 + d, 0.02425 - d / 20, 1 - 0.02425 - d, d, 1 - d})
+            p.push_back(near);
+    for (std::uint64_t i = 0; i < 30001; ++i) p.push_back(uniform(hashed(9, i)));
+    std::vector<double> x(p.size());
+    inverse_normals(p, x);
+    const auto same = [](double a, double b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (a != a && b != b);
+    };
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        INFO(p[i]);
+        CHECK(same(x[i], inverse_normal(p[i])));
+    }
+    inverse_normals(p, p); // in place
+    CHECK(std::equal(p.begin(), p.end(), x.begin(), same));
 }
 #include <vector>

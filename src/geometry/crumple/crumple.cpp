@@ -9,7 +9,9 @@
 #include "mesh/face.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
 namespace facetmill {
 
@@ -121,17 +123,33 @@ void check_reach(const Mesh& mesh, const std::vector<Vec3>& moves, double amplit
                     "use a smaller amplitude");
 }
 
-/// The amount of each vertex along an axis, in world units.
+/// The amounts of vertices along so many axes, in world units.
 class Amounts {
   public:
     Amounts(const Settings& s, const std::vector<Vec3>& world, const std::vector<std::uint64_t>& keys)
         : settings_(s), world_(world),
           keys_(keys), correlated_{s.frequency, s.octaves, s.roughness, s.truncate} {}
 
-    double operator()(std::size_t v, std::uint64_t axis) const {
-        const double g = settings_.frequency > 0 ? correlated_.at(hashed(settings_.seed, axis), world_[v])
-                                                 : gaussian(hashed(keys_[v], axis), settings_.truncate);
-        return settings_.amplitude * g;
+    /// Calls use(v, amounts of v) for the vertices from begin to end.
+    template <class Use>
+    void for_each(std::size_t begin, std::size_t end, std::size_t axes, Use&& use) const {
+        constexpr std::size_t at_once = 128;
+        std::array<std::uint64_t, 3 * at_once> keys;
+        std::array<double, 3 * at_once> all;
+        for (std::size_t first = begin; first < end; first += at_once) {
+            const std::size_t count = std::min(at_once, end - first);
+            for (std::size_t v = first, i = 0; v < first + count; ++v)
+                for (std::uint64_t axis = 0; axis < axes; ++axis, ++i)
+                    if (settings_.frequency > 0)
+                        all[i] = correlated_.at(hashed(settings_.seed, axis), world_[v]);
+                    else
+                        keys[i] = hashed(keys_[v], axis);
+            if (!(settings_.frequency > 0))
+                gaussians(std::span(keys).first(axes * count), settings_.truncate,
+                          std::span(all).first(axes * count));
+            for (std::size_t i = 0; i < axes * count; ++i) all[i] *= settings_.amplitude;
+            for (std::size_t v = first; v < first + count; ++v) use(v, all.data() + axes * (v - first));
+        }
     }
 
   private:
@@ -161,9 +179,11 @@ CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
         along ? place_normals(mesh, world, result.keys, settings.to_world.determinant() < 0)
               : std::vector<Vec3>{};
     const Amounts amount(settings, world, result.keys);
-    parallel_for(n, [&](std::size_t v) {
-        const Vec3 move = along ? normals[v] * amount(v, 0) : Vec3{amount(v, 0), amount(v, 1), amount(v, 2)};
-        result.moves[v] = placed ? back.vector(move) : move;
+    parallel_chunks(n, [&](std::size_t begin, std::size_t end) {
+        amount.for_each(begin, end, along ? 1 : 3, [&](std::size_t v, const double* amounts) {
+            const Vec3 move = along ? normals[v] * amounts[0] : Vec3{amounts[0], amounts[1], amounts[2]};
+            result.moves[v] = placed ? back.vector(move) : move;
+        });
     });
     check_reach(mesh, result.moves, settings.amplitude);
     result.shares = settings.mask;

@@ -13,6 +13,8 @@ namespace facetmill {
 /// A standard normal number, cut off at `truncate`, that is a pure function of its key. Numbers beyond the
 /// cut are drawn again, never clamped, so nothing heaps up there.
 double gaussian(std::uint64_t key, double truncate);
+/// The same for each key, several side by side in the processor. The spans are of one length.
+void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<double> all);
 
 /// The key of the noise at a world position: equal for positions equal in float32 (-0 is 0).
 std::uint64_t noise_key(std::uint64_t seed, const Vec3& world);

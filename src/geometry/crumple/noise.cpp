@@ -1,5 +1,6 @@
 #include "geometry/crumple/crumple.hpp"
 
+#include "base/inverse_normals.hpp"
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
 #include "base/random.hpp"
@@ -55,6 +56,13 @@ double gaussian(std::uint64_t key, double truncate) {
     }
     return std::clamp(g, -truncate,
                       truncate); // not reached: at truncate 0.1 a draw holds with probability 0.08
+}
+
+void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<double> all) {
+    for (std::size_t i = 0; i < keys.size(); ++i) all[i] = uniform(hashed(keys[i], 0));
+    inverse_normals(all, all);
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        if (!(all[i] >= -truncate && all[i] <= truncate)) all[i] = gaussian(keys[i], truncate);
 }
 
 std::uint64_t noise_key(std::uint64_t seed, const Vec3& world) {

@@ -124,8 +124,10 @@ void refuse_giant_split(const Mesh& mesh, double corners, const SplitWords& word
                     fmt::format("{}: the result would have about {:.3g} corners, at most {:.0f} are possible",
                                 words.subject, corners, corner_limit),
                     words.fewer);
-    require_memory((bytes_per_corner + attribute_bytes(mesh) / 2) * corners,
-                   fmt::format("{}: a result of {:.3g} corners", words.subject, corners), words.fewer);
+    const double bytes = (bytes_per_corner + attribute_bytes(mesh) / 2) * corners;
+    if (is_much_memory(bytes))
+        require_memory(bytes, fmt::format("{}: a result of {:.3g} corners", words.subject, corners),
+                       words.fewer);
 }
 
 double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings) {

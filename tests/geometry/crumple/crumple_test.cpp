@@ -26,6 +26,13 @@ TEST_CASE("Gaussian amounts have mean 0, deviation 1, and a cut that heaps nothi
     CHECK(most < 3);
     CHECK(most > 2.99);
     for (std::uint64_t key = 0; key < 1000; ++key) CHECK(std::abs(gaussian(key, 0.1)) < 0.1);
+    std::vector<std::uint64_t> keys(1000);
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = 77 * i;
+    std::vector<double> all(keys.size());
+    for (const double truncate : {0.1, 1.0, 3.0, HUGE_VAL}) {
+        gaussians(keys, truncate, all);
+        for (std::size_t i = 0; i < keys.size(); ++i) CHECK(all[i] == gaussian(keys[i], truncate));
+    }
 }
 
 TEST_CASE("the noise belongs to the place: -0 is 0, and float32 decides", "[geometry]") {
