@@ -47,6 +47,8 @@ void erase_positions(std::vector<std::size_t>& list, const Numbers& positions) {
 
 // References of single items, see the end of this file.
 using Visit = std::function<void(Json&)>;
+void primitive_accessors(Json& primitive, const Visit& visit);
+void primitive_views(Json& primitive, const Visit& visit);
 void mesh_accessors(Json& mesh, const Visit& visit);
 void mesh_views(Json& mesh, const Visit& visit);
 void accessor_views(Json& accessor, const Visit& visit);
@@ -73,7 +75,7 @@ std::size_t Builder::add(const char* name, Json value) {
 }
 
 std::size_t Builder::add_view(Bytes bytes, int target, std::size_t stride) {
-    Json view = {{"buffer", 0}, {"byteLength", bytes.size()}};
+    Json view = object_of("buffer", 0, "byteLength", bytes.size());
     if (stride) view["byteStride"] = stride;
     if (target) view["target"] = target;
     const std::size_t index = add("bufferViews", std::move(view));
@@ -87,12 +89,16 @@ std::size_t Builder::add_accessor(Json accessor) { return add("accessors", std::
 std::size_t Builder::add_stored(Stored stored, int target) {
     const std::size_t view = add_view(std::move(stored.bytes), target, stored.stride);
     if (!stored.filter.empty()) filters_[view] = std::move(stored.filter);
-    Json accessor = {{"bufferView", view}};
-    accessor.update(stored.accessor);
+    Json accessor = object_of("bufferView", view);
+    for (auto& [key, value] : stored.accessor.get_ref<Json::object_t&>()) accessor[key] = std::move(value);
     return add_accessor(std::move(accessor));
 }
 
-void Builder::release(const Json& primitive) { release_mesh({{"primitives", Json::array({primitive})}}); }
+void Builder::release(const Json& primitive) {
+    Json visited = primitive; // a visit may change what it sees
+    primitive_accessors(visited, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
+    primitive_views(visited, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
+}
 
 void Builder::release_mesh(const Json& mesh) {
     Json visited = mesh; // a visit may change what it sees
@@ -206,6 +212,7 @@ bool Builder::passes_through(std::size_t i) const {
 std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing>>& how) {
     constexpr std::size_t json_bytes = 160; // that the extension's object takes
     std::vector<Bytes> packed(old_view_.size());
+    if (how.empty()) return packed;
     std::vector<Span> plain(old_view_.size());
     const int version = meshopt_.extension == MeshoptSettings::Extension::khr ? 1 : 0;
     for (std::size_t i = 0; i < plain.size() && i < how.size(); ++i) {
@@ -384,10 +391,12 @@ void mesh_accessors(Json& mesh, const Visit& visit) {
     }
 }
 
+void primitive_views(Json& primitive, const Visit& visit) {
+    reference(member(extension(&primitive, "KHR_draco_mesh_compression"), "bufferView"), visit);
+}
+
 void mesh_views(Json& mesh, const Visit& visit) {
-    each(member(&mesh, "primitives"), [&](Json& p) {
-        reference(member(extension(&p, "KHR_draco_mesh_compression"), "bufferView"), visit);
-    });
+    each(member(&mesh, "primitives"), [&](Json& p) { primitive_views(p, visit); });
 }
 
 void accessor_views(Json& accessor, const Visit& visit) {
@@ -430,6 +439,11 @@ void visit_accessor_references(Json& document, const Visit& visit) {
 void visit_view_references(Json& document, const Visit& visit) {
     each(member(&document, "accessors"), [&](Json& accessor) { accessor_views(accessor, visit); });
     other_views(document, visit);
+}
+
+void see_view_references(const Json& document, const std::function<void(const Json&)>& see) {
+    // None is changed: to visit takes what may be, and `see` gets what may not.
+    visit_view_references(const_cast<Json&>(document), [&](Json& r) { see(r); });
 }
 
 void visit_mesh_references(Json& document, const Visit& visit) {

@@ -82,6 +82,7 @@ class Builder {
 /// to the extensions that are understood.
 void visit_accessor_references(Json& document, const std::function<void(Json&)>& visit);
 void visit_view_references(Json& document, const std::function<void(Json&)>& visit);
+void see_view_references(const Json& document, const std::function<void(const Json&)>& see);
 void visit_mesh_references(Json& document, const std::function<void(Json&)>& visit);
 /// True when the document has an extension whose references we cannot know: then nothing may be renumbered.
 bool has_unknown_extensions(const Json& document);

@@ -60,8 +60,7 @@ std::vector<ViewUse> view_uses(const Json& document) {
         integers(sparse["indices"], sparse["indices"]["componentType"].get<int>());
         if (accessor["type"] == "SCALAR") integers(sparse["values"], accessor["componentType"].get<int>());
     }
-    Json copy = document; // the visitor is for changing
-    visit_view_references(copy, [&](Json& r) { ++uses.at(r.get<std::size_t>()).references; });
+    see_view_references(document, [&](const Json& r) { ++uses.at(r.get<std::size_t>()).references; });
     return uses;
 }
 

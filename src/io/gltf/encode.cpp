@@ -251,7 +251,7 @@ Json accessor_json(const AttributeData& data, int components, bool normalised, b
     return std::visit(
         [&](const auto& numbers) {
             const std::size_t width = static_cast<std::size_t>(components), count = numbers.size() / width;
-            Json accessor = {{"componentType", component_type_of(data)}};
+            Json accessor = object_of("componentType", component_type_of(data));
             if (normalised) accessor["normalized"] = true;
             accessor["count"] = count;
             accessor["type"] = type_name(components);

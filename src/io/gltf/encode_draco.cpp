@@ -99,10 +99,10 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     }
     DracoOutput output = encode_draco(input, settings.draco);
 
-    Json ids = {{"POSITION", output.position_id}};
+    Json ids = object_of("POSITION", output.position_id);
     const auto& positions = output.positions;
-    primitive["attributes"] = {
-        {"POSITION", builder.add_accessor(accessor_json(positions.data, 3, false, true))}};
+    primitive["attributes"] =
+        object_of("POSITION", builder.add_accessor(accessor_json(positions.data, 3, false, true)));
     for (std::size_t c = 0; c < used.size(); ++c) {
         const auto& decoded = decoded_column(output, output.ids[c]);
         ids[used[c]->semantic] = output.ids[c];
@@ -110,13 +110,13 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
             accessor_json(decoded.data, decoded.components, used[c]->data.normalised, false));
     }
     const bool wide = output.decoded->points > 65535;
-    primitive["indices"] = builder.add_accessor({{"componentType", wide ? int(uint32) : int(uint16)},
-                                                 {"count", output.decoded->triangles.size()},
-                                                 {"type", "SCALAR"}});
+    primitive["indices"] =
+        builder.add_accessor(object_of("componentType", wide ? int(uint32) : int(uint16), "count",
+                                       output.decoded->triangles.size(), "type", "SCALAR"));
     if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
     if (settings.draco.keep_decoded) builder.decoded.add(output.bytes, output.decoded);
-    primitive["extensions"]["KHR_draco_mesh_compression"] = {
-        {"bufferView", builder.add_view(std::move(output.bytes))}, {"attributes", ids}};
+    primitive["extensions"]["KHR_draco_mesh_compression"] =
+        object_of("bufferView", builder.add_view(std::move(output.bytes)), "attributes", std::move(ids));
     builder.use_extension("KHR_draco_mesh_compression", true);
 }
 

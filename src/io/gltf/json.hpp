@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace facetmill::io::gltf {
 
@@ -74,6 +75,22 @@ class Place {
     std::size_t step_count_ = 0;
     std::shared_ptr<const std::string> above_; // the path of the value from which they lead here; none: ""
 };
+
+/// An object of these members: key, value, key, value ... An initialiser list would copy each value, and ask
+/// of each whether it is a pair. The keys differ.
+template <class... Members>
+Json object_of(Members&&... members) {
+    Json object = Json::object();
+    auto& all = object.get_ref<Json::object_t&>();
+    all.reserve(sizeof...(members) / 2);
+    const auto add = [&all]<class Value, class... Rest>(const auto& self, const char* key, Value&& value,
+                                                        Rest&&... rest) -> void {
+        all.emplace_back(key, Json(std::forward<Value>(value)));
+        if constexpr (sizeof...(rest) > 0) self(self, std::forward<Rest>(rest)...);
+    };
+    add(add, std::forward<Members>(members)...);
+    return object;
+}
 
 /// A top-level array of the document ("accessors"), or none when it is absent.
 std::optional<Place> list(const Json& document, const char* name);

@@ -261,6 +261,13 @@ void order_for_cache(const Mesh& mesh, Table& table, const Box& box) {
     order_stretches_for_cache(table.indices, table.wedges.size(), 3 * stretch);
 }
 
+/// Flags the orders from `first` on that are an earlier one of those again, as mostly of small meshes.
+void mark_repeated(const std::vector<std::vector<Index>>& orders, std::size_t first,
+                   std::vector<std::uint8_t>& again) {
+    for (std::size_t i = first; i < orders.size(); ++i)
+        for (std::size_t j = first; j < i && !again[i]; ++j) again[i] = !again[j] && orders[j] == orders[i];
+}
+
 /// The order for caches; strips begun in it, in the given one, and in those strips; for meshes that are not
 /// large, of which a percent is to be had, also strips begun along the axes, there and back: the one of the
 /// fewest bytes.
@@ -273,19 +280,26 @@ void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
     orders[1] = orders[0];
     order_in_strips(orders[1], vertices);
     orders[2] = orders[1];
+    constexpr std::size_t tiny = 3 * 1000; // corners: another thread would take longer to come
+    const std::size_t at_once = corners < tiny ? orders.size() : 1;
     std::vector<Placed> along[3];
     if (orders.size() > 4)
         parallel_for(
-            3, [&](std::size_t axis) { along[axis] = triangles_along(mesh, table, axis); }, 1);
-    std::vector<std::size_t> bytes(orders.size());
-    parallel_for(
-        orders.size(),
-        [&](std::size_t i) {
-            if (i >= 4) orders[i] = corners_along(table, along[(i - 4) % 3], i >= 7);
-            if (i >= 2) order_in_strips(orders[i], vertices);
-            bytes[i] = stream_bytes(mesh, table, orders[i], box);
-        },
-        1);
+            3, [&](std::size_t axis) { along[axis] = triangles_along(mesh, table, axis); }, at_once);
+    const auto for_orders = [&](const auto& body) { parallel_for(orders.size(), body, at_once); };
+    for_orders([&](std::size_t i) {
+        if (i >= 4) orders[i] = corners_along(table, along[(i - 4) % 3], i >= 7);
+    });
+    std::vector<std::uint8_t> again(orders.size());
+    mark_repeated(orders, 2, again); // strips that are begun alike are the same
+    for_orders([&](std::size_t i) {
+        if (i >= 2 && !again[i]) order_in_strips(orders[i], vertices);
+    });
+    mark_repeated(orders, 0, again);
+    std::vector<std::size_t> bytes(orders.size(), SIZE_MAX);
+    for_orders([&](std::size_t i) {
+        if (!again[i]) bytes[i] = stream_bytes(mesh, table, orders[i], box);
+    });
     const auto fewest = std::min_element(bytes.begin(), bytes.end()) - bytes.begin();
     table.indices = std::move(orders[static_cast<std::size_t>(fewest)]);
 }

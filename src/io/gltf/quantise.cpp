@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -176,8 +177,12 @@ double short_above(double x) {
 
 double short_near(double x, double step) {
     if (!(step > 0) || !(step < HUGE_VAL)) return x;
+    constexpr std::size_t longest = 400; // of 1e308 with 16 decimals
+    std::array<char, longest> text;
     for (int decimals = 0; decimals < 17; ++decimals) {
-        const double near = parse_real(fmt::format("{:.{}f}", x, decimals)).value_or(x);
+        const auto written =
+            std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::fixed, decimals);
+        const double near = parse_real({text.data(), written.ptr}).value_or(x);
         if (std::abs(near - x) <= step / 100) return near + 0.0;
     }
     return x;

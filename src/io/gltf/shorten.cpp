@@ -18,8 +18,10 @@ template <class Change>
 void each_real(Json& json, const Change& change) {
     if (json.is_number_float())
         change(json);
-    else if (json.is_structured())
-        for (auto& [key, value] : json.items())
+    else if (json.is_array())
+        for (Json& value : json.get_ref<Json::array_t&>()) each_real(value, change);
+    else if (json.is_object())
+        for (auto& [key, value] : json.get_ref<Json::object_t&>())
             if (key != "extras") each_real(value, change);
 }
 

@@ -581,6 +581,19 @@ TEST_CASE("numbers of a grid are short as text", "[io]") {
     CHECK(io::gltf::short_near(-1234.5678, 1000) == -1235);
     CHECK_FALSE(std::signbit(io::gltf::short_near(-1e-9, 1)));
     CHECK(io::gltf::short_near(455000.123, 0) == 455000.123);
+    const auto spelled = [](double x, double step) { // by the library that spells other numbers
+        for (int decimals = 0; decimals < 17; ++decimals)
+            if (const double near = std::stod(fmt::format("{:.{}f}", x, decimals));
+                std::abs(near - x) <= step / 100)
+                return near + 0.0;
+        return x;
+    };
+    for (std::uint64_t i = 0; i < 20000; ++i) { // halves of all decimals among them
+        const double whole = static_cast<double>(hashed(i, 1) % 100000) - 50000;
+        const double x = std::ldexp(whole, -static_cast<int>(hashed(i, 2) % 12)),
+                     step = std::ldexp(1.0, -static_cast<int>(hashed(i, 3) % 40));
+        CHECK(io::gltf::short_near(x, step) == spelled(x, step));
+    }
     Json json = Json::parse(R"({"a":[1.0,-2.5,1e300],"extras":{"b":1.0},"c":{"d":-3.0}})");
     io::gltf::shorten(json, {});
     CHECK(json.dump() == R"({"a":[1,-2.5,1e+300],"extras":{"b":1.0},"c":{"d":-3}})");
