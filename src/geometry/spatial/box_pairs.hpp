@@ -53,7 +53,7 @@ class BoxPairs {
                     });
                 return result;
             },
-            join, 4);
+            join, tasks_at_once(tasks.size()));
     }
 
     /// found(i, j) for every pair, on several threads at once and in no order. How many there are, or most +
@@ -75,7 +75,7 @@ class BoxPairs {
                 });
                 all += mine % batch;
             },
-            4);
+            tasks_at_once(tasks.size()));
         return all <= most ? all.load() : most + 1;
     }
 
@@ -86,6 +86,12 @@ class BoxPairs {
         std::int32_t level;
         std::uint32_t a, b;
     };
+
+    /// How many tasks one thread takes: of few boxes all, since another thread would take longer to come.
+    std::size_t tasks_at_once(std::size_t tasks) const {
+        constexpr std::size_t few = 256;
+        return items().size() <= few ? tasks + 1 : 4;
+    }
 
     /// Which boxes of the node meet box s of the other: a bit each.
     static unsigned meeting(const Node& node, const Node& other, std::size_t s) {

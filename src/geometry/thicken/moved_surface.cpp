@@ -110,6 +110,8 @@ Room room_inside(const Mesh& component, double depth) {
 
 std::vector<std::uint8_t> vanished_components(const Mesh& mesh, const std::vector<std::uint8_t>& turned,
                                               double distance) {
+    if (std::find(turned.begin(), turned.end(), 1) == turned.end()) // as mostly
+        return std::vector<std::uint8_t>(mesh.face_count(), 0);
     const Components components = face_components(mesh, false);
     std::vector<Index> label(components.count, none), labels(mesh.face_count());
     Index count = 0;

@@ -247,8 +247,7 @@ double size_of(const Mesh& mesh, const Transform& to_world) {
 }
 
 /// Edges along which more faces run one way than the other.
-std::size_t unbalanced_edges(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
+std::size_t unbalanced_edges(const Mesh& mesh, const EdgeTable& edges) {
     std::size_t count = 0;
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
@@ -293,8 +292,8 @@ void judge(const Moved& moved, std::uint8_t* gone, const Mesh& surface, const Tr
 
 /// Closed components of the solid, none of which meets another, that are not where material ends: the surface
 /// winds around the points on both their sides other than once on the inner and not at all on the outer side.
-std::size_t buried_components(const Mesh& solid) {
-    const Components components = face_components(solid, false);
+std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
+    const Components components = face_components(solid, edges);
     if (components.count < 2) return 0;
     std::vector<Index> first(components.count, none);
     for (Index f = static_cast<Index>(solid.face_count()); f-- > 0;) first[components.of_face[f]] = f;
@@ -309,7 +308,7 @@ std::size_t buried_components(const Mesh& solid) {
                              [&](Index f, int way) { around += components.of_face[f] == p ? 0 : way; });
             buried[p] = around != (volume[p] < 0 ? 1 : 0);
         },
-        1);
+        64); // one ray each
     return static_cast<std::size_t>(std::count(buried.begin(), buried.end(), 1));
 }
 
@@ -365,10 +364,11 @@ void settle(Doubled& d, const Mesh& surface, const std::vector<Vec3>& ways, cons
         r.filled = components_of(surface, filled);
         d.mesh = keep_faces(d.mesh, faces_without(gone));
     }
-    r.unbalanced = unbalanced_edges(d.mesh);
+    const EdgeTable edges = build_edges(d.mesh);
+    r.unbalanced = unbalanced_edges(d.mesh, edges);
     if (!s.self_intersections || (r.wall && s.thickness > size_of(surface, s.to_world))) return;
     r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
-    if (r.self_intersections == 0 && r.unbalanced == 0) r.buried = buried_components(d.mesh);
+    if (r.self_intersections == 0 && r.unbalanced == 0) r.buried = buried_components(d.mesh, edges);
     if (!s.resolve || r.unbalanced > 0 || (r.self_intersections == 0 && r.turned == 0 && r.buried == 0))
         return;
     const auto back = gone.begin() + static_cast<std::ptrdiff_t>(faces);
