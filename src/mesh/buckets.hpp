@@ -20,6 +20,12 @@ struct Buckets {
     std::vector<Item> items;        ///< bucket by bucket, in the order of their faces
     std::vector<std::size_t> begin; ///< [buckets + 1] into items
     std::size_t count() const { return begin.size() - 1; }
+    /// How many buckets one thread takes at a time: of a mesh of few items all, since another thread would
+    /// take longer to come.
+    std::size_t at_once() const {
+        constexpr std::size_t least = 16, few = 1 << 13; // items
+        return std::max(least, count() * few / std::max<std::size_t>(1, items.size()));
+    }
     std::span<const Item> of(std::size_t b) const {
         return {items.data() + begin[b], items.data() + begin[b + 1]};
     }
@@ -28,15 +34,23 @@ struct Buckets {
     std::size_t first_vertex(std::size_t b) const { return b << shift; }
 };
 
+/// The high bits that tell the bucket of a vertex begin here: 11 bits, so there are no more than 2048
+/// buckets.
+inline int shift_of_buckets(std::size_t vertices) {
+    const auto bits = static_cast<int>(std::bit_width(vertices > 0 ? vertices - 1 : 0));
+    return std::max(0, bits - 11);
+}
+inline std::size_t number_of_buckets(std::size_t vertices) {
+    return vertices == 0 ? 0 : ((vertices - 1) >> shift_of_buckets(vertices)) + 1;
+}
+
 /// visit(f, emit) calls emit(vertex, item) for what face f contributes.
 template <class Item, class Visit>
 Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visit) {
     constexpr std::size_t chunk = std::size_t{1} << 15;
     Buckets<Item> result;
-    const int bits = std::bit_width(vertices > 0 ? vertices - 1 : 0);
-    result.shift = std::max(0, bits - 11);
-    const std::size_t buckets = vertices == 0 ? 0 : ((vertices - 1) >> result.shift) + 1,
-                      chunks = (faces + chunk - 1) / chunk;
+    result.shift = shift_of_buckets(vertices);
+    const std::size_t buckets = number_of_buckets(vertices), chunks = (faces + chunk - 1) / chunk;
     std::vector<std::size_t> counts(chunks * buckets, 0);
     const auto for_faces = [&](auto&& body) {
         parallel_chunks(

@@ -77,7 +77,7 @@ Buckets<HalfEdge> sorted_half_edges(const Mesh& mesh) {
                     {buckets.items.data() + buckets.begin[b], buckets.items.data() + buckets.begin[b + 1]},
                     static_cast<Index>(b << buckets.shift), std::size_t{1} << buckets.shift, room, counts);
         },
-        16);
+        buckets.at_once());
     return buckets;
 }
 
@@ -97,7 +97,7 @@ EdgeTable build_edges(const Mesh& mesh) {
                 count += i == buckets.begin[b] || !same_edge(items[i], items[i - 1]);
             first_edge[b] = count;
         },
-        16);
+        buckets.at_once());
     EdgeTable table;
     const Index edges = exclusive_scan(first_edge);
     resize_large(table.edges, edges);
@@ -118,7 +118,7 @@ EdgeTable build_edges(const Mesh& mesh) {
                 table.corner_edge[items[i].corner] = e;
             }
         },
-        16);
+        buckets.at_once());
     return table;
 }
 
@@ -194,7 +194,7 @@ VertexLists corners_at_vertices(const Mesh& mesh) {
                 lists.items[buckets.begin[b] + counts[buckets.items[i].vertex - first]++] =
                     buckets.items[i].corner;
         },
-        16);
+        buckets.at_once());
     return lists;
 }
 

@@ -281,7 +281,7 @@ Connectivity connectivity_of(const Mesh& mesh, std::span<const Turn> turns) {
             join(a, std::move(b));
             return a;
         },
-        16);
+        buckets.at_once());
     if (turns.empty()) all.counts.boundary_loops = count_loops(all);
     return all.counts;
 }

@@ -103,7 +103,7 @@ std::vector<Star> plain_stars(std::span<const Vec3> positions, std::span<const I
                 }
             }
         },
-        16);
+        buckets.at_once());
     return stars;
 }
 

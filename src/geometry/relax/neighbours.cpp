@@ -173,7 +173,7 @@ void around_vertices(const Mesh& mesh, bool whole_faces, Buckets<Corner>& bucket
             Room room;
             for (std::size_t b = begin; b < end; ++b) visit_bucket(b, room);
         },
-        16);
+        buckets.at_once());
 }
 
 /// In a polygon of n corners every vertex has n - 1 neighbours: refuses what would not fit before it starts.
@@ -254,7 +254,7 @@ Neighbourhoods neighbourhoods(const Mesh& mesh, const Settings& settings) {
         std::size_t held = 0;
     };
     Buckets<Corner> buckets;
-    std::vector<Part> parts(std::size_t{1} << 12); // no more buckets than that: fill_buckets' 11 bits
+    std::vector<Part> parts(number_of_buckets(n));
     around_vertices(mesh, settings.neighbours == Settings::Neighbours::faces, buckets,
                     [&](std::size_t b, Index v, const Surroundings& around) {
                         Part& part = parts[b];
