@@ -33,18 +33,21 @@ AreaSamples::AreaSamples(const Surface& surface, std::size_t count, std::uint64_
     if (!areas.empty() && areas.back() > 0 && std::isfinite(areas.back())) place_all(count, areas);
 }
 
-/// Sample k lies at a random place of the k-th part of the area, so places ascend.
+/// Sample k lies at a random place of the k-th part of the area, so places ascend; most parts are of one
+/// triangle.
 void AreaSamples::place_all(std::size_t count, const std::vector<double>& areas) {
+    const auto area_at = [&](double part) { return part / static_cast<double>(count) * areas.back(); };
     const auto place_of = [&](std::size_t k) {
-        const double within = uniform(hashed(seed_, k + 2));
-        return (static_cast<double>(k) + within) / static_cast<double>(count) * areas.back();
+        return area_at(static_cast<double>(k) + uniform(hashed(seed_, k + 2)));
     };
     triangles_.resize(count);
     parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
         auto after = std::upper_bound(areas.begin(), areas.end(), place_of(begin));
         for (std::size_t k = begin; k < end; ++k) {
-            const double place = place_of(k);
-            while (after != areas.end() && !(*after > place)) ++after;
+            if (after != areas.end() && !(area_at(static_cast<double>(k + 1)) < *after)) {
+                const double place = place_of(k);
+                while (after != areas.end() && !(*after > place)) ++after;
+            }
             const auto t = static_cast<std::size_t>(after - areas.begin()); // rounding may lead past the end
             triangles_[k] = static_cast<Index>(std::min(t, areas.size() - 1));
         }
