@@ -198,9 +198,7 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
     if (const auto crowd = crowd_of(seen, settings))
         console.diagnostic({Severity::warning,
                             "W-FAR",
-                            fmt::format("{}: most of the scene is {:.2g} pixels wide in the picture, because "
-                                        "something lies far off",
-                                        mesh, crowd->pixels),
+                            mesh + ": " + crowd_in_words(*crowd),
                             {},
                             fmt::format("facetmill render {} -o part.png --at {} --zoom {} "
                                         "shows it",

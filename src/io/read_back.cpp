@@ -7,6 +7,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/gltf.hpp"
+#include "mesh/float32_ulp.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 
@@ -326,15 +327,6 @@ double position_error(const Flat& wanted, const Flat& found, double tolerance) {
     return farthest(wanted.used(), found.used(), tolerance);
 }
 
-/// The distance between neighbouring float32 numbers at the largest coordinate of the box.
-double float_step_at(const Box& box) {
-    double most = 0;
-    for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
-        most = std::max({most, std::abs(box.min[i]), std::abs(box.max[i])});
-    const auto x = static_cast<float>(most);
-    return static_cast<double>(std::nextafter(x, HUGE_VALF)) - static_cast<double>(x);
-}
-
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
 /// transform between), half a step of the grid of Draco or of quantized positions in every direction, and the
 /// rounding of the place of an instance.
@@ -357,7 +349,7 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
         const double reach = std::max(length(own.min), length(own.max)) * std::sqrt(scale);
         largest = std::max(largest, reach);
         if (transforms)
-            back.float_step = std::max(back.float_step, float_step_at(own) * greatest_stretch(to_world));
+            back.float_step = std::max(back.float_step, float32_ulp(own) * greatest_stretch(to_world));
         if (settings.grid_bits(i) > 0) {
             const double range = own.longest_side();
             const auto steps = static_cast<double>((std::int64_t{1} << settings.grid_bits(i)) - 1);
@@ -369,7 +361,7 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
         largest = std::max({largest, length(world.min), length(world.max)});
         back.diagonal = length(world.extent());
     }
-    if (!transforms) back.float_step = float_step_at(world);
+    if (!transforms) back.float_step = float32_ulp(world);
     // Half a step times the square root of three, and a margin for rounding.
     constexpr double float_step = 1.0 / (1 << 23);
     double of_places = 0;

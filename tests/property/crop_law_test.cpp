@@ -5,6 +5,7 @@
 #include "geometry/crop/crop.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "mesh/float32_ulp.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

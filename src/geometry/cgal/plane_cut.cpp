@@ -155,7 +155,7 @@ class QuickCutter {
             const Index from = corners_[k], to = corners_[(k + 1) % 3];
             const auto [low, high] = std::minmax(from, to);
             if (node == low || node == high || (made.low == low && made.high == high) ||
-                (!is_surely_beside(from, to, node) && !turns_left(from, to, node)))
+                (!is_surely_beside(from, to, node) && !is_left(from, to, node)))
                 found |= 1u << k;
         }
         return static_cast<std::uint8_t>(found);
@@ -171,9 +171,7 @@ class QuickCutter {
         const auto p = nodes_.at(node);
         return {p[static_cast<int>(view_.u)], p[static_cast<int>(view_.v)]};
     }
-    bool turns_left(Index a, Index b, Index c) const {
-        return CGAL::orientation(exact(a), exact(b), exact(c)) == CGAL::LEFT_TURN;
-    }
+    bool is_left(Index a, Index b, Index c) const { return turns_left(exact(a), exact(b), exact(c)); }
 
     /// However many points there are.
     std::optional<FlatTriangles> filled() const {
@@ -184,7 +182,7 @@ class QuickCutter {
             if (!(cut_.sides[a] & cut_.sides[b])) region.lines.push_back({a, b});
         auto found = proved_filling(region, [&](Index a, Index b, Index c) {
             if (std::max({a, b, c}) >= here_.size()) return false; // where segments cross
-            return turns_left(here_[a], here_[b], here_[c]);
+            return is_left(here_[a], here_[b], here_[c]);
         });
         if (found || !crossings_.empty()) return found;
         std::vector<Point2> points;

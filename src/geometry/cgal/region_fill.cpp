@@ -150,7 +150,7 @@ PlaneView view_of(const std::array<Vec3, 3>& corners) {
 }
 
 std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
-                                            const std::function<bool(Index, Index, Index)>& turns_left) {
+                                            const std::function<bool(Index, Index, Index)>& is_left) {
     using Quick = CGAL::Exact_predicates_inexact_constructions_kernel;
     double most = 0;
     for (const Vec2& p : region.points) most = std::max({most, std::abs(p.x), std::abs(p.y)});
@@ -162,7 +162,7 @@ std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
     if (!found) return {};
     const auto& at = region.points;
     for (const auto& [a, b, c] : *found)
-        if (!polygon::surely_left(at[a], at[b], at[c], most * 0x1p-52) && !turns_left(a, b, c)) return {};
+        if (!polygon::surely_left(at[a], at[b], at[c], most * 0x1p-52) && !is_left(a, b, c)) return {};
     return found;
 }
 
@@ -189,9 +189,8 @@ std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangem
         const auto p = nodes.at(here[i]);
         return ExactKernel::Point_2(p[static_cast<int>(view.u)], p[static_cast<int>(view.v)]);
     };
-    auto found = proved_filling(flat, [&](Index a, Index b, Index c) {
-        return CGAL::orientation(exact(a), exact(b), exact(c)) == CGAL::LEFT_TURN;
-    });
+    auto found = proved_filling(
+        flat, [&](Index a, Index b, Index c) { return turns_left(exact(a), exact(b), exact(c)); });
     if (!found) {
         std::vector<ExactKernel::Point_2> points;
         for (Index i = 0; i < here.size(); ++i) points.push_back(exact(i));

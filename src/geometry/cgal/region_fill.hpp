@@ -31,15 +31,21 @@ struct FlatRegion {
     std::vector<Edge> lines;  ///< in it, likewise
 };
 
+/// By exact numbers.
+inline bool turns_left(const ExactKernel::Point_2& a, const ExactKernel::Point_2& b,
+                       const ExactKernel::Point_2& c) {
+    return CGAL::orientation(a, b, c) == CGAL::LEFT_TURN;
+}
+
 using FlatTriangles = std::vector<std::array<Index, 3>>;
 
 /// The constrained Delaunay triangulation of the region, all of whose points are in it or on its border, by
 /// rounded coordinates. That it is one for the true coordinates is proved by signs that doubles are sure of,
-/// or, for the few triangles where they are not, by what `turns_left` says; else none, which says nothing.
-/// However they are found, this makes them right: they turn left; their edges pair up but for those of the
-/// border, so that they cover the region once; each line is an edge, and each point a corner.
+/// or, for the few triangles where they are not, by what `is_left` says of their corners; else none, which
+/// says nothing. However they are found, this makes them right: they turn left; their edges pair up but for
+/// those of the border, so that they cover the region once; each line is an edge, and each point a corner.
 std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
-                                            const std::function<bool(Index, Index, Index)>& turns_left);
+                                            const std::function<bool(Index, Index, Index)>& is_left);
 
 /// Likewise by exact numbers: points are in the place of the region's. None only where the border does not
 /// close, or what should not cross does.

@@ -6,6 +6,7 @@
 #include "geometry/cut/cut.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/face.hpp"
+#include "mesh/float32_ulp.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -28,8 +29,7 @@ double float_step_of(const Mesh& mesh) {
     Box box;
     for (const Vec3& p : mesh.positions)
         if (is_finite(p)) box.add(p);
-    const double ulp = float32_ulp(box);
-    return ulp > 0 ? std::max(ulp, double{std::numeric_limits<float>::denorm_min()}) : 0;
+    return float32_ulp(box);
 }
 
 Box grown(Box box, double by) {

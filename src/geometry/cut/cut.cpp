@@ -1,6 +1,7 @@
 #include "geometry/cut/cut.hpp"
 
 #include "base/parallel.hpp"
+#include "mesh/float32_ulp.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -290,14 +291,6 @@ double float32_rounding(const Mesh& mesh) {
     }
     const auto shows_it = [](const Multiples& m) { return m.are_not_rounded(); };
     return shows_it(farthest) || std::any_of(of_axis.begin(), of_axis.end(), shows_it) ? 0 : ulp;
-}
-
-double float32_ulp(const Box& bounds) {
-    if (bounds.empty()) return 0;
-    double largest = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        largest = std::max({largest, std::fabs(bounds.min[i]), std::fabs(bounds.max[i])});
-    return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 23) : 0;
 }
 
 namespace {

@@ -74,8 +74,6 @@ struct OnPlane {
 
 /// Whether all three coordinates are 32-bit floats.
 bool is_float32(const Vec3& p);
-/// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box.
-double float32_ulp(const Box& bounds);
 /// How far positions that are 32-bit floats may be from what they were before they were rounded: float32_ulp
 /// of the bounds, or 0 where the coordinates show that nothing was rounded: the largest are multiples of
 /// more, or those along another axis, whose floats are less far apart, are multiples of as much. So it is

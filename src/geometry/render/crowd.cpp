@@ -2,6 +2,7 @@
 #include "geometry/render/render.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill {
 
@@ -48,6 +49,12 @@ Box middle_box(std::vector<Vec3>& points) {
 }
 
 } // namespace
+
+std::string crowd_in_words(const Crowd& crowd) {
+    return fmt::format(
+        "most of the scene is {:.2g} pixels wide in the picture, because something lies far off",
+        crowd.pixels);
+}
 
 std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings) {
     constexpr double small = 0.01; // of the longer side: an icon

@@ -120,6 +120,9 @@ struct Crowd {
     double zoom = 1;   ///< what would show it around the middle
 };
 
+/// "most of the scene is 3 pixels wide in the picture, because something lies far off"
+std::string crowd_in_words(const Crowd& crowd);
+
 /// The box around the vertices of faces without the tenth at either end of each axis, where in the picture,
 /// before zoom, it is less than a hundredth of the longer side; else none. Of many vertices every n-th is
 /// looked at. O(n).

@@ -316,6 +316,15 @@ const std::set<std::string>& extensions_of_library() {
     return all;
 }
 
+const std::set<std::string>& kept_by_library() {
+    static const std::set<std::string> all = [] {
+        std::set<std::string> names = extensions_of_library();
+        names.insert({"textures", "KHR_texture_transform"});
+        return names;
+    }();
+    return all;
+}
+
 Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses) {
     try {
         if (material.document >= 0 && material.index >= 0) return Describer(material, images, losses).run();

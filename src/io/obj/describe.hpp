@@ -30,6 +30,8 @@ class LibraryLosses {
 
 /// Extensions of materials that MTL has words for, wholly or in part; of others all is noted as lost.
 const std::set<std::string>& extensions_of_library();
+/// Those, and what else of a document a library has words for.
+const std::set<std::string>& kept_by_library();
 
 /// The words that are read as the material of the scene: what they cannot say is noted, and images that they
 /// name are marked as used. Of a material that no document has, the colour.

@@ -309,9 +309,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         tell_what_is_lost(part.mesh, written);
         parts.next();
     }
-    std::set<std::string> kept{"textures", "KHR_texture_transform"};
-    kept.insert(extensions_of_library().begin(), extensions_of_library().end());
-    leave_documents(written, scene, "OBJ", kept);
+    leave_documents(written, scene, "OBJ", kept_by_library());
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
     warn_of_lost_attributes(scene, written);

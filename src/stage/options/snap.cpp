@@ -2,6 +2,7 @@
 
 #include "base/words.hpp"
 #include "geometry/cut/cut.hpp"
+#include "mesh/float32_ulp.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+#include "stage/as_loaded.hpp"
 #include "stage/contract.hpp"
 #include "stage/stage.hpp"
 #include "stages/ensure/help.hpp"
@@ -25,9 +26,8 @@ Scene run(Scene scene, const EnsureOptions& o, Context& context) {
                                     inspect(scene, o.assertions.settings()), context.name()))
             context.check(std::move(check));
     if (o.deviation) {
-        const auto loaded = context.run().loaded;
         const Mark& here = context.where();
-        check_deviation(*o.deviation, {here, here, here}, loaded ? *loaded : Surface{}, scene, context);
+        check_deviation(*o.deviation, {here, here, here}, surface_as_loaded(context), scene, context);
     }
     return scene;
 }

@@ -2,6 +2,7 @@
 
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/placement.hpp"
+#include "stage/as_loaded.hpp"
 #include "stage/read_recorded.hpp"
 #include "stages/measure/cells.hpp"
 #include "stages/measure/face_table.hpp"
@@ -44,8 +45,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
 std::unique_ptr<FaceTree> other_surface(const MeasureOptions& o, const Scene& scene, Context& context) {
     if (is_from_load(o)) {
         context.tell_unrepeatable(); // the scene as loaded is no part of what a result is known by
-        const auto loaded = context.run().loaded;
-        return std::make_unique<FaceTree>(loaded ? *loaded : Surface{}, FaceTree::Use::near);
+        return std::make_unique<FaceTree>(surface_as_loaded(context), FaceTree::Use::near);
     }
     if (!o.with) return nullptr;
     const Scene other = read_beside(*o.with, scene, context);

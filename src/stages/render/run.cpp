@@ -4,6 +4,7 @@
 #include "io/gltf/looks.hpp"
 #include "io/gltf/pose.hpp"
 #include "io/png.hpp"
+#include "stage/as_loaded.hpp"
 #include "stage/read_recorded.hpp"
 #include "stages/render/help.hpp"
 #include "stages/render/measured.hpp"
@@ -67,11 +68,10 @@ void measure(const RenderOptions& o, const Scene& scene, Subject& subject, Conte
     const bool bind = io::posed(scene) || (subject.other && io::posed(*subject.other));
     std::optional<FaceTree> from, from_scene;
     if (quantity.compares) {
-        const auto loaded = context.run().loaded;
         if (subject.other)
             from = tree_of(*subject.other);
         else
-            from.emplace(loaded ? *loaded : Surface{}, FaceTree::Use::near);
+            from.emplace(surface_as_loaded(context), FaceTree::Use::near);
     }
     subject.own = measured(o, quantity, scene, selects, from ? &*from : nullptr, bind);
     if (!subject.other) return;
@@ -130,13 +130,10 @@ void warn_of_crowd(const Scene& scene, const PictureSettings& settings, Context&
     const auto crowd = crowd_of(scene, settings);
     if (!crowd) return;
     const Vec3& p = crowd->middle;
-    context.warn(
-        "W-FAR",
-        fmt::format("render: most of the scene is {:.2g} pixels wide, because something lies far off",
-                    crowd->pixels),
-        fmt::format("render: {{path: near.png, at: [{}], zoom: {}}} shows it; clean: "
-                    "{{components: {{keep: 1}}}} leaves out what does not hang together with it",
-                    readable(p, ", "), crowd->zoom));
+    context.warn("W-FAR", "render: " + crowd_in_words(*crowd),
+                 fmt::format("render: {{path: near.png, at: [{}], zoom: {}}} shows it; clean: "
+                             "{{components: {{keep: 1}}}} leaves out what does not hang together with it",
+                             readable(p, ", "), crowd->zoom));
 }
 
 Picture taken(const RenderOptions& o, const Scene& given, const Subject& subject, Context& context) {
