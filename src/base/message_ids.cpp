@@ -651,8 +651,10 @@ std::span<const MessageId> message_ids() {
          "Write glTF to keep them, or rename it."},
         {"W-NAN",
          {},
-         "Values of an attribute are not finite numbers and are set to 0.",
-         "Export the file again if the attribute is needed."},
+         "Values of an attribute are no finite numbers: those of normals, colours and the like are set to 0 "
+         "when a file is read. In other attributes nan says that there is no number, and stays; formats that "
+         "cannot hold it get 0.",
+         "Export the file again if the attribute is needed, or write PLY, which keeps nan."},
         {"W-NO-VALUE",
          {},
          "What render measured has no value at any face or vertex: the walls of an open sheet have no "

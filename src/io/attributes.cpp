@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <type_traits>
@@ -83,38 +84,89 @@ Attribute selected(const Attribute& attribute, std::span<const Index> kept) {
 
 namespace {
 
-template <class T>
-std::size_t zero_what_is_not_finite(std::vector<T>& values) {
-    if constexpr (std::is_floating_point_v<T>) {
-        return parallel_reduce(
-            values.size(), std::size_t{0},
-            [&](std::size_t begin, std::size_t end) {
-                std::size_t found = 0;
-                for (std::size_t i = begin; i < end; ++i)
-                    if (!std::isfinite(values[i])) {
-                        values[i] = 0;
-                        ++found;
-                    }
-                return found;
-            },
-            [](std::size_t a, std::size_t b) { return a + b; });
-    }
-    return 0;
+/// How many values hold(value) is true of; change(value) is called for each of these. None of integers.
+template <class Data, class Hold, class Change>
+std::size_t count_values(Data& data, const Hold& hold, const Change& change) {
+    return std::visit(
+        [&](auto& values) -> std::size_t {
+            if constexpr (!std::is_floating_point_v<typename std::decay_t<decltype(values)>::value_type>)
+                return 0;
+            else
+                return parallel_reduce(
+                    values.size(), std::size_t{0},
+                    [&](std::size_t begin, std::size_t end) {
+                        std::size_t found = 0;
+                        for (std::size_t i = begin; i < end; ++i)
+                            if (hold(values[i])) {
+                                change(values[i]);
+                                ++found;
+                            }
+                        return found;
+                    },
+                    [](std::size_t a, std::size_t b) { return a + b; });
+        },
+        data);
 }
+
+constexpr auto lacks_value = [](auto x) { return std::isnan(x); };
+
+/// Only numbers that mean nothing to facetmill may be missing: what draws or moves a surface may not.
+bool may_lack_values(const Attribute& a) { return a.role == Role::generic; }
 
 } // namespace
 
+NanCounts zero_nan(Mesh& mesh) {
+    NanCounts counts;
+    for (Attribute& a : mesh.attributes)
+        if (const std::size_t found = count_values(a.data, lacks_value, [](auto& x) { x = 0; }))
+            counts[a.name] += found;
+    return counts;
+}
+
+bool has_nan(const Mesh& mesh) {
+    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [](const Attribute& a) {
+        return count_values(a.data, lacks_value, [](const auto&) {}) > 0;
+    });
+}
+
+void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagnostic>& warnings) {
+    for (const auto& [name, count] : counts)
+        warnings.push_back(
+            {Severity::warning,
+             "W-NAN",
+             fmt::format("{} of '{}' {} no number (nan), which {} cannot hold: {} 0 in the file",
+                         counted(count, "value"), name, count == 1 ? "is" : "are", format,
+                         count == 1 ? "it is" : "they are"),
+             {},
+             "PLY keeps them; measure: {missing: -1} gives what it measures another number"});
+}
+
 void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
-    for (auto& attribute : part.mesh.attributes) {
-        const std::size_t found =
-            std::visit([](auto& values) { return zero_what_is_not_finite(values); }, attribute.data);
-        if (found > 0)
-            log.warnings.push_back(
-                {Severity::warning, "W-NAN",
-                 fmt::format("{} values of '{}' in part '{}' are not finite numbers: they are set to 0",
-                             found, attribute.name, part.name),
-                 file_mark(file),
-                 "export the file again if the attribute is needed: 0 may mean something there"});
+    const auto warn = [&](std::size_t count, const Attribute& a, const char* what, const char* hint) {
+        if (count > 0)
+            log.warnings.push_back({Severity::warning, "W-NAN",
+                                    fmt::format("{} of '{}' in part '{}' {} {}", counted(count, "value"),
+                                                a.name, part.name, count == 1 ? "is" : "are", what),
+                                    file_mark(file), hint});
+    };
+    for (auto& a : part.mesh.attributes) {
+        if (may_lack_values(a)) {
+            const std::size_t infinite = count_values(
+                a.data,
+                [](auto& x) {
+                    const bool is = std::isinf(x);
+                    // Of the many NaNs one, so that values that are alike have equal bits.
+                    if (!std::isfinite(x)) x = std::numeric_limits<std::decay_t<decltype(x)>>::quiet_NaN();
+                    return is;
+                },
+                [](auto&) {});
+            warn(infinite, a, "infinite: there is no number there (nan)",
+                 "export the file again if it means another number");
+        } else
+            warn(count_values(
+                     a.data, [](auto x) { return !std::isfinite(x); }, [](auto& x) { x = 0; }),
+                 a, "not finite: set to 0",
+                 "export the file again if the attribute is needed: 0 may mean something there");
     }
 }
 

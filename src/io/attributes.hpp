@@ -7,6 +7,7 @@
 #include "mesh/mesh.hpp"
 
 #include <cstdint>
+#include <map>
 #include <span>
 
 namespace facetmill::io {
@@ -29,9 +30,18 @@ void extend_to_wedges(Attribute& attribute, std::span<const Index> wedge_vertex,
 /// The attribute with the elements [kept] only, in that order.
 Attribute selected(const Attribute& attribute, std::span<const Index> kept);
 
-/// Replaces attribute values that are not finite by 0, since no format and no stage can use them, and warns
-/// (W-NAN).
+/// Values that are no number (NaN) say of generic attributes that there is none, and stay; infinite ones
+/// become so, too. In attributes that draw or move a surface what is not finite becomes 0. Warns of what
+/// changes (W-NAN).
 void fix_attributes(Part& part, const std::string& file, ReadLog& log);
+
+/// How many values there were, by the name of the attribute.
+using NanCounts = std::map<std::string, std::size_t>;
+/// Sets attribute values that are no number to 0, for formats that cannot hold them.
+NanCounts zero_nan(Mesh& mesh);
+bool has_nan(const Mesh& mesh);
+/// Warns (W-NAN) of values that the format cannot hold.
+void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagnostic>& warnings);
 
 /// Drops faces of fewer than three corners (face attributes follow) and warns (W-FACES).
 void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log);

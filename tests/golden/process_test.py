@@ -756,6 +756,21 @@ class Process(Case):
         self.assertEqual(told.count("at or below the target"), 11)
         self.assertNotIn("more like these", told)
 
+    def test_info_of_a_cloud_tells_what_it_has(self):
+        self.write("c.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                            "property float quality\nend_header\n0 0 0 nan\n1 0 0 1\n0 1 0 2\n")
+        rows = [line.split()[0] for line in self.mill("info", "c.ply").stdout.splitlines()[1:]]
+        self.assertEqual(rows[:4], ["vertices", "wedges", "faces", "isolated_vertices"])
+        self.assertNotIn("closed", rows)
+        self.assertNotIn("face_kinds", rows)
+        self.assertIn("quality", rows)
+        self.assertIs(json.loads(self.mill("info", "--json", "c.ply").stdout)["closed"], True)
+        # The value that is none stays in PLY, and is told where it cannot.
+        self.assertNotIn("W-NAN", self.mill("pipe", "load", "c.ply", "!", "write", "d.ply", "--ascii").stderr)
+        self.assertIn("0 0 0 nan\n", (self.dir / "d.ply").read_text())
+        told = self.mill("pipe", "load", "c.ply", "!", "write", "d.drc", expect=None).stderr
+        self.assertIn("1 value of 'quality' is no number (nan), which Draco cannot hold: it is 0 in the file", told)
+
     def test_control_characters_of_names_do_not_reach_the_terminal(self):
         name = "a\x1b[31m\x07\x9b5m"
         self.write("t.off", TRIANGLE)

@@ -53,7 +53,9 @@ class Flatness {
 
     static bool is_same(const Attribute& a, Index i, Index j) {
         for (int k = 0; k < a.components; ++k)
-            if (!(a.value(i, k) == a.value(j, k))) return false;
+            if (const double x = a.value(i, k), y = a.value(j, k);
+                !(x == y || (std::isnan(x) && std::isnan(y))))
+                return false;
         return true;
     }
 

@@ -178,9 +178,10 @@ std::vector<double> values_of(const Quantity& quantity, const Part& part, const 
     return values;
 }
 
-void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values, double none) {
+void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values,
+                    std::optional<double> none) {
     for (double& x : values)
-        if (std::isnan(x)) x = none;
+        if (none && std::isnan(x)) x = *none;
     for (const Domain domain : {Domain::vertex, Domain::wedge, Domain::face})
         part.mesh.drop(quantity.name, domain);
     part.mesh.attributes.push_back(

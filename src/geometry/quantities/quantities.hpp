@@ -44,7 +44,8 @@ std::string unit_of(const Quantity& quantity, Unit unit);
 /// same for any number of threads.
 std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other = nullptr);
 
-/// Makes an attribute of them, instead of any of that name; those that are missing become `none`.
-void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values, double none);
+/// Makes an attribute of them, instead of any of that name; those that are missing become `none`, if given.
+void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values,
+                    std::optional<double> none = {});
 
 } // namespace facetmill

@@ -5,6 +5,7 @@
 #include "base/progress.hpp"
 #include "base/quick_json.hpp"
 #include "base/words.hpp"
+#include "io/attributes.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/instances.hpp"
 #include "io/gltf/lines.hpp"
@@ -423,8 +424,22 @@ void warn_of_losses(Patch& patch) {
 
 } // namespace
 
-Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
+/// The scene without what is no number in its attributes, which glTF forbids; none where there is nothing.
+std::optional<Scene> without_nan(const Scene& given, Written& written) {
+    const auto has = [](const Part& part) { return has_nan(part.mesh); };
+    if (std::none_of(given.parts.begin(), given.parts.end(), has)) return {};
+    Scene scene = given;
+    NanCounts all;
+    for (Part& part : scene.parts)
+        for (const auto& [name, count] : zero_nan(part.mesh)) all[name] += count;
+    warn_of_nan(all, "glTF", written.warnings);
+    return scene;
+}
+
+Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Written written;
+    const auto zeroed = without_nan(given, written);
+    const Scene& scene = zeroed ? *zeroed : given;
     BaseDocument found = base_document(scene);
     const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();

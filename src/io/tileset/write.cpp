@@ -2,6 +2,7 @@
 #include "base/progress.hpp"
 #include "geometry/pyramid/pyramid.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/attributes.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/textures.hpp"
 #include "io/image_files.hpp"
@@ -38,6 +39,7 @@ Mesh as_one(const Scene& scene, Written& written) {
         append(all, mesh);
     }
     drop_unused(all);
+    warn_of_nan(zero_nan(all), "a tileset", written.warnings);
     return all;
 }
 

@@ -17,6 +17,8 @@ lines become one closed tube with mitred corners, which ends where a line ends o
 lines meet. Broken meshes
 are loaded as they are; a malformed file is refused, and the error names the line or byte at fault.
 Coordinates that are no finite numbers refuse a file, too, unless not_finite: drop leaves out their
-vertices.)";
+vertices. In attributes that have no meaning to facetmill (quality, confidence), nan stays and says that
+there is no number: render shows it as "no value", what is mixed with it (split, clip, simplify) has no
+number either, and formats that cannot hold it get 0 (W-NAN).)";
 
 } // namespace facetmill::help::load

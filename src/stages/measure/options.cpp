@@ -43,7 +43,8 @@ void declare_measure(Declare<MeasureOptions>& d) {
     d.option("with", &MeasureOptions::with,
              "The mesh file that deviation is measured from. Default: the scene as loaded.");
     d.option("missing", &MeasureOptions::missing,
-             "What attributes are set to where there is no number, which no file could hold.");
+             "What attributes are set to where there is no number. Default: nan, which render shows as \"no "
+             "value\" and PLY keeps; files of other formats get 0 (W-NAN).");
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files; the suffix decides the format. .json gets all results, "
              ".csv one line per face; - is JSON on standard output. The columns of the table: " +

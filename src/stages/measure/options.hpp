@@ -16,7 +16,7 @@ struct MeasureOptions {
     Angle feature_angle = Angle::degrees(30);
     std::vector<QuantityName> attributes;
     std::optional<PathText> with;
-    double missing = 0;
+    std::optional<double> missing;
     std::vector<PathText> path;
 };
 

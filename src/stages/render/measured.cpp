@@ -103,9 +103,7 @@ Scene measured(const RenderOptions& o, const Quantity& quantity, const Scene& sc
     for (const Part& part : scene.parts)
         if (selects(part)) out.parts.push_back(cuts ? faces_of(part) : part);
     if (cuts) cut_large_faces(out, scene.bounds().diagonal());
-    for (Part& part : out.parts)
-        give_attribute(part, quantity, values_of(quantity, part, other),
-                       std::numeric_limits<double>::quiet_NaN());
+    for (Part& part : out.parts) give_attribute(part, quantity, values_of(quantity, part, other));
     return out;
 }
 

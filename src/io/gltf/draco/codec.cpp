@@ -140,7 +140,8 @@ void leave_degenerate(DracoInput& input, const DracoSettings& settings, Written&
 
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
-    const Mesh mesh = joined(scene);
+    Mesh mesh = joined(scene);
+    warn_of_nan(zero_nan(mesh), "Draco", written.warnings);
     DracoInput input;
     input.triangles = mesh.corners;
     input.point_vertex = mesh.wedge_vertex;
