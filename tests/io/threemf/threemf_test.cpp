@@ -63,8 +63,8 @@ Loaded trip(const Scene& scene, io::WriteSettings settings = {}) {
     settings.title = "a";
     const io::Written written = codec.write(scene, settings);
     CHECK(codec.write(scene, settings).files[0].bytes == written.files[0].bytes);
-    const io::ReadBack back = io::read_back(io::Input::of("a.3mf", written.files[0].bytes), codec, scene,
-                                            settings, written);
+    const io::ReadBack back =
+        io::read_back(io::Input::of("a.3mf", written.files[0].bytes), codec, scene, settings, written);
     CHECK(back.losses.empty());
     Loaded loaded = load(written.files[0].bytes);
     for (const auto& warning : written.warnings) loaded.log.warnings.push_back({warning, true});
