@@ -160,7 +160,7 @@ void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
                     return is;
                 },
                 [](auto&) {});
-            warn(infinite, a, "infinite: there is no number there (nan)",
+            warn(infinite, a, "infinite: there is no number there",
                  "export the file again if it means another number");
         } else
             warn(count_values(

@@ -38,7 +38,11 @@ struct ReadLog {
 /// always.
 enum class Weld { automatic, off, exact };
 
-class DracoDecodings;
+/// What was decoded while a file was written, for whoever reads it back. Only the codecs that made it look
+/// into it.
+struct Decodings {
+    virtual ~Decodings() = default;
+};
 
 struct ReadSettings {
     Weld weld = Weld::automatic;
@@ -52,7 +56,7 @@ struct ReadSettings {
     bool drop_not_finite = false;
     /// Folders below which the neighbours of a file may lie, besides its own.
     std::vector<std::filesystem::path> asset_roots{};
-    const DracoDecodings* decoded = nullptr; ///< those that are known already
+    const Decodings* decoded = nullptr; ///< those that are known already
 };
 
 struct DracoSettings {
@@ -174,7 +178,7 @@ struct Written {
     std::size_t dropped_faces = 0; ///< that the scene has and the file has not, for the read-back
     VertexCacheUse cache{};        ///< of the meshes that were put in order
     std::optional<TilesWritten> tiles{};
-    std::shared_ptr<const DracoDecodings> decoded{}; ///< what Draco data in the files was decoded to
+    std::shared_ptr<const Decodings> decoded{};
 };
 
 /// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill

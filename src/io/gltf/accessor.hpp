@@ -3,14 +3,11 @@
 // against the bytes that are there, and what would need more memory than the bytes justify is refused.
 
 #include "io/bytes.hpp"
+#include "io/codec.hpp"
 #include "io/gltf/json.hpp"
 #include "mesh/mesh.hpp"
 
 #include <map>
-
-namespace facetmill::io {
-class DracoDecodings;
-}
 
 namespace facetmill::io::gltf {
 
@@ -53,7 +50,7 @@ class Source {
     /// all.
     void need(double bytes);
 
-    const DracoDecodings* decoded = nullptr; ///< those that are known already
+    const Decodings* decoded = nullptr; ///< those that are known already
 
   private:
     const Json* json_;

@@ -287,8 +287,9 @@ DracoMesh DracoDecodings::decode(Span bytes, DracoContents contents) const {
     return known == meshes_.end() ? decode_draco(bytes, contents) : *known->second;
 }
 
-DracoMesh decode_draco(Span bytes, DracoContents contents, const DracoDecodings* known) {
-    return known ? known->decode(bytes, contents) : decode_draco(bytes, contents);
+DracoMesh decode_draco(Span bytes, DracoContents contents, const Decodings* known) {
+    const auto* decodings = dynamic_cast<const DracoDecodings*>(known);
+    return decodings ? decodings->decode(bytes, contents) : decode_draco(bytes, contents);
 }
 
 // --- encode

@@ -40,7 +40,7 @@ enum class DracoContents { mesh, mesh_or_points };
 DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
 
 /// What bytes were decoded to, by their SHA-256, so that the same bytes are decoded once.
-class DracoDecodings {
+class DracoDecodings : public Decodings {
   public:
     void add(Span bytes, std::shared_ptr<const DracoMesh> mesh);
     /// As decode_draco, where the bytes are known without decoding them.
@@ -49,8 +49,8 @@ class DracoDecodings {
   private:
     std::unordered_map<std::string, std::shared_ptr<const DracoMesh>> meshes_;
 };
-/// With what is known, if there is any.
-DracoMesh decode_draco(Span bytes, DracoContents contents, const DracoDecodings* known);
+/// With what is known, if there is any and it is of Draco.
+DracoMesh decode_draco(Span bytes, DracoContents contents, const Decodings* known);
 
 /// A mesh to compress.
 struct DracoInput {
