@@ -41,6 +41,12 @@ void keep_freed_memory() noexcept {
 #endif
 }
 
+void give_back_freed_memory() noexcept {
+#if defined(__GLIBC__)
+    malloc_trim(0);
+#endif
+}
+
 void prefault(void* memory, std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
     constexpr std::size_t piece = std::size_t{2} << 20; // a large page

@@ -20,6 +20,9 @@ void ask_for_large_pages(void* memory, std::size_t bytes) noexcept;
 /// memory at the end of the heap 256 MiB at most are kept so.
 void keep_freed_memory() noexcept;
 
+/// All of it goes back now.
+void give_back_freed_memory() noexcept;
+
 /// Asks the system for the pages of the memory, in parallel, before it is written. Changes no contents; does
 /// nothing where the system cannot.
 void prefault(void* memory, std::size_t bytes);

@@ -138,7 +138,8 @@ void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagno
                          counted(count, "value"), name, count == 1 ? "is" : "are", format,
                          count == 1 ? "it is" : "they are"),
              {},
-             "PLY keeps them; measure: {missing: -1} gives what it measures another number"});
+             "PLY keeps them; where a stage measure made them, its option missing: -1 makes them that "
+             "number"});
 }
 
 void fix_attributes(Part& part, const std::string& file, ReadLog& log) {

@@ -1,5 +1,6 @@
 #include "stage/surface_loss.hpp"
 
+#include "base/parallel.hpp"
 #include "base/readable_numbers.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/transform.hpp"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill {
 
@@ -53,32 +55,87 @@ std::string loss(const PartSurface& before, const PartSurface& after, MayLose ma
                        before.area);
 }
 
-/// Of the mesh at all these places together. Where one turns and scales alike in all directions, to a
-/// millionth, its area is that of the mesh times the square of the scale, so that it is not measured anew.
-double area_at(const Mesh& mesh, const std::vector<Transform>& places) {
-    constexpr double alike = 1e-6; // float32 rotations; areas are compared in hundredths
-    const double own = surface_size(mesh, {}, false).area;
-    double area = 0;
-    for (const Transform& place : places) {
-        const auto stretch = uniform_stretch(place, alike);
-        area += stretch ? own * *stretch * *stretch : surface_size(mesh, place, false).area;
+/// The area of a mesh, and for each direction how much of it faces that way: sums over its faces of the area
+/// times the products of the normal's coordinates.
+class FacingArea {
+  public:
+    FacingArea() = default;
+    explicit FacingArea(const Mesh& mesh) {
+        *this = parallel_reduce(
+            mesh.face_count(), FacingArea{},
+            [&](std::size_t begin, std::size_t end) {
+                FacingArea all;
+                for (auto f = static_cast<Index>(begin); f < end; ++f)
+                    all.add(twice_area_vector(mesh, f) / 2);
+                return all;
+            },
+            [](const FacingArea& a, const FacingArea& b) { return a.plus(b); });
     }
-    return area;
-}
+
+    /// What the area becomes: as it is where the place scales alike in all directions; else no less than it
+    /// is, by the mean of squares. Takes no look at the mesh.
+    double at(const Transform& place) const {
+        const Vec3 rows[] = {{place.m[0][0], place.m[0][1], place.m[0][2]},
+                             {place.m[1][0], place.m[1][1], place.m[1][2]},
+                             {place.m[2][0], place.m[2][1], place.m[2][2]}};
+        double squares = 0; // of what becomes of the normals
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 c = cross(rows[(i + 1) % 3], rows[(i + 2) % 3]);
+            for (std::size_t k = 0; k < 3; ++k) squares += c[k] * dot(by_[k], c);
+        }
+        return std::sqrt(area_ * squares);
+    }
+
+  private:
+    static Vec3 twice_area_vector(const Mesh& mesh, Index f) {
+        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+        Vec3 twice;
+        for (Index c = begin + 1; c + 1 < end; ++c)
+            twice += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
+        return twice;
+    }
+    void add(const Vec3& area) {
+        const double size = length(area);
+        if (!(size > 0)) return;
+        area_ += size;
+        for (std::size_t k = 0; k < 3; ++k) by_[k] += area * (area[k] / size);
+    }
+    FacingArea plus(const FacingArea& b) const {
+        FacingArea sum = *this;
+        sum.area_ += b.area_;
+        for (std::size_t k = 0; k < 3; ++k) sum.by_[k] += b.by_[k];
+        return sum;
+    }
+
+    double area_ = 0;
+    Vec3 by_[3];
+};
+
+/// Of a part at all its places.
+struct AtPlaces {
+    std::optional<FacingArea> facing;
+    double area = 0, count = 0;
+};
 
 } // namespace
 
 std::vector<PartSurface> surfaces_of_parts(const Scene& scene,
                                            std::span<const std::optional<SurfaceSize>> sizes) {
-    const auto places = io::places_of_instances(scene);
+    std::map<std::size_t, AtPlaces> instanced;
+    io::for_each_place_of_instances(scene, [&](std::size_t i, const Transform& place, double times) {
+        AtPlaces& all = instanced[i];
+        if (!all.facing) all.facing = FacingArea(scene.parts[i].mesh);
+        all.area += times * all.facing->at(place);
+        all.count += times;
+    });
     std::vector<PartSurface> surfaces;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const Part& part = scene.parts[i];
         const auto size = sizes.empty() ? std::nullopt : sizes[i];
         PartSurface& surface = surfaces.emplace_back(PartSurface{part.name, part.mesh.face_count(), 0, size});
-        if (!places[i].empty()) {
-            surface.faces *= places[i].size();
-            surface.area = area_at(part.mesh, places[i]);
+        if (const auto all = instanced.find(i); all != instanced.end()) {
+            surface.faces *= static_cast<std::size_t>(all->second.count);
+            surface.area = all->second.area;
         } else
             surface.area = size ? size->area : surface_size(part.mesh, part.transform, false).area;
     }

@@ -29,8 +29,8 @@ struct PartSurface {
     double area = 0;
     std::optional<SurfaceSize> size{}; ///< of the mesh at the part's transform, where a stage measured it
 };
-/// Of each part. O(corners), parallel; for instances scaled by different factors along the axes, O(corners)
-/// each. sizes: [parts] those that are known, or empty.
+/// Of each part. O(corners), parallel. Of instances that are scaled by different factors along the axes the
+/// area is estimated, alike before a stage and behind it. sizes: [parts] those that are known, or empty.
 std::vector<PartSurface> surfaces_of_parts(const Scene& scene,
                                            std::span<const std::optional<SurfaceSize>> sizes = {});
 

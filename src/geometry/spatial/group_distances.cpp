@@ -326,8 +326,7 @@ bool GroupDistances::gather_near(std::span<const Vec3> points, double distance, 
     Box box;
     for (std::uint32_t left = among; left != 0; left &= left - 1)
         box.add(points[static_cast<std::size_t>(std::countr_zero(left))]);
-    if (!gather(box, distance, few_nodes)) return false;
-    return true;
+    return gather(box, distance, few_nodes);
 }
 
 /// Which points are within a distance of the box of a node, give or take rounding: bit i for the i-th.

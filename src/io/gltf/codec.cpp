@@ -422,8 +422,6 @@ void warn_of_losses(Patch& patch) {
     }
 }
 
-} // namespace
-
 /// The scene without what is no number in its attributes, which glTF forbids; none where there is nothing.
 std::optional<Scene> without_nan(const Scene& given, Written& written) {
     const auto has = [](const Part& part) { return has_nan(part.mesh); };
@@ -435,6 +433,8 @@ std::optional<Scene> without_nan(const Scene& given, Written& written) {
     warn_of_nan(all, "glTF", written.warnings);
     return scene;
 }
+
+} // namespace
 
 Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Written written;

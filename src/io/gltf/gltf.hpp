@@ -5,6 +5,7 @@
 // the digest of its image, an accessor its type and the digest of its numbers, a node its name (or its
 // number where it has none).
 
+#include "base/function.hpp"
 #include "base/json.hpp"
 #include "mesh/scene.hpp"
 
@@ -42,9 +43,11 @@ std::vector<bool> animated_parts(const Scene& scene);
 /// filters its rotation has 16 bits. Throws malformed when the document's nodes or instances are.
 std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 
-/// For each part that its document has at many places (EXT_mesh_gpu_instancing), the transforms from its
-/// space to all of these, as it stands and is written now; none for others. Throws malformed as above.
-std::vector<std::vector<Transform>> places_of_instances(const Scene& scene);
+/// Calls visit for each part that its document has at many places (EXT_mesh_gpu_instancing), with the
+/// transforms from its space to these, as it stands and is written now. Of more than 65,536 of them, every so
+/// many-th, which stands for that many. Throws malformed as above.
+void for_each_place_of_instances(
+    const Scene& scene, const Function<void(std::size_t part, const Transform& place, double times)>& visit);
 
 /// The fewest bits of position, from `min_bits` to 24, at which vertices of the mesh that are at different
 /// places (in float32) stay at different places of its grid; none when 24 are not enough.

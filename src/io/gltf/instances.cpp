@@ -224,15 +224,17 @@ std::vector<double> errors_of_instances(const Scene& scene, bool filters) {
     return errors;
 }
 
-std::vector<std::vector<Transform>> places_of_instances(const Scene& scene) {
-    std::vector<std::vector<Transform>> places(scene.parts.size());
+void for_each_place_of_instances(
+    const Scene& scene, const Function<void(std::size_t part, const Transform& place, double times)>& visit) {
+    constexpr std::size_t most = 65536;
     for_each_instanced(scene, [&](std::size_t i, const Transform& largest, const gltf::Instances& all) {
         const auto back = inverse(largest);
         if (!back) return; // not of a largest place
         const Transform node = scene.parts[i].transform * *back;
-        for (std::size_t k = 0; k < all.count; ++k) places[i].push_back(node * all.place(k));
+        const std::size_t step = (all.count + most - 1) / most;
+        for (std::size_t k = 0; k < all.count; k += step)
+            visit(i, node * all.place(k), static_cast<double>(std::min(step, all.count - k)));
     });
-    return places;
 }
 
 } // namespace facetmill::io

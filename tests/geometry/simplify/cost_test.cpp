@@ -22,6 +22,7 @@ namespace {
 
 State priced(const Mesh& mesh, bool endpoints) {
     State s = lay_out(mesh, UsedVertices(mesh));
+    s.edges.cost.assign(s.tri.size(), never);
     classify(s, mesh, {});
     s.quadrics = {.near = vertex_quadrics(s), .fine = {}, .attributes = {}};
     s.rules.endpoints = endpoints;
@@ -141,6 +142,7 @@ TEST_CASE("fillets beside large flat faces are not cheap", "[geometry]") {
 TEST_CASE("fine quadrics are for surfaces with much that is flat", "[geometry]") {
     const auto is_fine = [](const Mesh& mesh) {
         State s = lay_out(mesh, UsedVertices(mesh));
+        s.edges.cost.assign(s.tri.size(), never);
         classify(s, mesh, {});
         set_quadrics(s);
         return s.quadrics->fine.has_value();
