@@ -33,23 +33,15 @@ inline double mean_stretch(const Transform& t) {
     return volume > 0 && std::isfinite(volume) && volume != 1 ? exponential(logarithm(volume) / 3) : 1;
 }
 
-/// What every length grows by, when that is the same in all directions: as long as the squares of lengths and
-/// the products of axes differ by less than `tolerance` times the sum of the squares. None else.
-inline std::optional<double> uniform_stretch(const Transform& t, double tolerance) {
-    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
-    const double xx = dot(x, x), slack = tolerance * (xx + dot(y, y) + dot(z, z));
-    const bool similar = std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
-                         std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack &&
-                         std::abs(dot(z, x)) < slack;
-    return similar ? std::optional(std::sqrt(xx)) : std::nullopt;
-}
-
 /// The greatest growth of any length: exact for similarities, else at most sqrt(3) times as much. 1 for a
 /// transform that flattens to a point.
 inline double greatest_stretch(const Transform& t) {
     const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
-    const auto uniform = uniform_stretch(t, 1e-9);
-    const double most = uniform ? *uniform : std::sqrt(dot(x, x) + dot(y, y) + dot(z, z));
+    const double xx = dot(x, x), sum = xx + dot(y, y) + dot(z, z), slack = 1e-9 * sum;
+    const bool similar = std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
+                         std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack &&
+                         std::abs(dot(z, x)) < slack;
+    const double most = std::sqrt(similar ? xx : sum);
     return most > 0 ? most : 1;
 }
 

@@ -3,7 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/readable_numbers.hpp"
 #include "io/gltf/gltf.hpp"
-#include "mesh/transform.hpp"
+#include "mesh/face.hpp"
 #include "stage/context.hpp"
 
 #include <algorithm>
@@ -65,8 +65,7 @@ class FacingArea {
             mesh.face_count(), FacingArea{},
             [&](std::size_t begin, std::size_t end) {
                 FacingArea all;
-                for (auto f = static_cast<Index>(begin); f < end; ++f)
-                    all.add(twice_area_vector(mesh, f) / 2);
+                for (auto f = static_cast<Index>(begin); f < end; ++f) all.add(area_vector(mesh, f) / 2);
                 return all;
             },
             [](const FacingArea& a, const FacingArea& b) { return a.plus(b); });
@@ -87,13 +86,6 @@ class FacingArea {
     }
 
   private:
-    static Vec3 twice_area_vector(const Mesh& mesh, Index f) {
-        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-        Vec3 twice;
-        for (Index c = begin + 1; c + 1 < end; ++c)
-            twice += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
-        return twice;
-    }
     void add(const Vec3& area) {
         const double size = length(area);
         if (!(size > 0)) return;
