@@ -69,13 +69,14 @@ struct Outcome {
 
 class Certifier {
   public:
-    Certifier(DirectedDeviation& d, const Surface& from, const FaceTree& to,
+    Certifier(DirectedDeviation& d, const Surface& from, const FaceTree& to, double within,
               const DeviationSettings& settings)
-        : d_(d), from_(from), tree_(to), settings_(settings), slack_(from.bounds().diagonal() * 1e-6) {}
+        : d_(d), from_(from), tree_(to), settings_(settings), within_(within),
+          slack_(from.bounds().diagonal() * 1e-6) {}
 
-    void run(std::span<const Index> order) {
+    void run(std::span<const Index> order, std::span<const Index> near) {
         ShareOfRounds rounds;
-        const Beyond beyond = beyond_maximum(order);
+        const Beyond beyond = beyond_within(order, near);
         rounds.next();
         start_with(beyond.triangles);
         start_with(beyond.pieces);
@@ -88,26 +89,26 @@ class Certifier {
             rounds.next();
         }
         for (const auto& piece : pieces_) settled_ = std::max(settled_, piece.bound);
-        d_.bound = std::max(settled_, d_.maximum);
+        d_.bound = std::max({settled_, within_, d_.maximum});
     }
 
   private:
     static constexpr std::size_t per_piece =
         4; ///< points looked up for a piece: its middle, and of its edges
 
-    double target() const { return d_.maximum * (1 + settings_.certify_to) + slack_; }
+    double target() const { return std::max(within_, d_.maximum) * (1 + settings_.certify_to) + slack_; }
 
     Corner corner_at(const Vec3& p, Index hint) const { return {p, closest_point(tree_, p, hint)}; }
 
-    /// What of the surface may be farther than the maximum. Where that is next to nothing, all: the search
-    /// tells float32 apart only.
-    Beyond beyond_maximum(std::span<const Index> order) const {
+    /// What of the surface may be farther than that. Where that is next to nothing, all: the search tells
+    /// float32 apart only.
+    Beyond beyond_within(std::span<const Index> order, std::span<const Index> near) const {
         std::vector<Index> finite;
         for (const Index t : order)
             if (is_finite(from_.point(t, 0)) && is_finite(from_.point(t, 1)) && is_finite(from_.point(t, 2)))
                 finite.push_back(t);
-        if (settings_.certify_work == 0 || !(d_.maximum > slack_)) return {std::move(finite), {}};
-        return pieces_beyond(from_, finite, tree_, d_.maximum, settings_.certify_work / per_piece);
+        if (settings_.certify_work == 0 || !(within_ > slack_)) return {std::move(finite), {}};
+        return pieces_beyond(from_, finite, tree_, near, within_, settings_.certify_work / per_piece);
     }
 
     /// Keeps what its corners do not settle.
@@ -250,6 +251,7 @@ class Certifier {
     const Surface& from_;
     const FaceTree& tree_;
     const DeviationSettings& settings_;
+    double within_;
     double slack_; ///< so that equal surfaces come to an end
     std::vector<Piece> pieces_;
     double settled_ = 0;
@@ -258,8 +260,12 @@ class Certifier {
 } // namespace
 
 void bound_deviation(DirectedDeviation& d, const Surface& from, std::span<const Index> order,
-                     const FaceTree& to, const DeviationSettings& settings) {
-    Certifier(d, from, to, settings).run(order);
+                     const FaceTree& to, std::span<const Index> near, double within,
+                     const DeviationSettings& settings) {
+    if (d.vertices == 0 || to.empty())
+        d.bound = d.maximum;
+    else
+        Certifier(d, from, to, within, settings).run(order, near);
 }
 
 } // namespace facetmill

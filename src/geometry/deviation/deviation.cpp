@@ -94,9 +94,8 @@ std::size_t next_parts(std::size_t parts, double times) {
 
 /// The means are of as many samples as they need; the maximum is the farthest of all, and of the vertices.
 void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk& walk,
-                     MeasuredSamples& samples, const DeviationSettings& settings) {
+                     MeasuredSamples& samples, const DeviationSettings& settings, std::vector<Index>& near) {
     ShareOfSteps steps({2, 12, 2});
-    std::vector<Index> near;
     raise_maximum(d, from,
                   walk.farthest_vertex(0, near)); // first: what is next to nothing beside it is soon measured
     steps.next();
@@ -118,31 +117,26 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk
     set_means(d, sums);
 }
 
-/// order: the triangles, each near the one before.
-DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order, const FaceTree& to,
-                               const DeviationSettings& settings) {
+/// Without the bound. order: the triangles, each near the one before. near: set to, [vertices], a triangle of
+/// the other surface's tree that the vertex is within the maximum of, or none; or left empty.
+DirectedDeviation measured_to(const Surface& from, std::span<const Index> order, const FaceTree& to,
+                              const DeviationSettings& settings, std::vector<Index>& near) {
     DirectedDeviation d;
     const SampleWalk walk(from, order, to);
     d.vertices = walk.vertex_count();
-    if (d.vertices == 0) {
-        if (settings.certify) d.bound = 0;
-        return d;
-    }
+    if (d.vertices == 0) return d;
     if (to.empty()) {
         d.maximum = d.rms = d.mean = HUGE_VAL;
-        if (settings.certify) d.bound = HUGE_VAL;
         return d;
     }
-    ShareOfSteps steps({1, 12, settings.certify ? 26.0 : 0.0});
+    ShareOfSteps steps({1, 12});
     MeasuredSamples samples(from, order, settings.samples, settings.seed);
     d.samples = samples.points.size();
     steps.next();
     if (samples.points.size() == 0)
         measure_vertices(d, from, walk, to, settings);
     else
-        measure_samples(d, from, walk, samples, settings);
-    steps.next();
-    if (settings.certify) bound_deviation(d, from, order, to, settings);
+        measure_samples(d, from, walk, samples, settings, near);
     return d;
 }
 
@@ -160,7 +154,13 @@ double DeviationResult::percent(double length) const {
 DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const DeviationSettings& settings) {
     const auto corner = [&](std::size_t t) { return from.point(t, 0); };
     const Box dense = dense_box(from.size(), from.bounds(), corner);
-    return deviation_to(from, order_along_curve(from.size(), dense, corner), to, settings);
+    const std::vector<Index> order = order_along_curve(from.size(), dense, corner);
+    ShareOfSteps steps({1, settings.certify ? 2.0 : 0.0});
+    std::vector<Index> near;
+    DirectedDeviation d = measured_to(from, order, to, settings, near);
+    steps.next();
+    if (settings.certify) bound_deviation(d, from, order, to, near, d.maximum, settings);
+    return d;
 }
 
 namespace {
@@ -206,17 +206,11 @@ std::vector<Index> order_of(const Surface& surface, const FaceTree& tree) {
     return order;
 }
 
-DirectedDeviation deviation_between(const Surface& from, std::span<const Index> order, const Surface& to,
-                                    FaceTree& tree, const DeviationSettings& settings) {
-    if (is_far(from, to, tree)) tree.flatten();
-    return deviation_to(from, order, tree, settings);
-}
-
 /// Of a tree that is to be asked for points of another surface: where they are fewer than its triangles, it
-/// is not worth sorting as well as it can be. A bound asks for more.
+/// is not worth sorting as well as it can be.
 FaceTree::Use use_of_tree(const Surface& surface, const Surface& other, const DeviationSettings& settings) {
     const std::size_t points = settings.samples + other.positions.size();
-    return !settings.certify && points < surface.size() ? FaceTree::Use::few : FaceTree::Use::near;
+    return points < surface.size() ? FaceTree::Use::few : FaceTree::Use::near;
 }
 
 Surface scaled(Surface surface, const PowerScale& scale) {
@@ -252,17 +246,26 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
         result.forward = result.backward = deviation_from_itself(first, settings);
         return result;
     }
-    ShareOfSteps steps({1, 4, 4});
+    ShareOfSteps steps({1, 4, 4, settings.certify ? 8.0 : 0.0, settings.certify ? 8.0 : 0.0});
     FaceTree first_tree = FaceTree::over(first, of_first, use_of_tree(first, second, settings)),
              second_tree = FaceTree::over(second, of_second, use_of_tree(second, first, settings));
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
+    std::vector<Index> near_first, near_second; // vertices
     steps.next();
-    result.forward = deviation_between(first, first_order, second, second_tree, settings);
+    if (is_far(first, second, second_tree)) second_tree.flatten();
+    result.forward = measured_to(first, first_order, second_tree, settings, near_first);
     steps.next();
-    result.backward = deviation_between(second, second_order, first, first_tree, settings);
+    if (is_far(second, first, first_tree)) first_tree.flatten();
+    result.backward = measured_to(second, second_order, first_tree, settings, near_second);
     const bool one_empty = (result.forward.vertices == 0) != (result.backward.vertices == 0);
     if (one_empty)
         for (auto* d : {&result.forward, &result.backward}) d->maximum = d->rms = d->mean = HUGE_VAL;
+    if (!settings.certify) return result;
+    steps.next();
+    bound_deviation(result.forward, first, first_order, second_tree, near_first, result.maximum(), settings);
+    steps.next();
+    bound_deviation(result.backward, second, second_order, first_tree, near_second, result.maximum(),
+                    settings);
     return result;
 }
 

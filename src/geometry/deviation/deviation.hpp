@@ -21,8 +21,8 @@ struct DeviationSettings {
     bool means = true;
     std::uint64_t seed = 1;
     bool certify = false; ///< also compute DirectedDeviation::bound
-    /// Stop when the bound exceeds the maximum by no more than this part of it, and a millionth of the
-    /// diagonal.
+    /// Stop when the bound exceeds the maximum, of both ways the larger, by no more than this part of it, and
+    /// a millionth of the diagonal.
     double certify_to = 0.01;
     /// Closest points that certify may look up, each way: work, not time, so that the result does not depend
     /// on the machine.
@@ -39,7 +39,8 @@ struct DirectedDeviation {
     double maximum = 0, rms = 0, mean = 0;
     Vec3 from, to;     ///< the farthest sample and the point closest to it
     Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex
-    /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`.
+    /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`;
+    /// of two ways, the bound of both is at least the larger maximum, beyond which nothing is searched.
     std::optional<double> bound;
     std::size_t looked_up = 0; ///< closest points that certify looked up; they enter the maximum
 };

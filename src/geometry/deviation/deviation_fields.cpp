@@ -33,7 +33,9 @@ void declare_way(DeclareFields<DirectedDeviation>& d) {
         .unit("scene units")
         .null_when(infinite);
     d.field("mean", &DirectedDeviation::mean, "The mean distance.").unit("scene units").null_when(infinite);
-    d.field("bound", &DirectedDeviation::bound, "A guaranteed upper bound: no point is farther than this.")
+    d.field(
+         "bound", &DirectedDeviation::bound,
+         "A guaranteed upper bound: no point is farther than this. At least the larger maximum of both ways.")
         .unit("scene units")
         .null_when(uncertified);
     const auto at = [](const DirectedDeviation& way) {

@@ -20,10 +20,11 @@ std::vector<T> in_a_row(std::vector<T> a, const std::vector<T>& b) {
 /// Triangles beside each other, until their corners are as many as are compared at once.
 class TriangleGroup {
   public:
-    TriangleGroup(const Surface& from, const FaceTree& to, double distance)
-        : from_(from), distance_(distance), together_(to) {}
+    TriangleGroup(const Surface& from, const FaceTree& to, std::span<const Index> near, double distance)
+        : from_(from), to_(to), near_(near), distance_(distance), together_(to) {}
 
     void add(Index t) {
+        if (is_within(t)) return;
         if (vertices_.size() + 3 > GroupDistances::most) finish();
         std::uint32_t set = 0;
         for (std::size_t k = 0; k < 3; ++k)
@@ -51,6 +52,23 @@ class TriangleGroup {
     std::vector<Index> beyond;
 
   private:
+    /// Whether a triangle that a corner is near is as near to the others.
+    bool is_within(Index t) const {
+        if (near_.empty()) return false;
+        const Index* const corners = &from_.corners[3 * std::size_t{t}];
+        const auto near = [&](std::size_t k) { return near_[corners[k]]; };
+        const auto all_near = [&](std::size_t k) {
+            for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3})
+                if (near(other) != near(k) &&
+                    !(closest_on(to_, near(k), from_.positions[corners[other]]).distance <= distance_))
+                    return false;
+            return true;
+        };
+        for (std::size_t k = 0; k < 3; ++k)
+            if (near(k) != none && (k == 0 || near(k) != near(k - 1)) && all_near(k)) return true;
+        return false;
+    }
+
     std::size_t number_of(Index vertex) {
         const auto at = std::find(vertices_.begin(), vertices_.end(), vertex);
         const auto number = static_cast<std::size_t>(at - vertices_.begin());
@@ -62,6 +80,8 @@ class TriangleGroup {
     }
 
     const Surface& from_;
+    const FaceTree& to_;
+    std::span<const Index> near_;
     double distance_;
     GroupDistances together_;
     Index hint_ = none;
@@ -79,7 +99,7 @@ double longest_edge(const SurfacePiece& piece) {
 
 /// Into how many an edge is cut, so that parts of even deviation are near enough to one triangle.
 std::size_t cuts_of(const SurfacePiece& piece, double distance) {
-    const double wanted = longest_edge(piece) / (1.5 * distance);
+    const double wanted = longest_edge(piece) / (2 * distance);
     return wanted >= most_cuts ? most_cuts : std::max<std::size_t>(2, static_cast<std::size_t>(wanted) + 1);
 }
 
@@ -151,12 +171,12 @@ class PieceCutter {
 };
 
 std::vector<Index> triangles_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
-                                    double distance) {
+                                    std::span<const Index> near, double distance) {
     Share::loop_tells();
     return parallel_reduce(
         order.size(), std::vector<Index>{},
         [&](std::size_t begin, std::size_t end) {
-            TriangleGroup group(from, to, distance);
+            TriangleGroup group(from, to, near, distance);
             for (std::size_t i = begin; i < end; ++i) group.add(order[i]);
             group.finish();
             return std::move(group.beyond);
@@ -164,59 +184,53 @@ std::vector<Index> triangles_beyond(const Surface& from, std::span<const Index> 
         in_a_row<Index>, 1024);
 }
 
-/// The parts of items `begin` to `end` that are beyond; piece_of(i) is the i-th.
-template <class PieceOf>
-std::vector<SurfacePiece> parts_beyond(std::size_t begin, std::size_t end, const FaceTree& to,
-                                       double distance, const PieceOf& piece_of) {
+/// Their parts that are beyond.
+std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, const FaceTree& to,
+                                       double distance) {
     return parallel_reduce(
-        end - begin, std::vector<SurfacePiece>{},
-        [&](std::size_t first, std::size_t last) {
+        pieces.size(), std::vector<SurfacePiece>{},
+        [&](std::size_t begin, std::size_t end) {
             PieceCutter cutter(to, distance);
-            for (std::size_t i = begin + first; i < begin + last; ++i) cutter.cut(piece_of(i));
+            for (const SurfacePiece& piece : pieces.subspan(begin, end - begin)) cutter.cut(piece);
             return std::move(cutter.beyond);
         },
         in_a_row<SurfacePiece>, 256);
 }
 
-/// Cuts the items one after the other, until all are or the parts are more than `most`. Returns how many are.
-template <class PieceOf>
-std::size_t cut_until(std::size_t most, std::size_t count, const FaceTree& to, double distance,
-                      const PieceOf& piece_of, std::vector<SurfacePiece>& parts) {
-    constexpr std::size_t batch = 16384;
-    std::size_t done = 0;
-    while (done < count && parts.size() <= most) {
-        const std::size_t end = std::min(done + batch, count);
-        parts = in_a_row(std::move(parts), parts_beyond(done, end, to, distance, piece_of));
-        done = end;
-        Share::tell(static_cast<double>(done) / static_cast<double>(count));
+constexpr std::size_t batch = 16384; ///< pieces that are cut before it is asked whether too many are left
+
+/// Cuts pieces so many times and adds what is left of them, those not cut as well: once more than about
+/// `most` are left, no more are cut. What is left of a batch is cut again before the next batch.
+void cut_until(std::size_t most, int times, std::span<const SurfacePiece> pieces, const FaceTree& to,
+               double distance, std::vector<SurfacePiece>& left) {
+    while (times > 0 && !pieces.empty() && left.size() <= most) {
+        const auto some = pieces.first(std::min(batch, pieces.size()));
+        cut_until(most, times - 1, parts_beyond(some, to, distance), to, distance, left);
+        pieces = pieces.subspan(some.size());
     }
-    return done;
+    left.insert(left.end(), pieces.begin(), pieces.end());
 }
 
 } // namespace
 
-Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to, double distance,
-                     std::size_t most) {
-    ShareOfSteps steps({1, 4, 1});
+Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
+                     std::span<const Index> near, double distance, std::size_t most) {
+    ShareOfSteps steps({1, 5});
     Beyond beyond;
     std::vector<Index>& triangles = beyond.triangles;
-    std::vector<SurfacePiece>& pieces = beyond.pieces;
-    triangles = triangles_beyond(from, order, to, distance);
+    triangles = triangles_beyond(from, order, to, near, distance);
     steps.next();
-    const auto whole = [&](std::size_t i) {
-        const Index t = triangles[i];
-        return SurfacePiece{{from.point(t, 0), from.point(t, 1), from.point(t, 2)}, t};
-    };
-    const std::size_t cut = cut_until(most, triangles.size(), to, distance, whole, pieces);
-    triangles.erase(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(cut));
-    steps.next();
-    for (int again = 0; again < 2 && pieces.size() <= most; ++again) {
-        std::vector<SurfacePiece> parts;
-        const auto piece = [&](std::size_t i) { return pieces[i]; };
-        const std::size_t done = cut_until(most, pieces.size(), to, distance, piece, parts);
-        parts.insert(parts.end(), pieces.begin() + static_cast<std::ptrdiff_t>(done), pieces.end());
-        pieces = std::move(parts);
+    std::size_t done = 0;
+    while (done < triangles.size() && beyond.pieces.size() <= most) {
+        std::vector<SurfacePiece> whole;
+        for (const std::size_t end = std::min(done + batch, triangles.size()); done < end; ++done) {
+            const Index t = triangles[done];
+            whole.push_back({{from.point(t, 0), from.point(t, 1), from.point(t, 2)}, t});
+        }
+        cut_until(most, 3, whole, to, distance, beyond.pieces);
+        Share::tell(static_cast<double>(done) / static_cast<double>(triangles.size()));
     }
+    triangles.erase(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(done));
     return beyond;
 }
 

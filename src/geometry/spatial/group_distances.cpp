@@ -374,21 +374,58 @@ TriangleSlabs GroupDistances::slabs_of(std::uint32_t node) const {
             done_square_};
 }
 
+/// Of the triangles below the gathered nodes that are not tried, the one whose box is nearest to a point,
+/// within the distance of it; none when there is none. Then it is tried.
+Index GroupDistances::next_near(const Vec3& point, double distance) {
+    Box at;
+    at.add(point);
+    const BoxQuery query(tree_, at, distance);
+    Float4 least = four(HUGE_VALF);
+    Int4 nodes{};
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        const Float4 squares = query.squares(tree_.node(0, nodes_[n])) + tried_[n];
+        const Int4 nearer = squares < least;
+        least = nearer ? squares : least;
+        nodes = nearer ? Int4{} + static_cast<std::int32_t>(n) : nodes;
+    }
+    unsigned lane = 0;
+    for (unsigned i = 1; i < 4; ++i)
+        if (least[i] < least[lane]) lane = i;
+    if (((query.near(least) >> lane) & 1) == 0) return none;
+    const auto n = static_cast<std::size_t>(nodes[lane]);
+    tried_[n][lane] = HUGE_VALF;
+    return 4 * nodes_[n] + lane;
+}
+
+/// A triangle that is within the distance of all points of a set is so of their middle. For one set after the
+/// other those are tried, the nearest first, which other sets are within the distance of, too.
 void GroupDistances::remove_within(std::span<const Vec3> points, double distance,
                                    std::vector<std::uint32_t>& sets, Index& hint) {
     if (!lay_out(points, distance)) return;
-    const auto done = [&](Index triangle) {
-        const std::uint32_t near = within(points, triangle, ~std::uint32_t{0});
+    const auto remove = [&](Index triangle, std::size_t from) {
+        std::uint32_t among = 0;
+        for (std::size_t i = from; i < sets.size(); ++i) among |= sets[i];
+        const std::uint32_t near = within(points, triangle, among);
         const auto covered = [&](std::uint32_t set) { return (set & ~near) == 0; };
-        if (near != 0 && std::erase_if(sets, covered) > 0) hint = triangle;
-        return sets.empty();
+        const auto begin = sets.begin() + static_cast<std::ptrdiff_t>(from);
+        const auto end = near == 0 ? sets.end() : std::remove_if(begin, sets.end(), covered);
+        if (end == sets.end()) return;
+        sets.erase(end, sets.end());
+        hint = triangle;
     };
-    const Box box = box_around(points);
-    if ((hint != none && done(hint)) || !gather(box, distance, many_nodes)) return;
-    const BoxQuery query(tree_, box, distance);
-    for (const std::uint32_t leaf : nodes_)
-        for (unsigned bits = query.near(tree_.node(0, leaf)); bits != 0; bits &= bits - 1)
-            if (done(4 * leaf + static_cast<Index>(std::countr_zero(bits)))) return;
+    if (hint != none) remove(hint, 0);
+    if (sets.empty() || !gather(box_around(points), distance, many_nodes)) return;
+    tried_.assign(nodes_.size(), Float4{});
+    for (std::size_t first = 0; first < sets.size();) {
+        Vec3 sum;
+        for (std::uint32_t left = sets[first]; left != 0; left &= left - 1)
+            sum += points[static_cast<std::size_t>(std::countr_zero(left))];
+        const Index near = next_near(sum / std::popcount(sets[first]), distance);
+        if (near == none)
+            ++first; // stays, and so is no more asked about
+        else
+            remove(near, first);
+    }
 }
 
 } // namespace facetmill

@@ -87,6 +87,7 @@ class GroupDistances {
     TriangleSlabs slabs_of(std::uint32_t node) const;
     bool place(std::span<const Vec3> points, const Vec3& centre, double reach);
     bool gather(const Box& box, double limit, std::size_t most_nodes);
+    Index next_near(const Vec3& point, double distance);
     bool compare_until(float enough_square, std::span<const Vec3> points, const Box& box, double limit);
     bool compare_nearer(std::span<const Vec3> points, const Box& box, std::uint32_t but);
     double limit() const;
@@ -111,6 +112,7 @@ class GroupDistances {
         children_; ///< of one level and the one below, that may hold the closest
     std::vector<float>
         squares_; ///< of the distances of the points' box to the children's, in the tree's frame
+    std::vector<Float4> tried_; ///< of the gathered nodes' children, infinity for those tried, else 0
 
     // In the group's frame.
     Vec3 centre_;

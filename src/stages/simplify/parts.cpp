@@ -134,7 +134,7 @@ class Simplifier {
         // An entry is a kilobyte: to grow the list would copy and fault in several times as many.
         report_.parts.reserve(scene_.parts.size() * (o_.lods ? o_.lods->ratios.size() : 1));
         const bool shared = shares_by_error(o_) && scene_.parts.size() > 1;
-        const double measuring = !measures() ? 0.2 : o_.certify ? 9 : 2; // beside what is collapsed
+        const double measuring = !measures() ? 0.2 : o_.certify ? 5 : 2; // beside what is collapsed
         ShareOfSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
         share_target();
         steps.next();

@@ -82,12 +82,16 @@ TEST_CASE("the farthest point may be inside a face; the bound knows", "[geometry
     peak.corners = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
     const auto blind = deviation(flat, peak, {.samples = 0});
     CHECK(blind.forward.maximum == 0);
-    const auto sure = deviation(flat, peak, {.samples = 0, .certify = true});
+    const auto sure =
+        deviation_to(surface_of(flat), FaceTree(surface_of(peak)), {.samples = 0, .certify = true});
     const double truth = 0.5 / std::sqrt(1.25); // from the middle to the plane of a side, 1 up and 0.5 aside
-    CHECK(sure.forward.maximum <= truth * (1 + 1e-12));
-    CHECK(*sure.forward.bound >= truth * (1 - 1e-12));
-    CHECK(*sure.forward.bound <= truth * 1.011);
-    CHECK(sure.backward.maximum == 1);
+    CHECK(sure.maximum <= truth * (1 + 1e-12));
+    CHECK(*sure.bound >= truth * (1 - 1e-12));
+    CHECK(*sure.bound <= truth * 1.011);
+    const auto both = deviation(flat, peak, {.samples = 0, .certify = true});
+    CHECK(both.backward.maximum == 1);
+    CHECK(*both.bound() >= 1);
+    CHECK(*both.bound() <= 1.01 + 1e-6 * both.diagonal);
 }
 
 TEST_CASE("the bound of a corrugated sheet is what its slopes say", "[geometry]") {
@@ -104,7 +108,11 @@ TEST_CASE("the bound of a corrugated sheet is what its slopes say", "[geometry]"
         CHECK(*d.forward.bound <= height * 1.01 + 1e-6 * d.diagonal);
         CHECK(d.backward.maximum <= truth * (1 + 1e-12));
         CHECK(*d.backward.bound >= truth * (1 - 1e-12));
-        CHECK(*d.backward.bound <= truth * 1.01 + 1e-6 * d.diagonal);
+        CHECK(*d.backward.bound <= height * 1.01 + 1e-6 * d.diagonal); // the larger of both is asked about
+        const auto back = deviation_to(surface_of(flat), FaceTree(surface_of(ridges)),
+                                       {.samples = samples, .certify = true});
+        CHECK(*back.bound >= truth * (1 - 1e-12));
+        CHECK(*back.bound <= truth * 1.01 + 1e-6 * d.diagonal);
     }
 }
 
@@ -114,7 +122,7 @@ TEST_CASE("most of rough surfaces is bounded without looking up closest points",
     for (const auto* way : {&d.forward, &d.backward}) {
         CHECK(way->looked_up < 10000);
         CHECK(*way->bound >= way->maximum);
-        CHECK(*way->bound <= way->maximum * 1.01 + 1e-6 * d.diagonal);
+        CHECK(*way->bound <= d.maximum() * 1.01 + 1e-6 * d.diagonal);
     }
     // No point of many more is beyond the bound.
     const auto many = deviation(fine, coarse, {.samples = 1000000, .mean_error = 0, .seed = 3});
@@ -129,6 +137,16 @@ TEST_CASE("most of rough surfaces is bounded without looking up closest points",
         CHECK(again.backward.from == d.backward.from);
         CHECK(again.backward.looked_up == d.backward.looked_up);
     }
+}
+
+TEST_CASE("little work is enough for a bound where little of a surface is far", "[geometry]") {
+    // A large triangle is near many small ones, and parts of it are cut again before those of the next.
+    const Surface coarse = surface_of(test::noisy_icosphere(3, 0.004, 2)),
+                  fine = surface_of(test::noisy_icosphere(6, 0.004, 1));
+    const auto d = deviation_to(coarse, FaceTree(fine), {.certify = true, .certify_work = 400});
+    CHECK(d.looked_up < 2000);
+    CHECK(*d.bound >= d.maximum);
+    CHECK(*d.bound <= d.maximum * 1.01 + 1e-6 * coarse.bounds().diagonal());
 }
 
 TEST_CASE("little work leaves a bound that holds", "[geometry]") {
@@ -220,7 +238,7 @@ TEST_CASE("points are measured as points: all of them, to the nearest, by any nu
         CHECK(way.vertices == all.size());
         CHECK(way.face == none);
         CHECK(length(way.from - way.to) == way.maximum);
-        CHECK(*way.bound == Approx(way.maximum).epsilon(1e-9));
+        CHECK(*way.bound == Approx(d.maximum()).epsilon(1e-9));
     }
     set_threads(1);
     const auto alone = deviation(a, b);
