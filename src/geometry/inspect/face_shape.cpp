@@ -87,16 +87,13 @@ std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 
-/// Where the ray from p along d leaves through the triangle's front; negative when it does not (T. Moeller
-/// and B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
-double leaves_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 u = b - a, v = c - a, n = cross(u, v);
+/// How far along d, of length 1, a ray from p meets a triangle that it passes through: between the corners,
+/// also where it grazes the plane and rounding leaves nothing of the angle.
+double meets_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 n = cross(b - a, c - a);
+    const auto [least, most] = std::minmax({dot(a - p, d), dot(b - p, d), dot(c - p, d)});
     const double facing = dot(n, d);
-    if (!(facing > 0)) return -1;
-    const Vec3 w = p - a, q = cross(w, d);
-    const double s = -dot(v, q), t = dot(u, q); // barycentric, times facing
-    if (!(s >= 0 && t >= 0 && s + t <= facing)) return -1;
-    return -dot(n, w) / facing;
+    return facing > 0 ? std::clamp(dot(n, a - p) / facing, least, most) : least;
 }
 
 } // namespace
@@ -123,11 +120,15 @@ std::vector<double> wall_thicknesses(const Mesh& mesh) {
             const auto face = static_cast<Index>(f);
             const Vec3 d = -normalised(area_vector(mesh, face)), p = corner_mean(mesh, face);
             if (!(dot(d, d) > 0) || !is_finite(p)) return;
-            rays::LineWalk walk(tree, {p, p + d, true});
+            const Line line{p, p + d, true};
+            // Exact, so that a ray does not slip through between two faces at an edge.
+            const rays::LineSigns signs(line.from, line.to);
+            rays::LineWalk walk(tree, line);
             while (walk.step([&](Index t) {
                 if (tree.face(t) == face) return ways[f];
                 const auto [a, b, c] = tree.triangle(t);
-                const double at = leaves_at(p, d, a, b, c);
+                if (signs.passes(a, b, c) != 1) return ways[f]; // it does not leave through the front
+                const double at = meets_at(p, d, a, b, c);
                 if (at >= 0) ways[f] = std::min(ways[f], at);
                 return ways[f];
             })) {

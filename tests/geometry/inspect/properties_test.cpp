@@ -163,3 +163,17 @@ TEST_CASE("the table of properties", "[geometry]") {
     CHECK(property_named("self_intersections")->costly);
     CHECK_FALSE(property_named("clsoed"));
 }
+
+TEST_CASE("behind every face of a ball is a wall, also where the way to it ends at an edge", "[geometry]") {
+    const Property& wall = *property_named("wall_thickness");
+    std::size_t without = 0;
+    for (const int levels : {1, 2, 3})
+        for (const Vec3& scale : {Vec3{1, 2, 1}, Vec3{0.3, 1, 0.7}, Vec3{1.1, 0.9, 2.7}, Vec3{3, 1, 2}})
+            for (const Vec3& at : {Vec3{}, Vec3{0, 6, 0}}) {
+                Mesh ball = shapes::icosphere(levels);
+                for (Vec3& p : ball.positions)
+                    p = Vec3{p.x * scale.x + at.x, p.y * scale.y + at.y, p.z * scale.z + at.z};
+                for (const double x : face_values(ball, wall)) without += !std::isfinite(x);
+            }
+    CHECK(without == 0);
+}
