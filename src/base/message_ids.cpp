@@ -744,6 +744,12 @@ std::span<const MessageId> message_ids() {
          "than a millionth of the diagonal, because of rounding or a limit of the format.",
          "Use a format with more digits (`precision: full`), or more Draco bits; move distant parts to the "
          "origin (`transform: {centre: true}`)."},
+        {"W-SCENES",
+         {},
+         "Parts of a glTF file are not in the scene that viewers show, but in another one or in none. They "
+         "are "
+         "loaded, measured, changed and written as the others are.",
+         "If they are not meant, leave them out with the common key `only`, or export the scene alone."},
         {"W-SECTION-CROSSES",
          {},
          "Contours of a section intersect themselves. Every region that they wind around, in either "

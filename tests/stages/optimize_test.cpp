@@ -534,3 +534,41 @@ TEST_CASE("tracks that keep a node where it is go, and the animation stays as lo
     CHECK(longest["channels"].size() == 2);
     CHECK(moved("[" + moves + R"(,{"sampler":1,"target":{"node":0,"path":"translation"}}])").first == 0);
 }
+
+TEST_CASE("what is in the scene and what is not are not joined, and that it is not is told", "[stages]") {
+    const Json all = Json::parse(
+        document(R"({"mesh":0,"name":"hidden"},{"mesh":1,"name":"seen"},{"mesh":2,"name":"too"})",
+                 mesh(0) + "," + mesh(0, 2) + "," + mesh(0), R"("materials":[)" + colour("red", 1) + "]")
+            .documents.at(0)
+            ->json);
+    const auto of_roots = [&](const char* scenes, bool known = true) {
+        Json json = all;
+        json["scenes"] = Json::parse(scenes);
+        if (!known) json.erase("scene");
+        if (json["scenes"].empty()) json.erase("scenes");
+        return json;
+    };
+    const auto names_told = [](const Json& json) {
+        io::ReadLog log;
+        read_text(json.dump(), &log);
+        std::string told;
+        for (const Diagnostic& w : log.warnings)
+            if (w.id == "W-SCENES") told += w.message.substr(w.message.rfind(':') + 2);
+        return told;
+    };
+    CHECK(names_told(of_roots(R"([{"nodes":[0,1,2]}])")).empty());
+    CHECK(names_told(of_roots("[]", false)).empty()); // no scene is told from another
+    CHECK(names_told(of_roots(R"([{"nodes":[1,2]}])")) == "hidden");
+    CHECK(names_told(of_roots(R"([{"nodes":[2]},{"nodes":[0]}])", false)) == "hidden, seen");
+    Json levels = of_roots(R"([{"nodes":[1,2]}])");
+    levels["nodes"][1]["extensions"]["MSFT_lod"]["ids"] = {0};
+    CHECK(names_told(levels).empty()); // shown in place of the node that names it
+
+    const auto run = run_stage("optimize", "{}", read_text(of_roots(R"([{"nodes":[1,2]}])").dump()));
+    REQUIRE(run.scene.parts.size() == 2);
+    CHECK(run.scene.parts[0].mesh.face_count() == 1);
+    CHECK(run.scene.parts[1].mesh.face_count() == 2);
+    const Json json = json_again(run.scene);
+    const Json& root = json["nodes"][json["scenes"][0]["nodes"].at(0).get<std::size_t>()];
+    CHECK(root["name"] == "seen");
+}

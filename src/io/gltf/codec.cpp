@@ -6,6 +6,7 @@
 #include "base/quick_json.hpp"
 #include "base/words.hpp"
 #include "io/attributes.hpp"
+#include "io/flatten.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/instances.hpp"
 #include "io/gltf/lines.hpp"
@@ -136,6 +137,25 @@ void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>&
          false});
 }
 
+/// Says which parts are not in the scene that viewers show, though they are loaded like the others.
+void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& log) {
+    const std::vector<bool> shown = shown_nodes(document);
+    std::vector<std::string> names;
+    for (const Part& part : scene.parts)
+        if (part.node >= 0 && !shown[static_cast<std::size_t>(part.node)])
+            names.push_back(one_line(part.name));
+    if (names.empty()) return;
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-SCENES",
+         fmt::format("{} not in the scene that viewers show, but in another or in none: {}",
+                     names.size() == 1 ? "a part is" : counted(names.size(), "part") + " are",
+                     some_of(names)),
+         {},
+         "they are measured, changed and written as the others are; the common key `only` leaves them out",
+         false});
+}
+
 /// of_points: those are read apart.
 void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
                 const ReadSettings& settings, bool of_points, ReadLog& log) {
@@ -176,6 +196,7 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
         steps.next();
     }
     if (!all.empty() && !of_points) warn_of_nodes_of_points(source, frames, log);
+    warn_of_parts_not_shown(scene, source.json(), log);
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 

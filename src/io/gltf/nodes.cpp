@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
 
 namespace facetmill::io::gltf {
@@ -114,6 +115,31 @@ std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
             parent < 0 ? frames[i].local : frames[static_cast<std::size_t>(parent)].world * frames[i].local;
     }
     return frames;
+}
+
+std::vector<bool> shown_nodes(const Json& document) {
+    const std::size_t count = count_of(document, "nodes"), scenes = count_of(document, "scenes");
+    std::vector<bool> shown(count, scenes == 0);
+    if (scenes == 0) return shown;
+    std::vector<std::size_t> waiting;
+    const auto visit = [&](const std::optional<Place>& list) {
+        for (std::size_t i = 0; list && i < list->size(); ++i)
+            if (const std::size_t n = list->at(i).index(count, "node"); !shown[n]) {
+                shown[n] = true;
+                waiting.push_back(n);
+            }
+    };
+    const auto scene = Place(document, "").find("scene");
+    visit(item(document, "scenes", scene ? scene->index(scenes, "scene") : 0).find("nodes"));
+    while (!waiting.empty()) {
+        const Place node = item(document, "nodes", waiting.back());
+        waiting.pop_back();
+        visit(node.find("children"));
+        const auto extensions = node.find("extensions");
+        if (const auto levels = extensions ? extensions->find("MSFT_lod") : std::nullopt)
+            visit(levels->find("ids"));
+    }
+    return shown;
 }
 
 std::set<std::size_t> animated_nodes(const Json& document) {

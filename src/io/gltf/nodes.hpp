@@ -31,6 +31,10 @@ std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
 /// The node indices so that parents come before children.
 std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
 
+/// By node, whether the scene that viewers show (`scene`, or the first) has it, itself or as a level of
+/// detail; all are where the document has no scenes. Throws malformed (E-GLTF) for numbers that are none.
+std::vector<bool> shown_nodes(const Json& document);
+
 /// The nodes whose translation, rotation or scale an animation drives.
 std::set<std::size_t> animated_nodes(const Json& document);
 

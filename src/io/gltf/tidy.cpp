@@ -141,17 +141,19 @@ void drop_children(Json& owner, const char* key, const std::set<std::size_t>& de
 
 bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
 
-/// The nodes that are more than places, and those below them.
+/// The nodes that are more than places, or are not in the scene, where nothing may get into them or out, and
+/// those below them.
 std::set<std::size_t> bound_nodes(Json& document) {
     std::set<std::size_t> bound;
     const auto frames = node_frames(document);
     const bool all = count_of(document, "scenes") > 1 || has_unknown_extensions(document) ||
                      uses_extension(document, "KHR_animation_pointer");
+    const std::vector<bool> shown = shown_nodes(document);
     visit_named_nodes(document, [&](Json& r) { bound.insert(r.get<std::size_t>()); });
     for (const std::size_t n : parents_first(frames)) {
         const Json& node = document["nodes"][n];
         const int parent = frames[n].parent;
-        if (all || has_more(node) || node.contains("camera") || node.contains("weights") ||
+        if (all || !shown[n] || has_more(node) || node.contains("camera") || node.contains("weights") ||
             (parent >= 0 && bound.contains(static_cast<std::size_t>(parent))))
             bound.insert(n);
     }

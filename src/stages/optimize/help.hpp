@@ -26,8 +26,8 @@ different colours can be joined then. flatten moves nodes to the top of the scen
 one node, with a list of places, of parts that share a mesh and are not mirrored; later stages see
 its mesh once, so it comes last. `load: {instances: expand}` is its reverse.
 
-Parts stay by themselves, where they are, that are skinned, animated or joints, have morph targets,
-a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share
+Parts stay by themselves, where they are, that are skinned, animated or joints, are not in the
+scene that viewers show, have morph targets, a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share
 their mesh with another part (unless join_shared, or the same meshes stand together at each of their
 places: then they become one mesh, which stays shared); so do those that `only` leaves out.
 
