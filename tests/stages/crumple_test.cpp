@@ -4,6 +4,7 @@
 #include "support/capped.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
+#include "support/measure.hpp"
 #include "support/run_stage.hpp"
 #include "support/surface.hpp"
 
@@ -41,6 +42,23 @@ TEST_CASE("crumple: attribute changes tell of splitting and of moving", "[stages
         CHECK(entry.change.kind == (entry.change.attribute == "NORMAL"
                                         ? AttributeChange::Kind::recomputed
                                         : AttributeChange::Kind::interpolated));
+}
+
+TEST_CASE("crumple: a surface far from the origin is roughened, and not moved as a whole", "[stages]") {
+    const Mesh ball = shapes::icosphere(2);
+    const double smooth = test::area(ball);
+    for (const char* amplitude : {"amplitude: 1%", "amplitude: 1%, frequency: 20"})
+        for (const double far : {0.0, 5e6, -3e8}) {
+            INFO(far);
+            Mesh moved = ball;
+            for (Vec3& p : moved.positions) p += Vec3{far, far, far};
+            const auto r = run_stage("crumple", "{" + std::string(amplitude) + ", grid: 1}", scene_of(moved));
+            CHECK(test::area(r.mesh()) > smooth * 1.002);
+        }
+    Mesh tiny = ball;
+    for (Vec3& p : tiny.positions) p *= 1e-46; // float32 has nothing that small
+    CHECK(test::area(run_stage("crumple", "{grid: 1, amplitude: 1%}", scene_of(tiny)).mesh()) >
+          smooth * 1e-92 * 1.002);
 }
 
 TEST_CASE("crumple: parts that meet stay together", "[stages]") {

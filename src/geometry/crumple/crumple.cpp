@@ -128,7 +128,7 @@ class Amounts {
   public:
     Amounts(const Settings& s, const std::vector<Vec3>& world, const std::vector<std::uint64_t>& keys)
         : settings_(s), world_(world),
-          keys_(keys), correlated_{s.frequency, s.octaves, s.roughness, s.truncate} {}
+          keys_(keys), correlated_{s.frequency, s.octaves, s.roughness, s.truncate, s.places} {}
 
     /// Calls use(v, amounts of v) for the vertices from begin to end.
     template <class Use>
@@ -172,7 +172,7 @@ CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
     std::vector<Vec3> world(n);
     parallel_for(n, [&](std::size_t v) {
         world[v] = placed ? settings.to_world.point(mesh.positions[v]) : mesh.positions[v];
-        result.keys[v] = noise_key(settings.seed, world[v]);
+        result.keys[v] = noise_key(settings.seed, world[v], settings.places);
     });
     const bool along = settings.direction == Settings::Direction::normal;
     const std::vector<Vec3> normals =

@@ -17,6 +17,16 @@ std::uint32_t canonical_bits(double x) {
     return f == 0 ? 0 : std::bit_cast<std::uint32_t>(f);
 }
 
+/// The nearest number of 40 significant bits: fewer than the 53 of a double, so that what differs by the
+/// rounding of a transform is mostly one place. 0 for -0.
+double as_far_place(double x) {
+    constexpr int left_out = 53 - 40;
+    const std::uint64_t half = std::uint64_t{1} << (left_out - 1);
+    const double rounded =
+        std::bit_cast<double>((std::bit_cast<std::uint64_t>(x) + half) & ~(2 * half - 1)); // may carry up
+    return rounded == 0 ? 0 : rounded;
+}
+
 /// The lattice cell of a coordinate, and the smooth weight (0 to 1) of its upper end.
 struct NoiseCell {
     std::int64_t low;
@@ -65,14 +75,21 @@ void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<d
         if (!(all[i] >= -truncate && all[i] <= truncate)) all[i] = gaussian(keys[i], truncate);
 }
 
-std::uint64_t noise_key(std::uint64_t seed, const Vec3& world) {
+std::uint64_t noise_key(std::uint64_t seed, const Vec3& world, PlaceRounding rounding) {
+    std::uint64_t key = hashed(seed, 0x6372756d706c65);
+    if (rounding == PlaceRounding::far) {
+        for (std::size_t i = 0; i < 3; ++i)
+            key = hashed(key, std::bit_cast<std::uint64_t>(as_far_place(world[i])));
+        return key;
+    }
     const std::uint64_t xy = (std::uint64_t{canonical_bits(world.x)} << 32) | canonical_bits(world.y);
-    return hashed(hashed(hashed(seed, 0x6372756d706c65), xy), canonical_bits(world.z));
+    return hashed(hashed(key, xy), canonical_bits(world.z));
 }
 
 double CorrelatedNoise::at(std::uint64_t seed, const Vec3& world) const {
     Vec3 p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = as_float32(world[i]) * frequency;
+    for (std::size_t i = 0; i < 3; ++i)
+        p[i] = (places == PlaceRounding::far ? as_far_place(world[i]) : as_float32(world[i])) * frequency;
     double sum = 0, squares = 0, amount = 1;
     for (int k = 0; k < octaves; ++k) {
         sum += amount * octave(hashed(seed, 0x6f637461 + static_cast<std::uint64_t>(k)), p, truncate);

@@ -14,7 +14,8 @@ vertices at one position move by the smallest share of any of them. The caps of 
 (caps: free moves them as well). Faces may intersect when the amplitude is large
 compared with their size.
 
-The noise at a vertex depends only on the seed and on its world position rounded to float32:
+The noise at a vertex depends only on the seed and on its world position rounded to float32 (to 40
+bits in scenes so far from the origin that float32 would move them by a millionth of their diagonal):
 vertices at one position move together across seams, unwelded copies, parts and files, and neither
 the order of vertices nor the number of threads matters. For the same reason instances of one mesh
 differ afterwards, and each has its own mesh. There are two exceptions to the rule. Along the normal,

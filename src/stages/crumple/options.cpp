@@ -1,5 +1,6 @@
 #include "stages/crumple/options.hpp"
 
+#include "mesh/float32_ulp.hpp"
 #include "mesh/power_scale.hpp"
 #include "options/mark_at.hpp"
 
@@ -91,6 +92,11 @@ CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
     s.frequency = whole > 0 ? o.frequency / whole : 0;
     s.octaves = static_cast<int>(o.octaves);
     s.roughness = o.roughness;
+    // Where write gives positions 64 bits, too: float32 would move them by a millionth of the diagonal. What
+    // avoids intersections takes them as float32 in any case.
+    if (o.self_intersections == CrumpleOptions::Intersections::allow && whole > 0 &&
+        0.5 * float32_ulp(scene.bounds()) > 1e-6 * whole)
+        s.places = PlaceRounding::far;
     return s;
 }
 

@@ -42,6 +42,19 @@ TEST_CASE("the noise belongs to the place: -0 is 0, and float32 decides", "[geom
     CHECK(noise_key(1, {0, 1, 2}) != noise_key(1, {1, 0, 2}));
 }
 
+TEST_CASE("far places are of 40 bits: what float32 cannot tell apart is, what rounding moved is not",
+          "[geometry]") {
+    using enum PlaceRounding;
+    const double northing = 5e6;
+    CHECK(noise_key(1, {0, northing, 2}) == noise_key(1, {0, northing + 0.01, 2}));
+    CHECK(noise_key(1, {0, northing, 2}, far) != noise_key(1, {0, northing + 0.01, 2}, far));
+    CHECK(noise_key(1, {-0.0, northing, 2}, far) == noise_key(1, {0, std::nextafter(northing, 6e6), 2}, far));
+    CHECK(noise_key(1, {0, northing, 2}, far) != noise_key(1, {0, -northing, 2}, far));
+    CHECK(noise_key(1, {0, 0x1p23 - 0x1p-30, 0}, far) == noise_key(1, {0, 0x1p23, 0}, far));
+    const CorrelatedNoise noise{.frequency = 10, .places = far};
+    CHECK(noise.at(1, {0.55, northing, 0.55}) != noise.at(1, {0.55, northing + 0.01, 0.55}));
+}
+
 TEST_CASE("crumpling moves vertices by at most the truncated amplitude and keeps the topology",
           "[geometry]") {
     const Mesh m = shapes::icosphere(3);
