@@ -723,6 +723,11 @@ std::span<const MessageId> message_ids() {
          "The name of a file to write has what other programs replace, such as `{input.stem}`; facetmill "
          "replaces `${input.stem}` (in `facetmill pipe` `@{input.stem}`), so the name has it as it is.",
          "Write an expression with `$` (or `@`); `--quiet=W-PLACEHOLDER` if the name is meant."},
+        {"W-POINTS",
+         {},
+         "A stage that works on faces leaves clouds of points, parts without faces and lines, as they are.",
+         "Leave them out with the common key `only`. `crop`, `clip`, `tile`, `transform` and `merge` work on "
+         "points."},
         {"W-PROBE-OPEN",
          {},
          "The surface is open, so no point is inside or outside.",

@@ -142,6 +142,13 @@ bool hint_fits(const Property& property, const Bound& bound, const Properties& p
                                         : !(bound.min && *value < *bound.min);
 }
 
+/// A cloud of points, asked for what only faces or lines have, or how many points it has: no stage helps.
+bool lacks_faces(const Property& property, const Properties& properties) {
+    return properties.faces == 0 && properties.lines == 0 && properties.vertices > 0 &&
+           !property.of_scene() && property.kind != PropertyKind::box &&
+           (property.of_faces || !property.measure);
+}
+
 /// Whether what is measured, and not counted, is to be one number: hardly what was meant, unless it is 0.
 bool asks_exactly(const Property& property, const Bound& bound) {
     using enum PropertyKind;
@@ -169,6 +176,8 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         check.passed = holds(assertion, properties).value_or(assertion.if_applies);
         if (!check.passed && asks_exactly(property, assertion.bound))
             check.hint = "a bare value asks for exactly that: min asks for at least, max for at most";
+        else if (!check.passed && lacks_faces(property, properties))
+            check.hint = "the scene has points and no faces: most checks and stages are for faces";
         else if (!check.passed && hint_fits(property, assertion.bound, properties))
             check.hint = property.hint;
         check.where = assertion.where;

@@ -47,6 +47,23 @@ void leave_lines(const StageInfo& stage, const Scene& scene, Context& context) {
                      "load: {lines: 1%} makes tubes of lines");
 }
 
+void tell_of_points(const StageInfo& stage, const Scene& scene, Context& context) {
+    if (!stage.leaves_points) return;
+    const auto clouds =
+        static_cast<std::size_t>(std::count_if(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+            return part.mesh.face_count() == 0 && part.mesh.line_count() == 0 &&
+                   part.mesh.vertex_count() > 0 && context.selects(part, scene);
+        }));
+    if (clouds == 0) return;
+    if (stage.tells)
+        context.say(counted(clouds, "cloud") + " of points left out");
+    else
+        context.warn("W-POINTS",
+                     fmt::format("{} works on faces and leaves {} of points as {}", stage.name,
+                                 counted(clouds, "cloud"), clouds == 1 ? "it is" : "they are"),
+                     "leave them out with only; crop, clip and tile work on points");
+}
+
 } // namespace
 
 Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
@@ -62,6 +79,7 @@ Scene perform(const StageInfo& stage, Scene scene, const void* options, Context&
     if (crossing == CrossingFacePolicy::fill) known.reset(); // filled faces have another area
     prepare_crossing_faces(crossing, scene, context);
     leave_lines(stage, scene, context);
+    tell_of_points(stage, scene, context);
     const MayLose may_lose = stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose;
     if (stage.checks || stage.loads || may_lose == MayLose::all)
         return stage.run(std::move(scene), options, context);

@@ -62,6 +62,7 @@ struct StageInfo {
     bool changes_images = false;     ///< it makes, drops or renames images that a write may put into files
     bool measures_deviation = false; ///< it tells how far it moved the surface
     LinesPolicy lines = LinesPolicy::leave;
+    bool leaves_points = false;        ///< it works on faces and leaves clouds as they are; told (W-POINTS)
     bool loads = false;                ///< it adds to the scene rather than working on it (may come first)
     MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
     /// What is done about faces that cross themselves before it runs, unless its options say otherwise: the

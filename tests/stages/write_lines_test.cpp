@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 
 #include "cache/state.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "geometry/render/render.hpp"
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
@@ -185,6 +186,38 @@ TEST_CASE("stages that work on faces leave lines as they are, and say so", "[sta
     CHECK(moved.warnings().empty());
     const auto checked = run_stage("validate", "{lines: 4, isolated_vertices: 0}", cube_and_wires());
     for (const auto& check : checked.state->record.checks) CHECK(check.passed);
+}
+
+TEST_CASE("stages that work on faces leave points as they are, and say so", "[stages]") {
+    Mesh points;
+    points.positions = {{0, 0, 0}, {3, 0, 0}, {0, 3, 3}};
+    for (const auto& [stage, options, warns] : {std::tuple{"relax", "3", true},
+                                                {"split", "midpoint", true},
+                                                {"thicken", "0.1", true},
+                                                {"section", "z=50%", false},
+                                                {"probe", "[0, 0, 1]", false}}) {
+        INFO(stage);
+        Scene given = scene_of(points);
+        given.parts.push_back(scene_of(shapes::cube()).parts.front());
+        given.parts.push_back(given.parts.front());
+        given.parts.back().name = "other points";
+        const auto run = run_stage(stage, options, given);
+        CHECK(run.scene.parts.at(0).mesh.positions == points.positions);
+        const auto ids = run.warnings();
+        CHECK((std::count(ids.begin(), ids.end(), "W-POINTS") == 1) == warns);
+        if (warns)
+            CHECK(run.record.warnings.at(0).message ==
+                  std::string(stage) + " works on faces and leaves 2 clouds of points as they are");
+        else
+            CHECK(run.record.said.at(0) == "2 clouds of points left out");
+        const auto without = run_stage(stage, options, scene_of(shapes::cube())).warnings();
+        CHECK(std::count(without.begin(), without.end(), "W-POINTS") == 0);
+    }
+    for (const char* options : {"{volume: {min: 1}}", "{isolated_vertices: 0}", "{min_angle: {min: 5}}"})
+        CHECK(run_stage("validate", options, scene_of(points)).state->record.checks.at(0).hint ==
+              "the scene has points and no faces: most checks and stages are for faces");
+    CHECK(run_stage("validate", "{parts: 2}", scene_of(points)).state->record.checks.at(0).hint ==
+          property_named("parts")->hint);
 }
 
 TEST_CASE("lines are in what the cache stores", "[stages]") {

@@ -215,6 +215,7 @@ const RegisterStage registered = make_stage<ProbeOptions>(
                   "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
                   "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
      .tells = true,
+     .leaves_points = true,
      .crossing_faces = CrossingFacePolicy::name},
     declare_probe, declare_probe_report, run, {.files = probe_files, .verify = verify_probe});
 

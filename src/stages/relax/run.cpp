@@ -100,6 +100,7 @@ const RegisterStage registered = make_stage<RelaxOptions>(
                   "relax: {method: taubin, iterations: 20, feature_angle: 30deg}",
                   "relax: {method: implicit, lambda: 20}",
                   "relax: {until: 0.01%, mask: {material: \"skin*\"}}"},
+     .leaves_points = true,
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_relax, declare_report, run, {.verify = verify_relax});

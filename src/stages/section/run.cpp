@@ -150,7 +150,8 @@ const RegisterStage registered{make_stage<SectionOptions>(
                   "section: {plane: {normal: [1, 0, 1], through: centre}, path: cut.svg, hatch: 2%}",
                   "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
                   "section: {count: 20}"},
-     .tells = true},
+     .tells = true,
+     .leaves_points = true},
     declare_section, declare_section_report, run,
     StageHooks<SectionOptions>{.files =
                                    [](const SectionOptions& o) {

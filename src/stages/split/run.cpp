@@ -72,6 +72,7 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
      .details = help::split::details,
      .examples = {"split: midpoint", "split: {method: bisect, passes: 3}", "split: {grid: 3}",
                   "split: {max_edge: 2%}", "split: {method: loop, passes: 2, feature_angle: 30deg}"},
+     .leaves_points = true,
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_split, declare_split_report, run,

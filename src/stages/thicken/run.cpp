@@ -105,6 +105,7 @@ const RegisterStage registered = make_stage<ThickenOptions>(
      .details = help::thicken::details,
      .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
                   "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
+     .leaves_points = true,
      .may_lose = MayLose::area,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_thicken, declare_thicken_report, run, {.crossing_faces = crossing_faces});
