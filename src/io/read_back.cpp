@@ -305,33 +305,40 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double t
     }
 }
 
+/// How far files may move a point, and up to which distance the order tells which point is which: beyond, the
+/// file may have another order. The first allows for nodes far from the origin, where it may be more than the
+/// whole mesh.
+struct Tolerances {
+    double most = 0, in_order = 0;
+};
+
 /// The same for the ends of lines.
-double error_of_lines(const Flat& wanted, const Flat& found, double tolerance) {
+double error_of_lines(const Flat& wanted, const Flat& found, const Tolerances& tolerances) {
     if (wanted.ends.size() == found.ends.size()) {
-        const double in_order = largest(wanted.ends.size(), tolerance, [&](std::size_t i) {
+        const double in_order = largest(wanted.ends.size(), tolerances.in_order, [&](std::size_t i) {
             return length(wanted.ends[i] - found.ends[i]);
         });
-        if (in_order <= tolerance) return in_order;
+        if (in_order <= tolerances.in_order) return in_order;
     }
-    return farthest(wanted.ends, found.ends, tolerance);
+    return farthest(wanted.ends, found.ends, tolerances.most);
 }
 
 /// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
-double position_error(const Flat& wanted, const Flat& found, double tolerance) {
+double position_error(const Flat& wanted, const Flat& found, const Tolerances& tolerances) {
     if (wanted.corners.size() == found.corners.size() && !wanted.corners.empty()) {
-        const double in_order = largest(wanted.corners.size(), tolerance, [&](std::size_t c) {
+        const double in_order = largest(wanted.corners.size(), tolerances.in_order, [&](std::size_t c) {
             return length(wanted.points[wanted.corners[c]] - found.points[found.corners[c]]);
         });
-        if (in_order <= tolerance) return in_order;
+        if (in_order <= tolerances.in_order) return in_order;
     }
-    return farthest(wanted.used(), found.used(), tolerance);
+    return farthest(wanted.used(), found.used(), tolerances.most);
 }
 
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
 /// transform between), half a step of the grid of Draco or of quantized positions in every direction, and the
 /// rounding of the place of an instance.
 /// transforms: the file has the parts' own coordinates.
-void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
+Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
     double largest = 0;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
@@ -368,6 +375,9 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
     for (const double error : errors_of_instances(scene, settings.meshopt.on && settings.meshopt.filters))
         of_places = std::max(of_places, error);
     back.tolerance = 2 * largest * float_step + back.grid_step + of_places;
+    // A float's rounding along three axes, with a margin, and that of the doubles in which the world is.
+    const double in_order = 4 * back.float_step + 0x1p-50 * largest + back.grid_step + of_places;
+    return {back.tolerance, std::min(in_order, back.tolerance)};
 }
 
 /// What a file should not lose; truths, or counts of what is wrong.
@@ -465,10 +475,10 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
     steps.next();
-    set_tolerance(back, scene, settings, codec.can.transforms);
+    const Tolerances tolerances = set_tolerance(back, scene, settings, codec.can.transforms);
     const Flat wanted(scene, dropped_faces == 0), found(back.scene);
-    back.position_error = std::max(position_error(wanted, found, back.tolerance),
-                                   error_of_lines(wanted, found, back.tolerance));
+    back.position_error =
+        std::max(position_error(wanted, found, tolerances), error_of_lines(wanted, found, tolerances));
     if (back.position_error > back.tolerance)
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));
     steps.next();
