@@ -3,6 +3,8 @@
 // depend on the size only, and reductions join the chunks in index order, so floating-point sums never
 // change.
 
+#include "base/storage.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -90,7 +92,8 @@ void radix_sort(std::vector<T>& items, Key&& key, int key_bits = 64) {
     constexpr int digit_bits = 11;
     constexpr std::size_t buckets = std::size_t{1} << digit_bits, chunk = std::size_t{1} << 16;
     const std::size_t n = items.size(), chunks = (n + chunk - 1) / chunk;
-    std::vector<T> other(n);
+    std::vector<T> other;
+    resize_large(other, n);
     std::vector<std::size_t> counts(chunks * buckets);
     for (int shift = 0; shift < key_bits; shift += digit_bits) {
         const auto digit = [&](const T& item) {

@@ -1,7 +1,7 @@
 #include "io/outputs.hpp"
 
 #include "base/hash.hpp"
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "io/clean_up.hpp"
 #include "io/output_files.hpp"
 
@@ -188,12 +188,19 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     auto file = file_for(target, where);
     const bool stream = is_stream(target);
     file->bytes = bytes.size();
-    ShareOfSteps steps({3, 2});
-    file->sha256 = sha256(bytes);
-    steps.next();
     const fs::path self = stream ? target : identity(file->resolved);
     const auto input = inputs_.find(self);
     file->is_input = input != inputs_.end();
+    const auto take_sum = [&] { file->sha256 = sha256(bytes); };
+    const auto put_bytes = [&] { stage(*file, [&](const Put& put) { put(bytes); }); };
+    if (!stream && !file->is_input && !by_identity_.contains(self) && !settings_.names_only) {
+        make_place(*file);
+        constexpr std::size_t few = std::size_t{1} << 16; // bytes, for which another thread would take longer
+        parallel_for(
+            2, [&](std::size_t i) { i == 0 ? take_sum() : put_bytes(); }, bytes.size() < few ? 2 : 1);
+        return hold(std::move(file), self);
+    }
+    take_sum();
     if (file->is_input && input->second != file->sha256) refuse_input(target, where);
     if (const auto there = by_identity_.find(self); there != by_identity_.end()) {
         const File& other = *there->second;
@@ -201,13 +208,7 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
         if (!stream && other.bytes == file->bytes && other.sha256 == file->sha256) return other;
         refuse_twice(target);
     }
-    if (settings_.names_only) return hold(std::move(file), self);
-    if (stream) {
-        file->stream.assign(bytes.begin(), bytes.end());
-    } else if (!file->is_input) {
-        make_place(*file);
-        stage(*file, [&](const Put& put) { put(bytes); });
-    }
+    if (stream && !settings_.names_only) file->stream.assign(bytes.begin(), bytes.end());
     return hold(std::move(file), self);
 }
 

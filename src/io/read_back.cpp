@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "base/random.hpp"
+#include "base/storage.hpp"
 #include "base/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
@@ -42,7 +43,11 @@ std::size_t count_positions(Points& points) {
 
 void add(VertexChanges& sum, Points before, Points after) {
     const std::size_t were = before.size(), are = after.size();
-    const std::size_t places = count_positions(before), left = count_positions(after);
+    constexpr std::size_t many = 10000; // are sorted both at once
+    std::size_t places = 0, left = 0;
+    parallel_for(
+        2, [&](std::size_t i) { i == 0 ? places = count_positions(before) : left = count_positions(after); },
+        were < many ? 2 : 1);
     const std::size_t rounded = places > left ? places - left : 0;
     sum.rounded += rounded;
     if (are > were) sum.added += are - were;
@@ -113,7 +118,7 @@ struct Flat {
         std::vector<std::uint8_t> is_used(points.size());
         for (const Index p : corners) is_used[p] = 1;
         std::vector<Vec3> found;
-        found.reserve(points.size());
+        reserve_large(found, points.size());
         for (std::size_t p = 0; p < points.size(); ++p)
             if (is_used[p]) found.push_back(points[p]);
         return found;
@@ -179,7 +184,8 @@ class Grid {
   public:
     Grid(const std::vector<Vec3>& points, double cell) : cell_(cell) {
         while (points.size() >> bits_ != 0) ++bits_;
-        std::vector<KeyedPlace> order(points.size());
+        std::vector<KeyedPlace> order;
+        resize_large(order, points.size());
         parallel_for(points.size(), [&](std::size_t i) {
             order[i] = {share(cell_of(points[i])), static_cast<Index>(i)};
         });
@@ -188,7 +194,7 @@ class Grid {
         begins_.assign((std::size_t{1} << bits_) + 1, 0);
         for (const KeyedPlace& p : order) ++begins_[p.key + 1];
         for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-        points_.resize(points.size());
+        resize_large(points_, points.size());
         parallel_for(points.size(), [&](std::size_t i) { points_[i] = points[order[i].place]; });
     }
 

@@ -24,7 +24,8 @@ using Labels = std::vector<Index>;
 Labels labels_of(const State& s, const Mesh& mesh, std::string_view name) {
     const Attribute* a = mesh.find(name, Domain::face);
     if (!a || a->components != 1) return {};
-    Labels list(s.face_slots());
+    Labels list;
+    resize_large(list, s.face_slots());
     parallel_for(list.size(), [&](std::size_t f) {
         list[f] = static_cast<Index>(std::clamp(a->value(s.face_source[f], 0), 0.0, 4294967295.0));
     });

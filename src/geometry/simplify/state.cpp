@@ -26,7 +26,7 @@ struct Keyed {
 /// Vertices that faces use, along the curve.
 std::vector<Keyed> ordered_vertices(const Mesh& mesh, const UsedVertices& used, const Frame& frame) {
     std::vector<Keyed> order;
-    order.reserve(used.count);
+    reserve_large(order, used.count);
     for (std::size_t v = 0; v < used.flags.size(); ++v)
         if (used.flags[v]) order.push_back({0, static_cast<Index>(v)});
     parallel_for(order.size(), [&](std::size_t i) {
@@ -44,7 +44,8 @@ std::vector<Keyed> ordered_vertices(const Mesh& mesh, const UsedVertices& used, 
 
 /// Faces by their first vertex along the curve.
 std::vector<Keyed> ordered_faces(const Mesh& mesh, const std::vector<Index>& rank, std::size_t vertices) {
-    std::vector<Keyed> order(mesh.face_count());
+    std::vector<Keyed> order;
+    resize_large(order, mesh.face_count());
     parallel_for(order.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
         const Index lowest =

@@ -124,9 +124,11 @@ Quadric quadric_at(const State& s, Index v, const std::vector<Vec3>& normals) {
 
 template <class Real>
 std::vector<QuadricAbout<Real>> all_quadrics(const State& s) {
-    std::vector<Vec3> normals(s.face_slots());
+    std::vector<Vec3> normals;
+    resize_large(normals, s.face_slots());
     parallel_for(normals.size(), [&](std::size_t f) { normals[f] = root_normal(s, static_cast<Index>(f)); });
-    std::vector<QuadricAbout<Real>> quadrics(s.vertex_slots());
+    std::vector<QuadricAbout<Real>> quadrics;
+    resize_large(quadrics, s.vertex_slots());
     parallel_for(quadrics.size(), [&](std::size_t v) {
         quadrics[v] = rounded<Real>(quadric_at(s, static_cast<Index>(v), normals));
     });

@@ -17,6 +17,7 @@ namespace facetmill::io::gltf {
 namespace {
 
 constexpr std::uint32_t cache_size = 16;
+constexpr std::size_t few_corners = 3 * 1000; ///< for which another thread would take longer to come
 
 /// A cache of vertices, first in, first out.
 class VertexCache {
@@ -80,12 +81,17 @@ void order_groups(const Mesh& mesh, Table& table) {
     const auto place = [&](std::size_t corner) {
         return mesh.positions[mesh.vertex_of_wedge(table.wedges[table.indices[corner]])];
     };
-    std::vector<std::size_t> starts = groups_of(table);
+    std::vector<std::size_t> starts;
+    Vec3 sum;
+    const auto add_up = [&] {
+        for (std::size_t c = 0; c < table.indices.size(); ++c)
+            sum += place(c) / static_cast<double>(table.indices.size());
+    };
+    const std::size_t at_once = table.indices.size() < few_corners ? 2 : 1;
+    parallel_for(
+        2, [&](std::size_t i) { i == 0 ? add_up() : void(starts = groups_of(table)); }, at_once);
     const std::size_t groups = starts.size(), triangles = table.indices.size() / 3;
     starts.push_back(triangles);
-    Vec3 sum;
-    for (std::size_t c = 0; c < table.indices.size(); ++c)
-        sum += place(c) / static_cast<double>(table.indices.size());
     std::vector<double> outwards(groups);
     parallel_for(groups, [&](std::size_t g) {
         Vec3 normal, centre;
@@ -280,8 +286,7 @@ void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
     orders[1] = orders[0];
     order_in_strips(orders[1], vertices);
     orders[2] = orders[1];
-    constexpr std::size_t tiny = 3 * 1000; // corners: another thread would take longer to come
-    const std::size_t at_once = corners < tiny ? orders.size() : 1;
+    const std::size_t at_once = corners < few_corners ? orders.size() : 1;
     std::vector<Placed> along[3];
     if (orders.size() > 4)
         parallel_for(
