@@ -498,8 +498,12 @@ std::span<const MessageId> message_ids() {
          "`clean` closes the holes that the plane cuts through."},
         {"W-CELLS",
          {},
-         "Something of a file is not carried by cells, such as attributes of its faces.",
-         "Give more `--memory` where it is needed, so that the file is processed in memory."},
+         "Something of a file is not carried by cells, such as attributes of its faces, or a GLB is written "
+         "from "
+         "cells, which has positions only.",
+         "Give more `--memory` where it is needed, so that the file is processed in memory. A PLY that is "
+         "written "
+         "from cells keeps attributes of vertices."},
         {"W-CHECK",
          {},
          "An assertion with severity warn does not hold.",

@@ -197,6 +197,17 @@ class Cells(LargeCase):
         self.mill("pipe", "load", "whole.glb", "!", "transform", "--bake", "!", "write", "whole.ply")
         self.assertEqual(*(triangles(self.dir / n) for n in ("o.ply", "whole.ply")))
 
+    def test_a_glb_from_cells_is_told_to_lack_attributes(self):
+        self.write("c.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                            "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float quality\n"
+                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                            "0 0 0 9 9 9 1\n1 0 0 9 9 9 1\n0 1 0 9 9 9 1\n3 0 1 2\n")
+        told = [self.mill("pipe", "--partition", "always", "load", "c.ply", "--unit", "m", "--up", "z", "!", "write",
+                          name).stderr for name in ("c.glb", "d.ply")]
+        self.assertIn("warning[W-CELLS]: c.ply: 'c.glb': a GLB that is written from cells has positions only, "
+                      "without COLOR_0, quality", told[0])
+        self.assertNotIn("W-CELLS", told[1])
+
     def test_tiles_are_written_in_cells(self):
         self.large()
         load = ("load", "large.ply", "--unit", "m", "--up", "z", "!", "write")

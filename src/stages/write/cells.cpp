@@ -1,5 +1,6 @@
 #include "stages/write/cells.hpp"
 
+#include "base/words.hpp"
 #include "cells/write_cells.hpp"
 #include "cells/write_tiles.hpp"
 #include "io/output_files.hpp"
@@ -79,6 +80,19 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
     for (const io::Outputs::File* file : staged) read_again(*file, context);
 }
 
+/// A GLB could hold the attributes of cells, but gets none.
+void tell_of_positions_only(const WriteOptions& o, CellFlow& flow, const Part& part, Context& context) {
+    constexpr const char* why = "a GLB that is written from cells has positions only";
+    std::vector<std::string> names;
+    for (const Attribute& a : flow.partition->cell(0).mesh.attributes) {
+        context.attribute_changes(part, {{a.name, a.domain, AttributeChange::Kind::dropped, why}});
+        names.push_back(a.name);
+    }
+    if (!names.empty())
+        context.warn("W-CELLS", fmt::format("'{}': {}, without {}", o.path.text, why, join_texts(names)),
+                     "write PLY, which keeps them, a tileset, or use more memory");
+}
+
 /// A point near the middle of the cells, where float32 would round positions by more than a millionth.
 Vec3 origin_of(const WriteOptions& o, const io::Codec& codec, const CellFlow& flow) {
     constexpr double tolerable = 1e-6, step = 1.0 / (1 << 24); // of the diagonal; of a float32
@@ -132,11 +146,7 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
         },
         context.where());
     warn_of_rounding(rounding, o, codec, flow, context);
-    if (codec.name == "glb")
-        for (const Attribute& a : flow.partition->cell(0).mesh.attributes)
-            context.attribute_changes(outline.parts.front(),
-                                      {{a.name, a.domain, AttributeChange::Kind::dropped,
-                                        "a GLB that is written from cells has positions only"}});
+    if (codec.name == "glb") tell_of_positions_only(o, flow, outline.parts.front(), context);
     const std::string told = std::filesystem::path(o.path.text).lexically_normal().string();
     context.run().record.outputs.push_back(
         {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, {})});
