@@ -487,6 +487,12 @@ std::span<const MessageId> message_ids() {
          {},
          "None of the failures in a baseline occurs in the mesh, but others do.",
          "The baseline may belong to another mesh; write it again with `--update-baseline`."},
+        {"W-BIND-POSE",
+         {},
+         "Stages work on the bind pose of a skinned part. Where the joints place it elsewhere, as viewers "
+         "and "
+         "pictures show it, a plane or a box cuts something else than what is seen there.",
+         "Give places in the bind pose, whose bounds `facetmill info` tells."},
         {"W-CACHE",
          {},
          "The cache that `--cache` or FACETMILL_CACHE asked for cannot be written, or one of its entries is "

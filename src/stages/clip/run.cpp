@@ -1,5 +1,6 @@
 #include "cells/gather.hpp"
 #include "cells/inspect_cells.hpp"
+#include "stage/bind_pose.hpp"
 #include "stage/both_sides.hpp"
 #include "stage/options/box.hpp"
 #include "stage/options/cap.hpp"
@@ -220,6 +221,7 @@ PartsToClip parts_to_clip(const ClipOptions& o) {
 }
 
 Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {
+    warn_of_bind_pose(scene, context);
     report = clip_parts(scene, Cutter(o, scene, context), parts_to_clip(o), context);
     return scene;
 }

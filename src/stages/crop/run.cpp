@@ -1,5 +1,6 @@
 #include "geometry/crop/crop.hpp"
 #include "options/mark_at.hpp"
+#include "stage/bind_pose.hpp"
 #include "stage/both_sides.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
@@ -258,6 +259,7 @@ CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCro
 }
 
 Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& report) {
+    warn_of_bind_pose(scene, context);
     PartsToCrop how;
     how.settings.axis = axis_of(o, scene);
     how.settings.by = o.by;

@@ -4,6 +4,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/face.hpp"
 #include "mesh/placement.hpp"
+#include "stage/bind_pose.hpp"
 #include "stages/probe/help.hpp"
 #include "stages/probe/options.hpp"
 #include "stages/probe/report.hpp"
@@ -179,6 +180,7 @@ LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, const Ques
 }
 
 Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& report) {
+    warn_of_bind_pose(scene, context);
     ShareOfSteps steps({1, 2, 2});
     const Questions q = questions_of(scene, o, context);
     const FaceTree tree(surface_of(q.surface, filled_surface));

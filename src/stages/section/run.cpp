@@ -2,6 +2,7 @@
 #include "cells/inspect_cells.hpp"
 #include "cells/section_cells.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "stage/bind_pose.hpp"
 #include "stage/world_outline.hpp"
 #include "stages/section/help.hpp"
 #include "stages/section/options.hpp"
@@ -110,6 +111,7 @@ void write_drawings(const SectionOptions& o, const io::Drawing& drawing, Context
 }
 
 Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport& report) {
+    warn_of_bind_pose(scene, context);
     const Plane plane = plane_for(o, scene, context);
     const auto extent = [&] { return extent_of(scene, plane, context); };
     const Stack stack = stack_for(o, scene, extent, context);

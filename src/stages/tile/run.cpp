@@ -1,5 +1,6 @@
 #include "geometry/tile/tile.hpp"
 #include "options/mark_at.hpp"
+#include "stage/bind_pose.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
 #include "stage/stage.hpp"
@@ -171,6 +172,7 @@ Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& c
 }
 
 Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& report) {
+    warn_of_bind_pose(scene, context);
     TileSettings settings;
     settings.axes = axes_of(o, scene, context);
     settings.clip.snap = true;

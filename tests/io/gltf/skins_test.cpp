@@ -64,6 +64,28 @@ void check_same(const std::vector<Vec3>& found, const std::vector<Vec3>& wanted)
 
 } // namespace
 
+TEST_CASE("that places are in a bind pose that is not what is shown is told", "[stages]") {
+    Json json = Json::parse(leg);
+    const auto told = [&](const char* stage, const char* options) {
+        const auto ids = test::run_stage(stage, options, test::read_text(json.dump())).warnings();
+        return std::count(ids.begin(), ids.end(), "W-BIND-POSE");
+    };
+    const std::pair<const char*, const char*> stages[] = {
+        {"clip", "y=0.5"},
+        {"crop", "{footprint: [[-1, -1], [2, -1], [2, 1]], axis: z}"},
+        {"tile", "0.7"},
+        {"section", "y=0.5"},
+        {"probe", "[0, 0, 1]"}};
+    for (const auto& [stage, options] : stages) CHECK(told(stage, options) == 0); // the joints stand so
+    CHECK(told("clean", "{}") == 0);
+    json["nodes"][1]["rotation"] = {0.5, 0.5, 0.5, 0.5}; // what is along y is seen along z
+    for (const auto& [stage, options] : stages) {
+        INFO(stage);
+        CHECK(told(stage, options) == 1);
+    }
+    CHECK(told("clean", "{}") == 0);
+}
+
 TEST_CASE("a skinned part that is moved plays as before, where it is now", "[io]") {
     const Scene scene = test::read_text(leg);
     REQUIRE(scene.parts.at(0).skinned);

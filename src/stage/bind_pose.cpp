@@ -1,0 +1,46 @@
+#include "stage/bind_pose.hpp"
+
+#include "base/words.hpp"
+#include "io/gltf/pose.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// How far a vertex is from where it is shown, at most, as a share of the diagonal of what is shown.
+double share_of_move(const Part& bind, const Part& shown) {
+    Box box;
+    double farthest = 0;
+    for (std::size_t v = 0; v < bind.mesh.vertex_count(); ++v) {
+        const Vec3 p = shown.transform.point(shown.mesh.positions[v]);
+        box.add(p);
+        farthest = std::max(farthest, length(bind.transform.point(bind.mesh.positions[v]) - p));
+    }
+    return box.empty() || !(box.diagonal() > 0) ? 0 : farthest / box.diagonal();
+}
+
+} // namespace
+
+void warn_of_bind_pose(const Scene& scene, Context& context) {
+    const auto concerns = [&](const Part& part) { return part.skinned && context.selects(part, scene); };
+    if (std::none_of(scene.parts.begin(), scene.parts.end(), concerns)) return;
+    const auto shown = io::posed(scene);
+    if (!shown) return;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene.parts.size(); ++i)
+        if (concerns(scene.parts[i]) && share_of_move(scene.parts[i], shown->parts[i]) > 0.01)
+            names.push_back(fmt::format("'{}'", scene.parts[i].name));
+    if (names.empty()) return;
+    context.warn(
+        "W-BIND-POSE",
+        fmt::format("{}: {} {} {} in bind pose, which lies elsewhere than what is shown, where the "
+                    "joints place it",
+                    context.name(), names.size() == 1 ? "part" : "parts", join_texts(names),
+                    names.size() == 1 ? "is" : "are"),
+        "planes, boxes and points are for the bind pose: info has its bounds, render shows the other");
+}
+
+} // namespace facetmill
