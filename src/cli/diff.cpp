@@ -109,6 +109,9 @@ bool is_folder(const std::string& path) {
 
 int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
     options.reports.insert(options.reports.end(), options.others.begin(), options.others.end());
+    if (options.a == "-" && options.b == "-")
+        throw Error(ErrorKind::usage, "E-DUPLICATE-INPUT", "standard input can be read only once",
+                    "give a file for A or for B", line.value("-"));
     const bool folders = is_folder(options.a);
     if (folders != is_folder(options.b) && options.a != "-" && options.b != "-")
         throw Error(ErrorKind::usage, "E-ARGUMENT", "one of the two is a folder, the other is none",

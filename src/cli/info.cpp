@@ -225,6 +225,9 @@ FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Cons
 }
 
 int info(const InfoOptions& options, const Console& console) {
+    if (std::count(options.meshes.begin(), options.meshes.end(), "-") > 1)
+        throw Error(ErrorKind::usage, "E-DUPLICATE-INPUT", "standard input can be read only once",
+                    "give - once among the files");
     AllowedFiles allowed;
     for (const auto& mesh : options.meshes) allow_input(allowed, mesh);
     allowed.read.insert(allowed.read.end(), options.asset_roots.begin(), options.asset_roots.end());

@@ -13,6 +13,25 @@ namespace {
 
 bool is_word_character(char c) { return (c >= 'a' && c <= 'z') || c == '_' || c == '-'; }
 
+/// Whether a schema lists the word among its values.
+bool lists(const Json& schema, const std::string& word) {
+    if (schema.is_array())
+        return std::any_of(schema.begin(), schema.end(), [&](const Json& one) { return lists(one, word); });
+    if (!schema.is_object()) return false;
+    if (schema.value("type", Json()) == "boolean" && (word == "true" || word == "false")) return true;
+    if (const auto values = schema.find("enum"); values != schema.end())
+        if (std::find(values->begin(), values->end(), Json(word)) != values->end()) return true;
+    return schema.contains("anyOf") && lists(schema["anyOf"], word);
+}
+
+/// Whether some stage has an option of that name with that word among its values: so the pair is no prose.
+bool is_option_with(const std::string& name, const std::string& word) {
+    return std::any_of(stages().begin(), stages().end(), [&](const StageInfo& stage) {
+        const Option* option = stage.options->find(name);
+        return option && lists(option->schema, word);
+    });
+}
+
 /// Rewrites one hint from left to right.
 class Rewriter {
   public:
@@ -64,8 +83,11 @@ class Rewriter {
         }
         const bool in_parentheses = at_ > 0 && hint_[at_ - 1] == '(';
         const std::size_t stop = std::min(hint_.size(), hint_.find_first_of(" ,;)", value));
-        if (stop == value || hint_[stop - 1] == ':' || (!stage && !in_parentheses)) return false;
-        out_ += fmt::format("{}{} {}", stage ? "" : "--", word, hint_.substr(value, stop - value));
+        if (stop == value || hint_[stop - 1] == ':') return false;
+        const std::string text(hint_.substr(value, stop - value));
+        if (!stage && !in_parentheses && !is_option_with(word, text)) return false;
+        out_ += stage ? word : "--" + word;
+        if (stage || text != "true") out_ += " " + text;
         at_ = stop;
         return true;
     }

@@ -237,7 +237,8 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
                           count ? fmt::format("name the option that counts (faces: {})", *count) : "");
     }
     const bool percent = !parts->second.empty();
-    if (!percent && value.text.find('.') == std::string::npos && parts->first != 0) {
+    const bool whole = value.text.find('.') == std::string::npos && parts->first == std::floor(parts->first);
+    if (!percent && whole && parts->first != 0) { // 5e-1 is none
         const auto hint =
             parts->first < 0 ? "a ratio is not below 0"
             : parts->first <= 100

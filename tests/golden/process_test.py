@@ -771,6 +771,11 @@ class Process(Case):
         told = self.mill("pipe", "load", "c.ply", "!", "write", "d.drc", expect=None).stderr
         self.assertIn("1 value of 'quality' is no number (nan), which Draco cannot hold: it is 0 in the file", told)
 
+    def test_standard_input_is_read_once(self):
+        for words in (("diff", "-", "-"), ("info", "-", "-")):
+            told = self.mill(*words, stdin=TRIANGLE, expect=2).stderr
+            self.assertIn("E-DUPLICATE-INPUT]: standard input can be read only once", told)
+
     def test_control_characters_of_names_do_not_reach_the_terminal(self):
         name = "a\x1b[31m\x07\x9b5m"
         self.write("t.off", TRIANGLE)

@@ -74,6 +74,9 @@ TEST_CASE("a bare whole number is no ratio, and both meanings are offered", "[op
     CHECK(parsed<Ratio>("25%")->value == 0.25);
     CHECK(parsed<Ratio>("0.25")->value == 0.25);
     CHECK(parsed<Ratio>("10pct")->value == 0.1);
+    CHECK(parsed<Ratio>("5e-1")->value == 0.5); // as programs write it
+    CHECK(parsed<Ratio>("1e-05")->value == 0.00001);
+    CHECK(complaint<Ratio>("5e1").find("expected a ratio") != std::string::npos);
     CHECK(complaint<Ratio>("1") ==
           "E-TYPE expected a ratio (25% or 0.25), found '1' (write 100%, or name the option "
           "that counts (faces: 1))");
