@@ -1,6 +1,7 @@
 #pragma once
 // On which side of each component of a surface its inside is.
 
+#include "base/parallel.hpp"
 #include "mesh/topology.hpp"
 
 namespace facetmill {
@@ -12,14 +13,26 @@ template <class Place>
 std::vector<double> six_volumes(const Mesh& mesh, const Components& components, Place&& place) {
     std::vector<double> volumes(components.count, 0);
     std::vector<Index> first(components.count, none);
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Index component = components.of_face[f], begin = mesh.face_begin(f);
-        if (mesh.face_size(f) < 3) continue;
-        if (first[component] == none) first[component] = begin;
-        const Vec3 o = place(first[component]), a = place(begin) - o;
-        for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
-            volumes[component] += dot(a, cross(place(c) - o, place(c + 1) - o));
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face_size(f) >= 3 && first[components.of_face[f]] == none)
+            first[components.of_face[f]] = mesh.face_begin(f);
+    const auto of_triangle = [&](Index component, Index a, Index b, Index c) {
+        const Vec3 o = place(first[component]);
+        return dot(place(a) - o, cross(place(b) - o, place(c) - o));
+    };
+    if (mesh.all_triangles()) { // computed by all threads, and added up in order as below
+        std::vector<double> of_face(mesh.face_count());
+        parallel_for(of_face.size(), [&](std::size_t f) {
+            const auto c = static_cast<Index>(3 * f);
+            of_face[f] = of_triangle(components.of_face[f], c, c + 1, c + 2);
+        });
+        for (std::size_t f = 0; f < of_face.size(); ++f) volumes[components.of_face[f]] += of_face[f];
+        return volumes;
     }
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
+            volumes[components.of_face[f]] +=
+                of_triangle(components.of_face[f], mesh.face_begin(f), c, c + 1);
     return volumes;
 }
 

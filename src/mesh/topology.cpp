@@ -1,9 +1,9 @@
 #include "mesh/topology.hpp"
 
 #include "mesh/buckets.hpp"
+#include "mesh/weld.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 
 namespace facetmill {
@@ -150,20 +150,10 @@ std::vector<BoundaryEdge> odd_edges(const Mesh& mesh) {
 }
 
 std::vector<Index> lowest_at_place(const Mesh& mesh) {
-    const auto& p = mesh.positions;
-    Mesh points; // welding keeps first occurrences in order, so its numbers lead back to the lowest vertices
-    points.positions = p;
-    points.corners.resize(p.size());
-    for (Index v = 0; v < p.size(); ++v) points.corners[v] = v;
-    std::vector<Index> lowest(p.size());
-    for (Index v = 0; v < p.size(); ++v) lowest[v] = v;
-    if (weld_exact(points) == 0) return lowest;
-    std::vector<Index> first(points.vertex_count(), none);
-    for (Index v = 0; v < p.size(); ++v) {
-        Index& f = first[points.corners[v]];
-        if (f == none) f = v;
-        lowest[v] = f;
-    }
+    std::vector<Index> lowest = first_at_position(mesh.positions);
+    if (!lowest.empty()) return lowest;
+    lowest.resize(mesh.vertex_count());
+    parallel_for(lowest.size(), [&](std::size_t v) { lowest[v] = static_cast<Index>(v); });
     return lowest;
 }
 
@@ -221,7 +211,7 @@ Index DisjointSets::find(Index i) {
     }
 }
 
-void DisjointSets::join(Index a, Index b) {
+void DisjointSets::join_apart(Index a, Index b) {
     for (;;) {
         a = find(a);
         b = find(b);

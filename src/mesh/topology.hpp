@@ -3,6 +3,8 @@
 
 #include "mesh/face.hpp"
 
+#include <atomic>
+
 namespace facetmill {
 
 /// The undirected edges of a mesh, sorted by (low vertex, high vertex), and the corners that run along each.
@@ -76,11 +78,16 @@ class DisjointSets {
     Index add();
     /// The lowest member known of i's set; final once all joins are done.
     Index find(Index i);
-    void join(Index a, Index b);
+    void join(Index a, Index b) {
+        if (parent_of(a) != parent_of(b)) join_apart(a, b);
+    }
     /// How many there are, once all joins are done.
     std::size_t count();
 
   private:
+    Index parent_of(Index i) { return std::atomic_ref(parent_[i]).load(std::memory_order_relaxed); }
+    void join_apart(Index a, Index b);
+
     std::vector<Index> parent_;
 };
 

@@ -1,4 +1,5 @@
 // Vertices and wedges that go: the unused, and those at the same place.
+#include "mesh/weld.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "mesh/lineage.hpp"
@@ -195,9 +196,10 @@ void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& 
     }
 }
 
-/// For each vertex the first one at the same position; empty where each is the only one. Of those that may
-/// have others a hash makes buckets that fit the cache; each bucket is then one small hash table. (Sorting by
-/// the coordinates took four times as long.)
+} // namespace
+
+/// Of those that may have others a hash makes buckets that fit the cache; each bucket is then one small hash
+/// table. (Sorting by the coordinates took four times as long.)
 std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
     std::vector<HashedVertex> items = doubtful_vertices(positions);
     std::vector<Index> first(positions.size());
@@ -228,8 +230,6 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
     if (!any) first.clear();
     return first;
 }
-
-} // namespace
 
 std::size_t weld_exact(Mesh& mesh) {
     const std::size_t n = mesh.vertex_count();

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "mesh/face.hpp"
+#include "mesh/indices_where.hpp"
 #include "mesh/wedges.hpp"
 
 #include <algorithm>
@@ -49,10 +50,7 @@ Lineage all_of() {
 } // namespace
 
 std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags) {
-    std::vector<Index> faces;
-    for (Index f = 0; f < flags.size(); ++f)
-        if (!flags[f]) faces.push_back(f);
-    return faces;
+    return indices_where(flags.size(), [&](Index f) { return !flags[f]; });
 }
 
 Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces) {

@@ -1,0 +1,11 @@
+#pragma once
+// Which vertices are at one place, for what does not merge them.
+
+#include "mesh/mesh.hpp"
+
+namespace facetmill {
+
+/// For each vertex the lowest at the same position (-0 is 0); empty where each is the only one. Parallel.
+std::vector<Index> first_at_position(const std::vector<Vec3>& positions);
+
+} // namespace facetmill
