@@ -16,6 +16,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cstdint>
 #include <iterator>
 #include <memory>
 
@@ -106,8 +107,9 @@ class SelfIntersectionSearch::Search {
 
   public:
     explicit Search(const Mesh& mesh, const Box& frame = {})
-        : face_count_(mesh.face_count()), surface_(surface_of(mesh)), boxes_(surface_.size()),
-          pairs_(with_boxes({}), {}, frame) {
+        : Search(surface_of(mesh), mesh.face_count(), frame) {}
+    Search(Surface surface, std::size_t faces, const Box& frame = {})
+        : face_count_(faces), surface_(std::move(surface)), pairs_(with_boxes({}), {}, frame) {
         number_facets();
     }
 
@@ -120,11 +122,15 @@ class SelfIntersectionSearch::Search {
             plain_ = settings.stars;
         else if (settings.among.empty())
             plain_ = plain_stars(surface_);
+        else
+            plain_.clear();
+        note_plain_vertices();
     }
 
     /// Whether that can be: not where polygons are cut into another number of triangles now.
     bool move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
         plain_.clear();
+        plain_vertices_.clear();
         if (surface_.faces.empty()) {
             surface_.positions = mesh.positions;
             pairs_.move_to(with_boxes(moved), moved);
@@ -155,16 +161,20 @@ class SelfIntersectionSearch::Search {
         const bool polygons = !surface_.faces.empty();
         const std::size_t kept = polygons ? SIZE_MAX : limit;
         const TouchTest touching(surface_);
-        Kinds all = pairs_.reduce(
+        const auto look_at = [&](Kinds& found, std::size_t i, std::size_t j) {
+            const Facet &s = facets_[i], &t = facets_[j];
+            const int shared = facets_meet(s, t);
+            if (shared < 0) return;
+            const bool touch =
+                apart && shared < 2 && touching.only_touch(pairs_.items()[i], pairs_.items()[j]);
+            (touch ? found.touching : found.real).add(std::minmax(s.face, t.face), kept);
+        };
+        Kinds all = pairs_.reduce_fours(
             Kinds{},
-            [&](Kinds& found, std::size_t i, std::size_t j) {
-                ++found.box_pairs;
-                const Facet &s = facets_[i], &t = facets_[j];
-                const int shared = facets_meet(s, t);
-                if (shared < 0) return;
-                const bool touch =
-                    apart && shared < 2 && touching.only_touch(pairs_.items()[i], pairs_.items()[j]);
-                (touch ? found.touching : found.real).add(std::minmax(s.face, t.face), kept);
+            [&](Kinds& found, std::size_t i, std::size_t four, unsigned bits) {
+                found.box_pairs += static_cast<std::size_t>(std::popcount(bits));
+                for (bits &= ~share_plain_star(i, four / 4); bits != 0; bits &= bits - 1)
+                    look_at(found, i, four + static_cast<std::size_t>(std::countr_zero(bits)));
             },
             [&](Kinds a, const Kinds& b) {
                 a.real.add(b.real, kept);
@@ -211,6 +221,7 @@ class SelfIntersectionSearch::Search {
   private:
     /// The boxes, after those of the triangles that are flagged, or of all where none are given, are renewed.
     std::span<const Box> with_boxes(const std::vector<std::uint8_t>& moved) {
+        boxes_.resize(surface_.size());
         parallel_for(boxes_.size(), [&](std::size_t t) {
             if (!moved.empty() && !moved[t]) return;
             boxes_[t] = {};
@@ -258,7 +269,7 @@ class SelfIntersectionSearch::Search {
     /// As if they did not meet when passes(), which is asked only where signs of doubles leave it open.
     template <class Passes>
     int facets_meet(const Facet& s, const Facet& t, Passes&& passes) const {
-        if (s.face == t.face || share_plain_star(s, t)) return -1;
+        if (s.face == t.face) return -1;
         auto u = s.vertices, v = t.vertices;
         const int shared = share(u, v);
         if (shared == 3) return passes() ? -1 : shared;
@@ -266,30 +277,52 @@ class SelfIntersectionSearch::Search {
         return !surely_disjoint(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
     }
 
-    /// Whether a vertex of both is one around which no two triangles meet elsewhere.
-    bool share_plain_star(const Facet& s, const Facet& t) const {
-        if (plain_.empty()) return false;
-        const auto& [a, b, c] = t.vertices;
-        const auto all = [](Index v) { return Int4{} + static_cast<std::int32_t>(v); };
-        const Int4 own{static_cast<std::int32_t>(s.vertices[0]), static_cast<std::int32_t>(s.vertices[1]),
-                       static_cast<std::int32_t>(s.vertices[2]), -1};
-        unsigned shared = bits_of((own == all(a)) | (own == all(b)) | (own == all(c))) & 7u;
-        for (; shared != 0; shared &= shared - 1)
-            if (plain_[s.vertices[static_cast<std::size_t>(std::countr_zero(shared))]] != Star::unknown)
-                return true;
-        return false;
+    /// Around which no two triangles meet elsewhere, of four facets in a row: each facet has a lane, and
+    /// nothing at the vertices that are not plain.
+    using PlainVertices = std::array<Int4, 3>;
+    static constexpr std::int32_t nothing = -1;
+
+    void note_plain_vertices() {
+        plain_vertices_.clear();
+        if (plain_.empty()) return;
+        plain_vertices_.resize((facets_.size() + 3) / 4);
+        parallel_for(plain_vertices_.size(), [&](std::size_t n) {
+            for (std::size_t lane = 0; lane < 4; ++lane)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t i = 4 * n + lane;
+                    const Index v = i < facets_.size() ? facets_[i].vertices[k] : none;
+                    const bool is_plain = v < plain_.size() && plain_[v] != Star::unknown && v <= INT32_MAX;
+                    plain_vertices_[n][k][lane] = is_plain ? static_cast<std::int32_t>(v) : nothing;
+                }
+        });
+    }
+
+    /// Which of the four facets from 4 n on have a plain vertex that is one of facet i, too: a bit each.
+    unsigned share_plain_star(std::size_t i, std::size_t n) const {
+        if (plain_vertices_.empty()) return 0;
+        const PlainVertices &own = plain_vertices_[i / 4], &four = plain_vertices_[n];
+        Int4 shared{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t v = own[k][i % 4];
+            const Int4 all = Int4{} + (v == nothing ? nothing - 1 : v);
+            shared |= (four[0] == all) | (four[1] == all) | (four[2] == all);
+        }
+        return bits_of(shared);
     }
 
     std::size_t face_count_;
     Surface surface_;
     std::vector<Box> boxes_; ///< [triangles]
     BoxPairs pairs_;
-    std::vector<Facet> facets_; ///< along the curve
-    std::vector<Star> plain_;   ///< [vertices] of plain_stars, or nothing
+    std::vector<Facet> facets_;                 ///< along the curve
+    std::vector<Star> plain_;                   ///< [vertices] of plain_stars, or nothing
+    std::vector<PlainVertices> plain_vertices_; ///< of each four facets, or nothing
 };
 
 SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh, const Box& frame)
     : search_(std::make_unique<Search>(mesh, frame)) {}
+SelfIntersectionSearch::SelfIntersectionSearch(Surface surface, std::size_t faces)
+    : search_(std::make_unique<Search>(std::move(surface), faces)) {}
 SelfIntersectionSearch::SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept = default;
 SelfIntersectionSearch& SelfIntersectionSearch::operator=(SelfIntersectionSearch&&) noexcept = default;
 SelfIntersectionSearch::~SelfIntersectionSearch() = default;
@@ -313,11 +346,16 @@ MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& amon
     return search_->faces(exempt, max_box_pairs);
 }
 
-SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
+SelfIntersections find_self_intersections(Surface surface, std::size_t faces,
+                                          const SelfIntersectionSettings& settings) {
     ShareOfSteps steps({1, 3});
-    SelfIntersectionSearch search(mesh);
+    SelfIntersectionSearch search(std::move(surface), faces);
     steps.next();
     return search.pairs(settings);
+}
+
+SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
+    return find_self_intersections(surface_of(mesh), mesh.face_count(), settings);
 }
 
 } // namespace facetmill

@@ -3,6 +3,7 @@
 
 #include "geometry/intersect/plain_stars.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/surface.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,9 @@ struct SelfIntersections {
 /// count among themselves. A tree of boxes is walked against itself: O(n log n) and the pairs there
 /// are. Parallel; the same for any number of threads.
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
+/// The same, of triangles that stand for so many faces.
+SelfIntersections find_self_intersections(Surface surface, std::size_t faces,
+                                          const SelfIntersectionSettings& settings);
 
 struct MeetingFaces {
     bool too_many = false;           ///< box pairs: what faces were found is left out
@@ -57,6 +61,8 @@ class SelfIntersectionSearch {
   public:
     /// frame: of another search, whose boxes were rounded in it, so that as many pairs of boxes meet here.
     explicit SelfIntersectionSearch(const Mesh& mesh, const Box& frame = {});
+    /// Of triangles that stand for so many faces, which do not move.
+    SelfIntersectionSearch(Surface surface, std::size_t faces);
     SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept;
     SelfIntersectionSearch& operator=(SelfIntersectionSearch&&) noexcept;
     ~SelfIntersectionSearch();

@@ -60,8 +60,9 @@ std::vector<BoxPairs::Couple> BoxPairs::couples_above() const {
     while (couples[0].level > 0 && couples.size() < enough) {
         std::vector<Couple> below;
         for (const Couple& c : couples)
-            children(c, [&](std::uint32_t s, std::uint32_t t) {
-                if (wanted(c.level, s, t)) below.push_back({c.level - 1, s, t});
+            children(c, [&](std::uint32_t s, std::uint32_t four, unsigned bits) {
+                for (; bits != 0; bits &= bits - 1)
+                    below.push_back({c.level - 1, s, four + static_cast<std::uint32_t>(lowest(bits))});
             });
         if (below.empty()) return below;
         couples = std::move(below);

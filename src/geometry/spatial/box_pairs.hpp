@@ -41,14 +41,25 @@ class BoxPairs {
     /// threads.
     template <class T, class Found, class Join>
     T reduce(const T& identity, Found&& found, Join&& join) const {
+        return reduce_fours(
+            identity,
+            [&](T& result, std::size_t i, std::size_t four, unsigned bits) {
+                for (; bits != 0; bits &= bits - 1) found(result, i, four + lowest(bits));
+            },
+            std::forward<Join>(join));
+    }
+    /// Likewise, up to four pairs at a time: found(T&, i, four, bits) for those of i with four + k for every
+    /// bit k that is set. `four` is a multiple of 4.
+    template <class T, class Found, class Join>
+    T reduce_fours(const T& identity, Found&& found, Join&& join) const {
         const std::vector<Couple> tasks = couples_above();
         return parallel_reduce(
             tasks.size(), identity,
             [&](std::size_t begin, std::size_t end) {
                 T result = identity;
-                for (std::size_t i = begin; i < end; ++i)
-                    walk(tasks[i], [&](std::size_t a, std::size_t b) {
-                        found(result, a, b);
+                for (std::size_t task = begin; task < end; ++task)
+                    walk(tasks[task], [&](std::size_t i, std::size_t four, unsigned bits) {
+                        found(result, i, four, bits);
                         return true;
                     });
                 return result;
@@ -69,9 +80,12 @@ class BoxPairs {
             [&](std::size_t i) {
                 std::size_t mine = 0;
                 if (all.load(std::memory_order_relaxed) > most) return;
-                walk(tasks[i], [&](std::size_t a, std::size_t b) {
-                    found(a, b);
-                    return ++mine % batch != 0 || all.fetch_add(batch) + batch <= most;
+                walk(tasks[i], [&](std::size_t a, std::size_t four, unsigned bits) {
+                    for (; bits != 0; bits &= bits - 1) {
+                        found(a, four + lowest(bits));
+                        if (++mine % batch == 0 && all.fetch_add(batch) + batch > most) return false;
+                    }
+                    return true;
                 });
                 all += mine % batch;
             },
@@ -93,6 +107,8 @@ class BoxPairs {
         return items().size() <= few ? tasks + 1 : 4;
     }
 
+    static std::size_t lowest(unsigned bits) { return static_cast<std::size_t>(std::countr_zero(bits)); }
+
     /// Which boxes of the node meet box s of the other: a bit each.
     static unsigned meeting(const Node& node, const Node& other, std::size_t s) {
         Int4 meets = Int4{} - 1;
@@ -102,25 +118,29 @@ class BoxPairs {
         return bits_of(meets);
     }
 
-    /// The pairs of children of two nodes, or of one, whose boxes meet: found(child of a, child of b).
+    /// The pairs of children of two nodes, or of one, whose boxes meet: found(child of a, first child of b, a
+    /// bit for each child of b). Of one node also each child with itself, unless they are items.
     template <class Found>
     void children(const Couple& c, Found&& found) const {
         const Node &a = levels_.node(c.level, c.a), &b = levels_.node(c.level, c.b);
         for (std::uint32_t s = 0; s < 4; ++s) {
             unsigned bits = meeting(b, a, s);
-            if (c.a == c.b) bits &= 15u << s; // each pair once
-            for (; bits != 0; bits &= bits - 1)
-                found(4 * c.a + s, 4 * c.b + static_cast<std::uint32_t>(std::countr_zero(bits)));
+            if (c.a == c.b) bits &= (c.level > 0 ? 15u : 14u) << s; // each pair once
+            if (bits != 0 && !flags_.empty()) bits = wanted(c.level, 4 * c.a + s, 4 * c.b, bits);
+            if (bits != 0) found(4 * c.a + s, 4 * c.b, bits);
         }
     }
 
-    bool wanted(int level, std::uint32_t a, std::uint32_t b) const {
-        if (flags_.empty()) return true;
+    /// Those with something that is flagged.
+    unsigned wanted(int level, std::uint32_t a, std::uint32_t four, unsigned bits) const {
         const auto& flags = flags_[static_cast<std::size_t>(level)];
-        return flags[a] || flags[b];
+        if (flags[a]) return bits;
+        for (unsigned left = bits; left != 0; left &= left - 1)
+            if (!flags[four + lowest(left)]) bits &= ~(left & -left);
+        return bits;
     }
 
-    /// found(i, j): whether to go on.
+    /// found(i, four, bits): whether to go on.
     template <class Found>
     void walk(const Couple& from, Found&& found) const {
         std::array<Couple, 16 * 17> stack; // 17 levels of four hold all indices; fifteen wait at each
@@ -129,13 +149,15 @@ class BoxPairs {
         bool goes_on = true;
         while (size > 0 && goes_on) {
             const Couple c = stack[--size];
-            children(c, [&](std::uint32_t s, std::uint32_t t) {
-                if (!wanted(c.level, s, t)) return;
-                if (c.level > 0)
-                    stack[size++] = {c.level - 1, s, t};
-                else if (s != t)
-                    goes_on = found(std::size_t{s}, std::size_t{t}) && goes_on;
-            });
+            if (c.level == 0)
+                children(c, [&](std::uint32_t s, std::uint32_t four, unsigned bits) {
+                    goes_on = goes_on && found(std::size_t{s}, std::size_t{four}, bits);
+                });
+            else
+                children(c, [&](std::uint32_t s, std::uint32_t four, unsigned bits) {
+                    for (; bits != 0; bits &= bits - 1)
+                        stack[size++] = {c.level - 1, s, four + static_cast<std::uint32_t>(lowest(bits))};
+                });
         }
     }
 

@@ -92,6 +92,18 @@ inline std::uint64_t index(const Vec3& p, const Box& all) {
 /// number.
 template <class CentreOf>
 std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf&& centre_of) {
+    constexpr int place_bits = 3 * hilbert::axis_bits, item_bits = 64 - place_bits;
+    std::vector<Index> order(count);
+    if (count <= std::size_t{1} << item_bits) { // both in one number: half of the memory to sort
+        std::vector<std::uint64_t> placed(count);
+        parallel_for(count,
+                     [&](std::size_t i) { placed[i] = hilbert::index(centre_of(i), all) << item_bits | i; });
+        radix_sort(
+            placed, [](std::uint64_t p) { return p >> item_bits; }, place_bits);
+        constexpr std::uint64_t item = (std::uint64_t{1} << item_bits) - 1;
+        parallel_for(count, [&](std::size_t i) { order[i] = static_cast<Index>(placed[i] & item); });
+        return order;
+    }
     struct Placed {
         std::uint64_t along;
         Index item;
@@ -101,8 +113,7 @@ std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf
         placed[i] = {hilbert::index(centre_of(i), all), static_cast<Index>(i)};
     });
     radix_sort(
-        placed, [](const Placed& p) { return p.along; }, 3 * hilbert::axis_bits);
-    std::vector<Index> order(count);
+        placed, [](const Placed& p) { return p.along; }, place_bits);
     parallel_for(count, [&](std::size_t i) { order[i] = placed[i].item; });
     return order;
 }
