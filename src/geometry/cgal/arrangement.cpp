@@ -11,6 +11,9 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <tuple>
 
 namespace facetmill {
@@ -209,7 +212,7 @@ class Meetings {
     std::vector<std::vector<Index>> points_;
     std::vector<std::vector<Segment>> segments_;
     std::vector<std::uint8_t> flat_; ///< without area
-    std::map<std::tuple<Index, Index, Index>, Index> known_;
+    std::unordered_map<std::tuple<Index, Index, Index>, Index, HashOfIndices> known_;
 };
 
 /// At most how often lines could cross in the group: pairs of boxes that meet, counted up to a limit.
@@ -232,6 +235,70 @@ std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group
     for (std::size_t i = 0; i < boxes.size() && count <= limit; ++i)
         tree.visit(boxes[i], [&](Index j) { count += j > i; });
     return count;
+}
+
+/// On which sides of a few boxes, which are long along an axis, points are: two bits for each box and each of
+/// its two other axes. Those of one axis, from a table over places along it, so that a point is compared with
+/// a box only where they are near.
+class SlabsAlong {
+  public:
+    /// places: by the axis that boxes are long along.
+    SlabsAlong(std::size_t axis, const std::array<std::vector<Index>, 3>& places,
+               const std::vector<Box>& boxes, const Box& bounds)
+        : low_(bounds.min[axis]) {
+        const double extent = bounds.max[axis] - low_;
+        scale_ = extent > 0 ? static_cast<double>(cells) / extent : 0;
+        if (!(scale_ < HUGE_VAL)) scale_ = 0;
+        for (std::size_t j = 1; j < 3; ++j)
+            for (const Index at : places[(axis + 3 - j) % 3]) {
+                slabs_.push_back({boxes[at].min[axis], boxes[at].max[axis], 4 * at + 2 * (j - 1)});
+                const auto [low, high, bit] = slabs_.back();
+                for (std::size_t c = 0; c < cell(low); ++c) sure_[c] |= std::uint64_t{1} << bit;
+                for (std::size_t c = cell(high) + 1; c < cells; ++c) sure_[c] |= std::uint64_t{2} << bit;
+                is_near_[cell(low)] = is_near_[cell(high)] = true;
+            }
+    }
+
+    std::uint64_t beside(double x) const {
+        const std::size_t c = cell(x);
+        if (!is_near_[c]) return sure_[c];
+        std::uint64_t bits = 0;
+        for (const auto& [low, high, bit] : slabs_)
+            bits |= std::uint64_t{x < low} << bit | std::uint64_t{x > high} << (bit + 1);
+        return bits;
+    }
+
+  private:
+    static constexpr std::size_t cells = 1024;
+    struct Slab {
+        double low, high;
+        std::size_t bit;
+    };
+
+    /// Never lower for what is higher.
+    std::size_t cell(double x) const {
+        const double at = (x - low_) * scale_;
+        return at < 1 ? 0 : at < static_cast<double>(cells) ? static_cast<std::size_t>(at) : cells - 1;
+    }
+
+    double low_, scale_ = 0;
+    std::vector<Slab> slabs_;
+    std::array<std::uint64_t, cells> sure_{}; ///< [cells] the bits of all points in a cell that is not near
+    std::array<bool, cells> is_near_{};       ///< [cells] a side of a box is in it
+};
+
+/// [points] On which sides of which boxes they are.
+std::vector<std::uint64_t> beside_boxes(const std::vector<Vec3>& points,
+                                        const std::array<std::vector<Index>, 3>& places,
+                                        const std::vector<Box>& boxes, const Box& bounds) {
+    const std::array along{SlabsAlong(0, places, boxes, bounds), SlabsAlong(1, places, boxes, bounds),
+                           SlabsAlong(2, places, boxes, bounds)};
+    std::vector<std::uint64_t> beside(points.size());
+    parallel_for(beside.size(), [&](std::size_t i) {
+        const Vec3& p = points[i];
+        beside[i] = along[0].beside(p.x) | along[1].beside(p.y) | along[2].beside(p.z);
+    });
+    return beside;
 }
 
 template <class T>
@@ -337,24 +404,20 @@ struct Arrangement::Own {
     /// points are compared, and of a triangle only bits.
     Pairs meetings_of_few(const std::array<std::vector<Index>, 3>& places,
                           const std::vector<Box>& boxes) const {
-        std::vector<std::uint64_t> beside(soup.points.size());
-        parallel_for(beside.size(), [&](std::size_t i) {
-            const Vec3& p = soup.points[i];
-            for (std::size_t k = 0; k < 3; ++k)
-                for (const Index at : places[k])
-                    for (std::size_t j = 1, bit = 4 * at; j < 3; ++j, bit += 2) {
-                        const std::size_t axis = (k + j) % 3;
-                        beside[i] |= std::uint64_t{p[axis] < boxes[at].min[axis]} << bit |
-                                     std::uint64_t{p[axis] > boxes[at].max[axis]} << (bit + 1);
-                    }
-        });
+        const std::vector<std::uint64_t> beside = beside_boxes(soup.points, places, boxes, bounds);
+        constexpr std::uint64_t lowest_of_four = 0x1111'1111'1111'1111;
+        const std::uint64_t used = lowest_of_four >> (64 - 4 * boxes.size());
         const auto among = [&](std::size_t first, std::size_t last) {
             Pairs pairs;
             for (auto t = static_cast<Index>(first); t < last; ++t) {
                 const auto& [a, b, c] = soup.triangles[t];
                 std::uint64_t apart = beside[a] & beside[b] & beside[c];
-                for (Index at = 0; at < boxes.size(); ++at, apart >>= 4)
-                    if ((apart & 15) == 0 && boxes_meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
+                apart |= apart >> 2;
+                apart |= apart >> 1;
+                for (std::uint64_t left = ~apart & used; left != 0; left &= left - 1) {
+                    const auto at = static_cast<Index>(std::countr_zero(left) / 4);
+                    if (boxes_meet(box_of(t), boxes[at])) pairs.emplace_back(t, at);
+                }
             }
             return pairs;
         };

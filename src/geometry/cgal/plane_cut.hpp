@@ -14,10 +14,23 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace facetmill {
+
+/// Of pairs and triples of numbers.
+struct HashOfIndices {
+    template <class Indices>
+    std::size_t operator()(const Indices& indices) const {
+        std::uint64_t hash = 0;
+        std::apply([&](auto... i) { ((hash = std::rotl((hash ^ i) * 0x9e3779b97f4a7c15, 29)), ...); },
+                   indices);
+        return hash;
+    }
+};
 
 using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 
@@ -180,7 +193,7 @@ class ExactNodes {
     std::deque<Made> made_;
     std::vector<Vec3> rounded_; ///< of made_
     std::unordered_map<std::uint64_t, std::vector<Index>> at_place_;
-    std::map<PlaneTriple, Index> of_planes_;
+    std::unordered_map<PlaneTriple, Index, HashOfIndices> of_planes_;
 };
 
 /// Between nodes, in a triangle, and the triangle across that it comes from, or one of them.
@@ -197,7 +210,7 @@ struct PlaneGroup {
 };
 
 /// (triangle, node) -> the side of the triangle that the node is on.
-using SidesOfNodes = std::map<std::pair<Index, Index>, int>;
+using SidesOfNodes = std::unordered_map<std::pair<Index, Index>, int, HashOfIndices>;
 
 /// Appends the pieces, group by group, by constrained triangulations with exact intersections, whose points
 /// become nodes. One triangle is cut by floating point alone where that is sure to be right
