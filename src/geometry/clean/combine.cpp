@@ -38,20 +38,22 @@ std::span<const std::uint32_t> mesh_of_faces(const Mesh& mesh) {
     return std::get<std::vector<std::uint32_t>>(mesh.find(mesh_name, Domain::face)->data);
 }
 
-/// Takes faces without area out of what stays closed without them.
-void take_out_degenerate(Work& work) {
+/// Takes faces without area out of what stays closed without them. Whether there were none.
+bool take_out_degenerate(Work& work) {
     const auto is_any = [&](std::size_t begin, std::size_t end) {
         int any = 0;
         for (auto f = static_cast<Index>(begin); f < end && any == 0; ++f) any = is_degenerate(work.mesh, f);
         return any;
     };
-    if (parallel_reduce(work.mesh.face_count(), 0, is_any, std::bit_or<>()) == 0) return;
+    if (parallel_reduce(work.mesh.face_count(), 0, is_any, std::bit_or<>()) == 0) return true;
     take_out_flat(work);
     remove_degenerate(work);
+    return false;
 }
 
 /// Of the first face whose component is no solid.
 std::optional<CombineFailure> misfit(const Mesh& mesh, const Solids& solids) {
+    if (std::find(solids.closed.begin(), solids.closed.end(), 0) == solids.closed.end()) return {};
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const Index p = solids.components.of_face[f];
         if (!solids.closed[p])
@@ -86,7 +88,7 @@ class Combining {
     }
 
     CombineResult run() {
-        take_out_degenerate(work_);
+        const bool had_area = take_out_degenerate(work_);
         constexpr std::uint64_t bytes_a_pair = 32;  // and as much again is left for what follows
         constexpr std::uint64_t bytes_a_face = 170; // measured
         const std::uint64_t bytes = memory_left().value_or(std::uint64_t{4} << 30);
@@ -99,7 +101,7 @@ class Combining {
         if (found.count > found.pairs.size())
             return short_of_memory(fmt::format("list the {} pairs of faces that intersect", found.count),
                                    found.pairs[0].first);
-        Solids solids = find_solids(work_.mesh, {}, std::move(rings));
+        Solids solids = find_solids(work_.mesh, {}, std::move(rings), had_area);
         if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
         if (auto failure = turned_over(work_.mesh, solids, meshes_)) return failed(std::move(*failure));
         for (const auto& pair : overlaps_at_edges(work_.mesh, solids.rings, solids.edges))

@@ -37,7 +37,7 @@ LooseEdges::LooseEdges(const Mesh& mesh, const Rings& rings) {
 
 Components face_components(const Mesh& mesh, const Rings& rings, const LooseEdges& edges) {
     FaceSets sets(mesh, rings, [](Index) { return true; });
-    const auto face_of = corner_faces(mesh);
+    const std::vector<Index> face_of = edges.size() > 0 ? corner_faces(mesh) : std::vector<Index>{};
     parallel_for(edges.size(), [&](std::size_t e) {
         const auto corners = edges.corners_of(static_cast<Index>(e));
         for (std::size_t i = 1; i < corners.size(); ++i) sets.join(face_of[corners[0]], face_of[corners[i]]);

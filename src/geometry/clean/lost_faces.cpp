@@ -3,6 +3,9 @@
 #include "geometry/clean/touched_cells.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "geometry/spatial/rays.hpp"
+#include "mesh/topology.hpp"
+
+#include <bit>
 
 namespace facetmill::clean_steps {
 
@@ -15,41 +18,46 @@ constexpr std::size_t most_rooms = 64;
 /// The rooms between marked cells: numbered, each cell has the number of its own.
 class Rooms {
   public:
-    explicit Rooms(const TouchedCells& touched) : of_cell_(cells_along * cells_along * cells_along, none) {
-        for (std::size_t cell = 0; cell < of_cell_.size(); ++cell)
-            if (of_cell_[cell] == none && !touched.is_marked(at(cell))) fill(cell, touched);
+    explicit Rooms(const TouchedCells& touched) {
+        std::size_t runs = 0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const std::uint64_t open = ~touched.row(row);
+            starts_[row] = open & ~(open << 1);
+            first_[row] = static_cast<Index>(runs);
+            runs += static_cast<std::size_t>(std::popcount(starts_[row]));
+        }
+        DisjointSets sets(runs);
+        for (std::size_t row = 0; row < rows; ++row)
+            for (const std::size_t next :
+                 {row % cells_along + 1 < cells_along ? row + 1 : rows, row + cells_along}) {
+                if (next >= rows) continue;
+                const std::uint64_t both = ~(touched.row(row) | touched.row(next));
+                for (std::uint64_t left = both & ~(both << 1); left != 0; left &= left - 1)
+                    sets.join(run_of(row, std::countr_zero(left)), run_of(next, std::countr_zero(left)));
+            }
+        number_.resize(runs);
+        for (Index run = 0; run < runs; ++run) { // of a set the root is the lowest
+            const Index root = sets.find(run);
+            number_[run] = root == run ? static_cast<Index>(count_++) : number_[root];
+        }
     }
 
     std::size_t count() const { return count_; }
-    Index of(const Cell& c) const { return of_cell_[(c[0] * cells_along + c[1]) * cells_along + c[2]]; }
+    /// Of a cell that is not marked.
+    Index of(const Cell& c) const { return number_[run_of(c[0] * cells_along + c[1], c[2])]; }
 
   private:
-    static Cell at(std::size_t cell) {
-        const auto number = [](std::size_t n) { return static_cast<std::uint8_t>(n % cells_along); };
-        return {number(cell / cells_along / cells_along), number(cell / cells_along), number(cell)};
+    static constexpr std::size_t rows = cells_along * cells_along;
+
+    /// The run of open cells along the last axis that holds an open one.
+    Index run_of(std::size_t row, int at) const {
+        const std::uint64_t up_to = starts_[row] << (cells_along - 1 - static_cast<std::size_t>(at));
+        return first_[row] + static_cast<Index>(std::popcount(up_to)) - 1;
     }
 
-    void fill(std::size_t first, const TouchedCells& touched) {
-        std::vector<std::size_t> waiting{first};
-        of_cell_[first] = static_cast<Index>(count_);
-        while (!waiting.empty()) {
-            const std::size_t cell = waiting.back();
-            waiting.pop_back();
-            const Cell c = at(cell);
-            for (std::size_t axis = 0, step = cells_along * cells_along; axis < 3;
-                 ++axis, step /= cells_along)
-                for (const int way : {-1, 1}) {
-                    if (c[axis] == (way < 0 ? 0 : cells_along - 1)) continue;
-                    const std::size_t next = way < 0 ? cell - step : cell + step;
-                    if (of_cell_[next] != none || touched.is_marked(at(next))) continue;
-                    of_cell_[next] = static_cast<Index>(count_);
-                    waiting.push_back(next);
-                }
-        }
-        ++count_;
-    }
-
-    std::vector<Index> of_cell_; ///< or none for marked ones
+    std::array<std::uint64_t, rows> starts_; ///< of the runs, in the bits of a number
+    std::array<Index, rows> first_;          ///< number of a row's first run
+    std::vector<Index> number_;              ///< [runs] the room
     std::size_t count_ = 0;
 };
 
@@ -63,9 +71,12 @@ class Losing {
         parallel_for(mesh_.face_count(), [&](std::size_t f) { touched[second_[f]].mark(cells_[f]); });
         std::array<std::vector<std::uint8_t>, 2> goes; // by room, of the faces of an operand in it
         const std::array rooms{Rooms(touched[1]), Rooms(touched[0])};
-        const auto is_in_room = [&](std::size_t f) { return !touched[1 - second_[f]].may_meet(cells_[f]); };
-        const auto room_of = [&](std::size_t f) { return rooms[second_[f]].of(cells_[f].low); };
-        find_views(rooms, is_in_room, room_of);
+        std::vector<Index> room(mesh_.face_count()); // or none
+        parallel_for(room.size(), [&](std::size_t f) {
+            const bool is_in_one = !touched[1 - second_[f]].may_meet(cells_[f]);
+            room[f] = is_in_one ? rooms[second_[f]].of(cells_[f].low) : none;
+        });
+        find_views(rooms, room);
         ask();
         bool any = false;
         for (std::size_t k = 0; k < 2; ++k) goes[k].assign(rooms[k].count(), 0);
@@ -73,7 +84,7 @@ class Losing {
         if (!any) return {};
         std::vector<std::uint8_t> lost(mesh_.face_count());
         parallel_for(lost.size(),
-                     [&](std::size_t f) { lost[f] = is_in_room(f) && goes[second_[f]][room_of(f)]; });
+                     [&](std::size_t f) { lost[f] = room[f] != none && goes[second_[f]][room[f]]; });
         return lost;
     }
 
@@ -102,17 +113,32 @@ class Losing {
 
     /// What boxes of both operands have in common, or a little more.
     Box common_box() const {
-        std::array<Index, 2> low{none, none}, high{0, 0}; // vertices of each
-        for (Index f = 0; f < mesh_.face_count(); ++f)
-            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
-                const Index v = mesh_.vertex(c);
-                low[second_[f]] = std::min(low[second_[f]], v);
-                high[second_[f]] = std::max(high[second_[f]], v);
+        struct Range { // of vertices
+            Index low = none, high = 0;
+            void add(const Range& r) {
+                low = std::min(low, r.low);
+                high = std::max(high, r.high);
             }
+        };
+        using Ranges = std::array<Range, 2>;
+        const Ranges ranges = parallel_reduce(
+            mesh_.face_count(), Ranges{},
+            [&](std::size_t begin, std::size_t end) {
+                Ranges some;
+                for (auto f = static_cast<Index>(begin); f < end; ++f)
+                    for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
+                        some[second_[f]].add({mesh_.vertex(c), mesh_.vertex(c)});
+                return some;
+            },
+            [](Ranges a, const Ranges& b) {
+                for (std::size_t k = 0; k < 2; ++k) a[k].add(b[k]);
+                return a;
+            });
         Box both;
         std::array<Box, 2> boxes;
         for (std::size_t k = 0; k < 2; ++k)
-            for (Index v = low[k]; v <= high[k] && v != none; ++v) boxes[k].add(mesh_.positions[v]);
+            if (const auto& [low, high] = ranges[k]; low != none)
+                boxes[k] = box_of(std::span(mesh_.positions).subspan(low, high - low + 1));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             both.min[axis] = std::max(boxes[0].min[axis], boxes[1].min[axis]);
             both.max[axis] = std::min(boxes[0].max[axis], boxes[1].max[axis]);
@@ -120,16 +146,14 @@ class Losing {
         return both;
     }
 
-    /// A view from each room with many faces.
-    template <class InRoom, class RoomOf>
-    void find_views(const std::array<Rooms, 2>& rooms, InRoom&& is_in_room, RoomOf&& room_of) {
+    /// A view from each room with many faces. room: of the faces.
+    void find_views(const std::array<Rooms, 2>& rooms, const std::vector<Index>& room) {
         std::array<std::vector<std::size_t>, 2> count;
         for (std::size_t k = 0; k < 2; ++k) count[k].assign(rooms[k].count(), 0);
         for (Index f = 0; f < mesh_.face_count(); ++f) {
-            if (!is_in_room(f)) continue;
+            if (room[f] == none || ++count[second_[f]][room[f]] != mesh_.face_count() / most_rooms) continue;
             const Vec3& from = mesh_.point(mesh_.face_begin(f));
-            if (++count[second_[f]][room_of(f)] == mesh_.face_count() / most_rooms && is_finite(from))
-                views_.push_back({from, cells_.of(from), second_[f], room_of(f)});
+            if (is_finite(from)) views_.push_back({from, cells_.of(from), second_[f], room[f]});
         }
     }
 

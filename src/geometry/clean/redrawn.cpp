@@ -1,9 +1,11 @@
 #include "geometry/clean/redrawn.hpp"
 
+#include "base/parallel.hpp"
 #include "base/predicates.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -170,8 +172,10 @@ class Redrawing {
 
     void find_needless(const std::vector<Index>& uncut) {
         std::vector<std::uint8_t> needed(arrangement_.node_count(), 0);
-        for (const Index f : uncut)
-            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) needed[mesh_.vertex(c)] = 1;
+        parallel_for(uncut.size(), [&](std::size_t i) {
+            for (Index c = mesh_.face_begin(uncut[i]); c < mesh_.face_end(uncut[i]); ++c)
+                std::atomic_ref(needed[mesh_.vertex(c)]).store(1, std::memory_order_relaxed);
+        });
         const auto corners = static_cast<Index>(3 * pieces_.size());
         for (Index c = 0; c < corners; ++c)
             for (std::size_t k = 0; k < 3; ++k)

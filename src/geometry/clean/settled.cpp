@@ -2,6 +2,7 @@
 
 #include "geometry/clean/steps.hpp"
 #include "geometry/inspect/evidence.hpp"
+#include "mesh/indices_where.hpp"
 
 namespace facetmill::clean_steps {
 
@@ -9,13 +10,11 @@ bool is_tidy(const Mesh& mesh, const std::vector<std::uint8_t>& settled, std::si
     if (settled.empty() || !mesh.all_triangles() || !are_distinct(lowest_at_place(mesh))) return false;
     for (auto f = static_cast<Index>(uncut); f < mesh.face_count(); ++f)
         if (is_degenerate(mesh, f)) return false;
-    std::vector<Index> faces;
     const auto is_settled = [&](Index f) {
         const Index c = mesh.face_begin(f);
         return settled[mesh.vertex(c)] && settled[mesh.vertex(c + 1)] && settled[mesh.vertex(c + 2)];
     };
-    for (Index f = 0; f < mesh.face_count(); ++f)
-        if (!is_settled(f)) faces.push_back(f);
+    const auto faces = indices_where(mesh.face_count(), [&](Index f) { return !is_settled(f); });
     const Mesh some = only_faces(mesh, faces);
     std::vector<std::uint8_t> whole(some.vertex_count()); // all of whose faces are here
     for (Index c = 0; c < some.corner_count(); ++c)

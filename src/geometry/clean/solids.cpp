@@ -7,9 +7,12 @@
 #include "geometry/spatial/components_around.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
+#include "mesh/indices_where.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 
 namespace facetmill::clean_steps {
@@ -32,9 +35,24 @@ const char* reason(Fitness f) {
     return "";
 }
 
-std::vector<Fitness> fitness_of(const Mesh& mesh, const LooseEdges& edges, const Components& components) {
+/// Whether all corner means are finite, for certain.
+bool are_small(const std::vector<Vec3>& positions) {
+    constexpr double most = 1e290;
+    return parallel_reduce(
+               positions.size(), 1,
+               [&](std::size_t begin, std::size_t end) {
+                   int all = 1;
+                   for (std::size_t v = begin; v < end; ++v)
+                       for (std::size_t k = 0; k < 3; ++k) all &= std::abs(positions[v][k]) < most;
+                   return all;
+               },
+               std::bit_and<>()) != 0;
+}
+
+std::vector<Fitness> fitness_of(const Mesh& mesh, const LooseEdges& edges, const Components& components,
+                                bool have_area) {
     std::vector<Fitness> fitness(components.count, Fitness::fit);
-    const auto faces = corner_faces(mesh);
+    const std::vector<Index> faces = edges.size() > 0 ? corner_faces(mesh) : std::vector<Index>{};
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
         const Index from = mesh.vertex(edges.corners_of(e)[0]);
@@ -44,6 +62,7 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const LooseEdges& edges, const
         if (edges.corners_of(e).size() % 2 == 1) f = Fitness::open;
         if (f == Fitness::fit) f = Fitness::disagreeing;
     }
+    if (have_area && are_small(mesh.positions)) return fitness;
     std::vector<std::uint8_t> flat(mesh.face_count());
     parallel_for(flat.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
@@ -103,18 +122,25 @@ SelfIntersections find_but(const std::vector<std::uint8_t>& lost, const Mesh& me
                            std::vector<Star> stars) {
     if (lost.empty()) return find_self_intersections(mesh, {.limit = limit, .stars = std::move(stars)});
     const std::vector<Index> faces = faces_without(lost);
-    Mesh rest;
-    rest.positions = mesh.positions;
-    if (!mesh.all_triangles()) rest.face_offsets.push_back(0);
-    std::size_t corners = 0;
-    for (std::size_t i = 0; i < faces.size() && !mesh.all_triangles(); ++i)
-        rest.face_offsets.push_back(static_cast<Index>(corners += mesh.face_size(faces[i])));
-    rest.corners.resize(mesh.all_triangles() ? 3 * faces.size() : corners);
-    parallel_for(faces.size(), [&](std::size_t i) {
-        const Index from = mesh.face_begin(faces[i]), to = rest.face_begin(static_cast<Index>(i));
-        for (Index k = 0; k < mesh.face_size(faces[i]); ++k) rest.corners[to + k] = mesh.vertex(from + k);
-    });
-    SelfIntersections found = find_self_intersections(rest, {.limit = limit, .stars = std::move(stars)});
+    SelfIntersectionSettings settings{.limit = limit, .stars = std::move(stars)};
+    SelfIntersections found;
+    if (mesh.all_triangles()) {
+        Surface rest{mesh.positions, std::vector<Index>(3 * faces.size()), {}};
+        parallel_for(faces.size(), [&](std::size_t i) {
+            for (Index k = 0; k < 3; ++k) rest.corners[3 * i + k] = mesh.vertex(3 * faces[i] + k);
+        });
+        found = find_self_intersections(std::move(rest), faces.size(), settings);
+    } else {
+        Mesh rest;
+        rest.positions = mesh.positions;
+        rest.face_offsets.push_back(0);
+        for (const Index f : faces) {
+            for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+                rest.corners.push_back(mesh.vertex(c));
+            rest.face_offsets.push_back(static_cast<Index>(rest.corners.size()));
+        }
+        found = find_self_intersections(rest, settings);
+    }
     for (auto& [f, g] : found.pairs) {
         f = faces[f];
         g = faces[g];
@@ -175,22 +201,19 @@ std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>&
         return box;
     };
     std::vector<Box> boxes;
-    for (Index f = 0; f < flags.size(); ++f)
-        if (flags[f]) boxes.push_back(box_of(f));
+    const auto flagged = indices_where(flags.size(), [&](Index f) { return flags[f] != 0; });
+    boxes.reserve(flagged.size());
+    for (const Index f : flagged) boxes.push_back(box_of(f));
     const FaceCells cells(mesh, box_of_all(boxes));
     TouchedCells touched;
-    for (Index f = 0; f < flags.size(); ++f)
-        if (flags[f]) touched.mark(cells[f]);
+    for (const Index f : flagged) touched.mark(cells[f]);
     const BoxTree tree(std::move(boxes));
     std::vector<std::uint8_t> near(flags);
     parallel_for(near.size(), [&](std::size_t f) {
         if (!near[f] && touched.may_meet(cells[f]))
             tree.visit(box_of(static_cast<Index>(f)), [&](Index) { near[f] = 1; });
     });
-    std::vector<Index> faces;
-    for (Index f = 0; f < near.size(); ++f)
-        if (near[f]) faces.push_back(f);
-    return faces;
+    return indices_where(near.size(), [&](Index f) { return near[f] != 0; });
 }
 
 } // namespace
@@ -200,7 +223,11 @@ SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_
     const std::vector<Index> near = faces_near(mesh, flags);
     std::vector<std::uint8_t> among(near.size());
     for (std::size_t i = 0; i < near.size(); ++i) among[i] = flags[near[i]];
-    SelfIntersections found = crossings(only_faces(mesh, near), std::move(among), max_box_pairs);
+    const Mesh some = only_faces(mesh, near), plain = at_places(some, lowest_at_place(some));
+    SelfIntersectionSettings settings{
+        .limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs};
+    if (plain.all_triangles()) settings.stars = plain_stars(plain.positions, plain.corners);
+    SelfIntersections found = find_self_intersections(plain, settings);
     for (auto& [f, g] : found.pairs) {
         f = near[f];
         g = near[g];
@@ -208,12 +235,12 @@ SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_
     return found;
 }
 
-Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings) {
+Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings, bool have_area) {
     Solids s;
     s.rings = std::move(rings);
     s.edges = LooseEdges(mesh, s.rings);
     s.components = face_components(mesh, s.rings, s.edges);
-    const auto fitness = fitness_of(mesh, s.edges, s.components);
+    const auto fitness = fitness_of(mesh, s.edges, s.components, have_area);
     s.six_volumes = six_volumes(mesh, s.components);
     for (Index p = 0; p < s.components.count; ++p) {
         s.closed.push_back(fitness[p] == Fitness::fit);

@@ -25,7 +25,9 @@ struct Solids {
     Index cluster_of_face(Index f) const { return cluster[components.of_face[f]]; }
 };
 
-/// found: all pairs of faces that intersect. rings: those of the mesh, if they are known.
-Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings = {});
+/// found: all pairs of faces that intersect. rings: those of the mesh, if they are known. have_area: all
+/// faces are known to have an area.
+Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings = {},
+                   bool have_area = false);
 
 } // namespace facetmill::clean_steps

@@ -78,7 +78,9 @@ class TouchedCells {
     bool may_meet(const CellRange& range) const {
         return visit(range, [&](std::size_t row, std::uint64_t bits) { return (rows_[row] & bits) != 0; });
     }
-    bool is_marked(const Cell& cell) const { return may_meet({cell, cell}); }
+    /// The cells of a row along the last axis, a bit each: set where they are marked. Rows lie along the
+    /// middle axis, cells_along of them at each place on the first.
+    std::uint64_t row(std::size_t i) const { return rows_[i]; }
 
   private:
     /// stop(row, bits of the range) for its rows, until it is true. Whether it was.

@@ -7,6 +7,7 @@
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/spatial/box_tree.hpp"
+#include "mesh/indices_where.hpp"
 #include "mesh/surface.hpp"
 
 #include <algorithm>
@@ -167,15 +168,10 @@ class Uniting {
         const Surface surface = plain ? Surface{} : surface_of(mesh_);
         const std::size_t count = plain ? mesh_.face_count() : surface.size();
         const auto face_of = [&](std::size_t t) { return plain ? static_cast<Index>(t) : surface.face(t); };
+        const std::vector<Index> chosen = indices_where(
+            count, [&](Index t) { return solids_.closed[solids_.components.of_face[face_of(t)]] != 0; });
         first_.assign(mesh_.face_count() + 1, 0);
-        std::vector<Index> chosen;
-        chosen.reserve(count);
-        for (std::size_t t = 0; t < count; ++t) {
-            const Index f = face_of(t);
-            if (!solids_.closed[solids_.components.of_face[f]]) continue;
-            ++first_[f + 1];
-            chosen.push_back(static_cast<Index>(t));
-        }
+        for (const Index t : chosen) ++first_[face_of(t) + 1];
         for (std::size_t f = 0; f < mesh_.face_count(); ++f) first_[f + 1] += first_[f];
         triangles_.face.resize(chosen.size());
         triangles_.corners.resize(chosen.size());
@@ -227,8 +223,8 @@ class Uniting {
     // Leaves are numbered: the uncut faces, ascending, then the pieces.
 
     void make_leaves(const Arrangement& arrangement) {
-        for (Index f = 0; f < mesh_.face_count(); ++f)
-            if (!cut_[f] && solids_.cluster_of_face(f) != none) uncut_.push_back(f);
+        uncut_ = indices_where(mesh_.face_count(),
+                               [&](Index f) { return !cut_[f] && solids_.cluster_of_face(f) != none; });
         pieces_.reserve(arrangement.pieces().size());
         for (const auto& piece : arrangement.pieces()) pieces_.push_back(leaf_of(piece.nodes, piece.sources));
     }
@@ -288,7 +284,7 @@ class Uniting {
     /// ring that no cut face touches all edges are such.
     void join_uncut(const std::vector<std::uint8_t>& merged) {
         Rings calm = solids_.rings;
-        for (std::size_t v = 0; v < calm.size(); ++v) calm[v] = calm[v] && !merged[v];
+        parallel_for(calm.size(), [&](std::size_t v) { calm[v] = calm[v] && !merged[v]; });
         const auto is_leaf = [&](Index f) { return !cut_[f] && solids_.cluster_of_face(f) != none; };
         FaceSets sets(mesh_, calm, is_leaf);
         const auto faces = corner_faces(mesh_);
@@ -301,11 +297,12 @@ class Uniting {
             sets.join(f, g);
         });
         patch_.resize(leaf_count());
+        parallel_for(patch_.size(), [&](std::size_t i) {
+            patch_[i] = i < uncut_.size() ? sets.find(uncut_[i]) : static_cast<Index>(i);
+        });
         std::vector<Index> lowest(sets.bound(), none);
-        for (Index i = 0; i < patch_.size(); ++i) {
-            patch_[i] = i;
-            if (i >= uncut_.size()) continue;
-            Index& first = lowest[sets.find(uncut_[i])];
+        for (Index i = 0; i < uncut_.size(); ++i) {
+            Index& first = lowest[patch_[i]];
             if (first == none) first = i;
             patch_[i] = first;
         }
@@ -322,12 +319,15 @@ class Uniting {
             mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
             leaf_of_face.push_back(static_cast<Index>(i));
         };
-        for (std::size_t i = 0; i < uncut_.size(); ++i) {
+        const auto has_merged_edge = [&](Index i) {
             std::size_t count = 0;
-            const Index begin = mesh_.face_begin(uncut_[i]), end = mesh_.face_end(uncut_[i]);
-            for (Index c = begin; c < end; ++c) count += merged[mesh_.vertex(c)];
-            if (count < 2) continue;
-            for (Index c = begin; c < end; ++c) mesh.corners.push_back(mesh_.vertex(c));
+            for (Index c = mesh_.face_begin(uncut_[i]); c < mesh_.face_end(uncut_[i]); ++c)
+                count += merged[mesh_.vertex(c)];
+            return count >= 2;
+        };
+        for (const Index i : indices_where(uncut_.size(), has_merged_edge)) {
+            for (Index c = mesh_.face_begin(uncut_[i]); c < mesh_.face_end(uncut_[i]); ++c)
+                mesh.corners.push_back(mesh_.vertex(c));
             end_face(i);
         }
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -406,7 +406,9 @@ class Uniting {
             const bool before = encloses(front, operands_), behind = encloses(back, operands_);
             if (before != behind) fate_[firsts[n]] = behind ? Fate::stays : Fate::stays_turned;
         }
-        for (Index i = 0; i < leaf_count(); ++i) fate_[i] = fate_[patch_[i]];
+        parallel_for(leaf_count(), [&](std::size_t i) {
+            if (patch_[i] != i) fate_[i] = fate_[patch_[i]];
+        });
         find_filled_cavities(arrangement);
     }
 
@@ -414,6 +416,9 @@ class Uniting {
     void find_filled_cavities(const Arrangement& arrangement) {
         filled_.assign(solids_.components.count, 0);
         std::vector<std::uint8_t> asked(solids_.components.count, 0);
+        bool any = false;
+        for (Index p = 0; p < asked.size(); ++p) any |= solids_.cluster[p] == none && solids_.inward[p];
+        if (!any) return;
         std::vector<Arrangement::Look> looks;
         for (Index t = 0; t < triangles_.face.size(); ++t) {
             const Index p = component_of(t);
@@ -436,17 +441,16 @@ class Uniting {
 
     void assemble(const Arrangement& arrangement) {
         std::vector<std::uint8_t> goes = cut_;
-        for (Index f = 0; f < goes.size(); ++f)
+        const bool any_filled = std::find(filled_.begin(), filled_.end(), 1) != filled_.end();
+        for (Index f = 0; any_filled && f < goes.size(); ++f)
             if (filled_[solids_.components.of_face[f]]) {
                 goes[f] = 1;
                 ++result_.covered_faces;
             }
         std::vector<OuterPiece> pieces;
-        for (std::size_t i = 0; i < uncut_.size(); ++i) {
-            if (fate_[i] != Fate::goes) continue;
-            goes[uncut_[i]] = 1;
-            ++result_.covered_faces;
-        }
+        const auto covered = indices_where(uncut_.size(), [&](Index i) { return fate_[i] == Fate::goes; });
+        for (const Index i : covered) goes[uncut_[i]] = 1;
+        result_.covered_faces += covered.size();
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
             const Leaf& leaf = pieces_[i];
             const Fate fate = fate_[uncut_.size() + i];
@@ -471,8 +475,8 @@ class Uniting {
             for (Index c = mesh_.face_begin(f); goes[f] && c < mesh_.face_end(f); ++c)
                 whole[mesh_.vertex(c)] = 0;
         std::vector<std::uint8_t> settled(united.mesh.vertex_count(), 0);
-        for (std::size_t v = 0; v < united.old_vertices.size(); ++v)
-            settled[v] = whole[united.old_vertices[v]];
+        parallel_for(united.old_vertices.size(),
+                     [&](std::size_t v) { settled[v] = whole[united.old_vertices[v]]; });
         return settled;
     }
 

@@ -1,8 +1,13 @@
 #include "geometry/clean/united_mesh.hpp"
 
 #include "base/numbers.hpp"
+#include "base/parallel.hpp"
+#include "mesh/indices_where.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -41,14 +46,15 @@ class Assembly {
     Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles,
              const Rounding& rounding)
         : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), tolerance_(rounding.tolerance),
-          single_(rounding.single), plain_(is_plain(mesh)) {}
+          single_(rounding.single), plain_(is_plain(mesh)),
+          of_node_(arrangement.node_count() - mesh.vertex_count(), none) {}
 
     UnitedMesh run(const std::vector<Index>& kept, const std::vector<OuterPiece>& pieces) {
         std::vector<std::uint8_t> seen(mesh_.vertex_count(), 0);
         for (const OuterPiece& p : pieces)
             for (const Index node : p.nodes)
                 if (node < seen.size() && !std::exchange(seen[node], 1))
-                    at_place_[cell(mesh_.positions[node])].push_back(node);
+                    at_place_.emplace(cell(mesh_.positions[node]), node);
         for (const OuterPiece& p : pieces) add(p);
         number(kept);
         put_together(kept);
@@ -67,24 +73,26 @@ class Assembly {
         enum : std::uint8_t { unused, used, lost };
         std::vector<std::uint8_t> vertices(mesh_.vertex_count(), unused),
             wedges(plain_ ? 0 : mesh_.wedge_count(), unused);
-        const auto mark = [&](Index wedge, std::uint8_t as) {
-            if (!plain_) wedges[wedge] = as;
-            vertices[plain_ ? wedge : mesh_.vertex_of_wedge(wedge)] = as;
+        const auto set = [](std::uint8_t& mark, std::uint8_t as) {
+            std::atomic_ref(mark).store(as, std::memory_order_relaxed);
         };
-        for (const Index w : mesh_.corners) mark(w, lost);
-        for (const Index f : kept)
-            for (const Index w : mesh_.face_wedges(f)) mark(w, used);
+        const auto mark = [&](Index wedge, std::uint8_t as) {
+            if (!plain_) set(wedges[wedge], as);
+            set(vertices[plain_ ? wedge : mesh_.vertex_of_wedge(wedge)], as);
+        };
+        parallel_for(mesh_.corners.size(), [&](std::size_t c) { mark(mesh_.corners[c], lost); });
+        parallel_for(kept.size(), [&](std::size_t i) {
+            for (const Index w : mesh_.face_wedges(kept[i])) mark(w, used);
+        });
         for (const Index w : fresh_corners_) { // of a new wedge the vertex may be an old one
             if (w < wedge_count()) mark(w, used);
             if (const Index v = vertex_of(w); v < mesh_.vertex_count()) vertices[v] = used;
         }
         const auto copy = [](const std::vector<std::uint8_t>& marks, std::vector<Index>& copies,
                              std::vector<Index>& numbers) {
-            numbers.resize(marks.size());
-            for (Index i = 0; i < marks.size(); ++i) {
-                numbers[i] = marks[i] == lost ? none : static_cast<Index>(copies.size());
-                if (marks[i] != lost) copies.push_back(i);
-            }
+            copies = indices_where(marks.size(), [&](Index i) { return marks[i] != lost; });
+            numbers.assign(marks.size(), none);
+            parallel_for(copies.size(), [&](std::size_t i) { numbers[copies[i]] = static_cast<Index>(i); });
         };
         copy(vertices, descent_.vertices.copies, vertex_numbers_);
         copy(wedges, descent_.wedges.copies, wedge_numbers_);
@@ -101,30 +109,35 @@ class Assembly {
             return plain_ ? vertex(w) : renumbered(w, wedge_numbers_, descent_.wedges.copies.size());
         };
         const std::size_t faces = kept.size() + fresh_corners_.size() / 3;
-        result_.positions.reserve(descent_.vertices.copies.size() + fresh_positions_.size());
-        for (const Index v : descent_.vertices.copies) result_.positions.push_back(mesh_.positions[v]);
-        result_.positions.insert(result_.positions.end(), fresh_positions_.begin(), fresh_positions_.end());
+        const auto& copies = descent_.vertices.copies;
+        result_.positions.resize(copies.size() + fresh_positions_.size());
+        parallel_for(copies.size(),
+                     [&](std::size_t i) { result_.positions[i] = mesh_.positions[copies[i]]; });
+        std::copy(fresh_positions_.begin(), fresh_positions_.end(),
+                  result_.positions.begin() + static_cast<std::ptrdiff_t>(copies.size()));
         if (!plain_) {
             for (const Index w : descent_.wedges.copies)
                 result_.wedge_vertex.push_back(vertex(mesh_.vertex_of_wedge(w)));
             for (const Index v : fresh_wedge_vertex_) result_.wedge_vertex.push_back(vertex(v));
         }
-        const bool polygons = !mesh_.all_triangles();
-        result_.corners.reserve(3 * faces);
-        if (polygons) result_.face_offsets.push_back(0);
-        const auto end_face = [&] {
-            if (polygons) result_.face_offsets.push_back(static_cast<Index>(result_.corners.size()));
-        };
-        for (const Index f : kept) {
-            for (const Index w : mesh_.face_wedges(f)) result_.corners.push_back(wedge(w));
-            end_face();
+        std::vector<Index> begin; // of the kept faces, among the corners
+        std::size_t corners = 3 * kept.size();
+        if (!mesh_.all_triangles()) {
+            for (const Index f : kept) begin.push_back(mesh_.face_size(f));
+            corners = exclusive_scan(begin);
+            result_.face_offsets = begin;
+            for (std::size_t i = kept.size(); i <= faces; ++i)
+                result_.face_offsets.push_back(static_cast<Index>(corners + 3 * (i - kept.size())));
         }
-        for (std::size_t i = 0; i < fresh_corners_.size(); ++i) {
-            result_.corners.push_back(wedge(fresh_corners_[i]));
-            if (i % 3 == 2) end_face();
-        }
+        result_.corners.resize(corners + fresh_corners_.size());
+        parallel_for(kept.size(), [&](std::size_t i) {
+            std::size_t at = begin.empty() ? 3 * i : begin[i];
+            for (const Index w : mesh_.face_wedges(kept[i])) result_.corners[at++] = wedge(w);
+        });
+        parallel_for(fresh_corners_.size(),
+                     [&](std::size_t i) { result_.corners[corners + i] = wedge(fresh_corners_[i]); });
         descent_.faces.insert(descent_.faces.begin(), kept.begin(), kept.end());
-        if (plain_) descent_.wedges = descent_.vertices;
+        descent_.wedges_as_vertices = plain_;
     }
 
     Index wedge_count() const {
@@ -139,7 +152,15 @@ class Assembly {
         return v < mesh_.vertex_count() ? mesh_.positions[v] : fresh_positions_[v - mesh_.vertex_count()];
     }
 
-    using Place = std::tuple<double, double, double>;
+    using Place = std::array<double, 3>;
+    struct HashOfPlace {
+        std::size_t operator()(const Place& p) const {
+            std::uint64_t hash = 0;
+            for (const double x : p) // of zero the positive one
+                hash = std::rotl((hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15, 29);
+            return hash;
+        }
+    };
     Place cell(const Vec3& p, const Vec3& beside = {}) const {
         const auto place = [&](double x, double d) {
             return tolerance_ > 0 ? std::floor(x / tolerance_) + d : x;
@@ -154,10 +175,11 @@ class Assembly {
         for (int i = -reach; i <= reach; ++i)
             for (int j = -reach; j <= reach; ++j)
                 for (int k = -reach; k <= reach; ++k) {
-                    const auto at = at_place_.find(cell(p, {double(i), double(j), double(k)}));
-                    if (at == at_place_.end()) continue;
-                    for (const Index v : at->second)
-                        if (length(position(v) - p) <= tolerance_) lowest = std::min(lowest, v);
+                    const auto [begin, end] =
+                        at_place_.equal_range(cell(p, {double(i), double(j), double(k)}));
+                    for (auto at = begin; at != end; ++at)
+                        if (length(position(at->second) - p) <= tolerance_)
+                            lowest = std::min(lowest, at->second);
                 }
         return lowest;
     }
@@ -181,17 +203,17 @@ class Assembly {
         if (node < mesh_.vertex_count()) return node;
         const Vec3 exact = arrangement_.position(node);
         const Vec3 place = single_ && is_finite(as_float32(exact)) ? as_float32(exact) : exact;
-        const auto [known, unknown] = of_node_.try_emplace(node, none);
-        if (!unknown) return known->second;
-        known->second = vertex_near(place);
-        if (known->second != none) return known->second;
-        known->second = static_cast<Index>(mesh_.vertex_count() + fresh_positions_.size());
-        at_place_[cell(place)].push_back(known->second);
+        Index& known = of_node_[node - mesh_.vertex_count()];
+        if (known != none) return known;
+        known = vertex_near(place);
+        if (known != none) return known;
+        known = static_cast<Index>(mesh_.vertex_count() + fresh_positions_.size());
+        at_place_.emplace(cell(place), known);
         fresh_positions_.push_back(place);
         Mix m = mix_of(node, triangle);
         for (std::size_t i = 0; i < m.size; ++i) m.corners[i] = mesh_.vertex(m.corners[i]);
         push(descent_.vertices, m);
-        return known->second;
+        return known;
     }
 
     Index wedge_of(Index node, Index vertex, Index triangle) {
@@ -250,8 +272,8 @@ class Assembly {
     std::vector<Index> vertex_numbers_, wedge_numbers_; ///< [of the mesh] in the result, or none
     Mesh result_;
     Descent descent_;
-    std::map<Place, std::vector<Index>> at_place_;                 ///< vertices that pieces use, by cell
-    std::unordered_map<Index, Index> of_node_;                     ///< vertices of new nodes
+    std::unordered_multimap<Place, Index, HashOfPlace> at_place_;  ///< vertices that pieces use, by cell
+    std::vector<Index> of_node_;                                   ///< [nodes that are new] vertices, or none
     std::map<std::tuple<Index, Index, Index, Index>, Index> made_; ///< wedges
 };
 
