@@ -123,6 +123,26 @@ NanCounts zero_nan(Mesh& mesh) {
     return counts;
 }
 
+NanCounts nan_of_primitives(const Mesh& mesh) {
+    NanCounts counts;
+    for (const Attribute& a : mesh.attributes) {
+        std::size_t found = count_values(a.data, lacks_value, [](const auto&) {});
+        if (found > 0 && a.domain == Domain::wedge && mesh.face_count() > 0) {
+            std::vector<bool> has(a.size());
+            for (Index f = 0; f < mesh.face_count(); ++f) {
+                const Index p = mesh.primitive_of(f);
+                if (p >= mesh.primitives.size() || mesh.primitives[p].has(a.name))
+                    for (const Index w : mesh.face_wedges(f)) has[w] = true;
+            }
+            found = 0;
+            for (std::size_t w = 0; w < has.size(); ++w)
+                for (int c = 0; has[w] && c < a.components; ++c) found += std::isnan(a.value(w, c));
+        }
+        if (found > 0) counts[a.name] += found;
+    }
+    return counts;
+}
+
 bool has_nan(const Mesh& mesh) {
     return std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [](const Attribute& a) {
         return count_values(a.data, lacks_value, [](const auto&) {}) > 0;

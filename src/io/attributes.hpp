@@ -39,6 +39,8 @@ void fix_attributes(Part& part, const std::string& file, ReadLog& log);
 using NanCounts = std::map<std::string, std::size_t>;
 /// Sets attribute values that are no number to 0, for formats that cannot hold them.
 NanCounts zero_nan(Mesh& mesh);
+/// Those of them that a format gets which writes of each primitive the attributes that it has.
+NanCounts nan_of_primitives(const Mesh& mesh);
 bool has_nan(const Mesh& mesh);
 /// Warns (W-NAN) of values that the format cannot hold.
 void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagnostic>& warnings);

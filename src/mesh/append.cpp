@@ -3,6 +3,8 @@
 #include "mesh/wedges.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <type_traits>
 
 namespace facetmill {
 
@@ -17,7 +19,8 @@ Attribute zeros(const Attribute& like, std::size_t n) {
 }
 
 /// The attribute for a mesh that has none: what changes nothing in how it looks. Colours are white and
-/// opaque, normals those of the faces, tangents of length 1; all else is zero.
+/// opaque, normals those of the faces, tangents of length 1; of what means nothing here there is no number
+/// (nan), where there can be none; all else is zero.
 Attribute stand_in(const Attribute& like, const Mesh& mesh) {
     Attribute a = zeros(like, mesh.count(like.domain));
     if (a.name == "NORMAL" && a.domain == Domain::wedge && a.components == 3) {
@@ -30,6 +33,14 @@ Attribute stand_in(const Attribute& like, const Mesh& mesh) {
         parallel_for(a.size(), [&](std::size_t i) {
             for (int c = 0; c < a.components; ++c) a.set_value(i, c, 1);
         });
+    if (a.role == Role::generic)
+        std::visit(
+            [](auto& values) {
+                using T = typename std::decay_t<decltype(values)>::value_type;
+                if constexpr (std::is_floating_point_v<T>)
+                    std::fill(values.begin(), values.end(), std::numeric_limits<T>::quiet_NaN());
+            },
+            a.data);
     if (a.role == Role::tangent)
         parallel_for(a.size(), [&](std::size_t i) {
             a.set_value(i, 0, 1);

@@ -125,3 +125,30 @@ TEST_CASE("what is mixed with no number has none", "[stages]") {
     const auto tiny = test::run_stage("simplify", "50%", scene);
     for (const Part& part : tiny.scene.parts) CHECK(part.mesh.face_count() > 0);
 }
+
+TEST_CASE("parts without an attribute have no number where they are joined with others", "[stages]") {
+    Scene scene = test::scene_in_metres(shapes::grid(2, 2));
+    scene.parts.push_back(scene.parts.front());
+    scene.parts.back().name = "other";
+    std::vector<float> values(9, 1);
+    values[4] = NAN;
+    scene.parts[1].mesh.attributes.push_back({"quality", Domain::wedge, Role::generic, 1, false, values});
+    scene.parts[1].mesh.attributes.push_back(
+        {"count", Domain::face, Role::generic, 1, false, std::vector<std::int32_t>(8, 7)});
+    const Scene merged = test::run_stage("merge", "", scene).scene;
+    CHECK(nans(merged) == 10);
+    CHECK(merged.parts.at(0).mesh.find("count", Domain::face)->value(0, 0) == 0);
+    CHECK(nans(test::read_bytes(test::written(scene, "ply").files.at(0).bytes, "ply")) == 10);
+    // A primitive of a glTF is written without the attribute: one value is 0 in it, not ten.
+    const io::Written glb = test::written(merged, "glb");
+    REQUIRE(glb.warnings.size() == 1);
+    CHECK(glb.warnings[0].message.starts_with("1 value of 'quality' is no number"));
+    // A cloud has it whole.
+    Mesh points;
+    points.positions = {{0, 0, 0}, {1, 0, 0}};
+    scene = test::scene_in_metres(points);
+    scene.parts.push_back(scene.parts.front());
+    scene.parts[1].mesh.attributes.push_back(
+        {"quality", Domain::wedge, Role::generic, 1, false, std::vector<float>(2, 1)});
+    CHECK(nans(test::run_stage("merge", "", scene).scene) == 2);
+}

@@ -449,8 +449,10 @@ std::optional<Scene> without_nan(const Scene& given, Written& written) {
     if (std::none_of(given.parts.begin(), given.parts.end(), has)) return {};
     Scene scene = given;
     NanCounts all;
-    for (Part& part : scene.parts)
-        for (const auto& [name, count] : zero_nan(part.mesh)) all[name] += count;
+    for (Part& part : scene.parts) {
+        for (const auto& [name, count] : nan_of_primitives(part.mesh)) all[name] += count;
+        zero_nan(part.mesh);
+    }
     warn_of_nan(all, "glTF", written.warnings);
     return scene;
 }

@@ -8,8 +8,9 @@ inline constexpr const char* about = R"(Joins parts into one.)";
 inline constexpr const char* details =
     R"(The parts (all parts, or those selected by the key `only`) become one mesh in world space, in the
 place of the first. Materials stay with their faces. Where an attribute exists only in some parts,
-the others get white (colours), the normal of the face, or zero; in glTF they are written without
-it. The face attribute `group` numbers the original parts, so `separate: group` separates them
+the others get white (colours), the normal of the face, no number (nan, where attributes have no
+meaning to facetmill, such as quality), or zero; in glTF they are written without it. The face
+attribute `group` numbers the original parts, so `separate: group` separates them
 again. Nodes, skins and instances of the parts are dropped. Closedness is a property of a part:
 solids that only touch form one closed part, and with weld they share vertices.)";
 

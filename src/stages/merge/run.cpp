@@ -67,7 +67,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
         report.merged.push_back(part.name);
         for (const auto& a : part.mesh.attributes)
             context.attribute_changes(part, {{a.name, a.domain, AttributeChange::Kind::kept,
-                                              "other parts get white, their own normals, or zero"}});
+                                              "other parts get white, their own normals, nan, or zero"}});
         if (joined) {
             append(joined->mesh, part.mesh);
             continue;
