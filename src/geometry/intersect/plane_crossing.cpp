@@ -67,13 +67,29 @@ double largest(const Twofolds& v) {
 
 Twofold product_of(const Twofolds& a, const Twofolds& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// Whether what x is off by is so little that neither end is beyond the next double on either side.
+bool is_near(const Twofold& x, double error) {
+    const double size = std::abs(x.high);
+    return size > 1e-100 && error < size * 0x1p-60;
+}
+
 /// Rounded towards zero, when all within the error of x is rounded to the same.
 std::optional<double> towards_zero(const Twofold& x, double error) {
-    const double size = std::abs(x.high);
-    // Then neither end is beyond the next double on either side.
-    if (!(size > 1e-100 && error < size * 0x1p-60 && std::abs(x.low) > error)) return {};
+    if (!(is_near(x, error) && std::abs(x.low) > error)) return {};
     if ((x.low > 0) == (x.high > 0)) return x.high;
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x.high) - 1);
+}
+
+/// Rounded towards zero, the exact coordinate along an axis of the point where the line from p to q passes
+/// through the plane that stands across axis `level` at z: it is so near to x that only x and its neighbours
+/// are left.
+double towards_zero_at_level(const Vec3& p, const Vec3& q, std::size_t axis, std::size_t level, double z,
+                             double x) {
+    // (q - p)[level] times what the coordinate is above x
+    const int side =
+        orientation_2d(p[axis], p[level], q[axis], q[level], x, z) * (q[level] > p[level] ? 1 : -1);
+    if (side == 0 || (side > 0) == (x > 0)) return x;
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) - 1);
 }
 
 } // namespace
@@ -94,6 +110,9 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     // Both have the same sign in this difference: the quotient is between 0 and 1.
     const Twofold whole = above - below, part = above / whole;
     const double error_of_part = 4 * error / std::abs(whole.high) + 0x1p-98;
+    std::optional<std::size_t> across; // the axis that the plane stands across
+    for (std::size_t k = 0; k < 3; ++k)
+        if (is_level(a, b, c, k)) across = k;
     Vec3 place;
     for (std::size_t k = 0; k < 3; ++k) {
         const bool level = is_level(a, b, c, k);
@@ -103,7 +122,10 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
         }
         const Twofold way = difference(q[k], p[k]);
         const double off = std::abs(way.high) * (error_of_part + 0x1p-98) + std::abs(p[k]) * 0x1p-98;
-        const auto rounded = towards_zero(Twofold{p[k]} + part * way, 2 * off);
+        const Twofold x = Twofold{p[k]} + part * way;
+        auto rounded = towards_zero(x, 2 * off);
+        if (!rounded && across && is_near(x, 2 * off))
+            rounded = towards_zero_at_level(p, q, k, *across, a[*across], x.high);
         if (!rounded) return {};
         place[k] = *rounded;
     }

@@ -10,7 +10,8 @@ namespace facetmill {
 
 /// The point where the segment from p to q passes through the plane of the triangle, each coordinate rounded
 /// towards zero from the true one, as rational numbers are made doubles; none where twice the bits of a
-/// double leave that open, or do not prove that p and q are on different sides. Exact, so always the same.
+/// double leave that open (of a plane across an axis exact signs then tell), or do not prove that p and q are
+/// on different sides. Exact, so always the same.
 std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle);
 
 /// The point that the planes of three triangles have in common, likewise; none where it is not proved that

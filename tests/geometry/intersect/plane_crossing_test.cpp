@@ -116,6 +116,29 @@ TEST_CASE("a crossing of a plane across an axis is in it", "[geometry]") {
     CHECK(told + 5 > crossings); // nearly always
 }
 
+TEST_CASE("a crossing of a plane across an axis is told where it is at a double, or nearly", "[geometry]") {
+    std::size_t wrong = 0, at_doubles = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        const std::size_t axis = seed % 3;
+        std::array<Vec3, 5> p;
+        for (std::uint64_t i = 0; i < 5; ++i)
+            p[i] = random_point(seed, i, {3, -40, 0.1}, seed % 2 == 0 ? 24 : 52);
+        p[0][axis] = -1; // a quarter of the way, or three
+        p[1][axis] = 3;
+        p[2][axis] = p[3][axis] = p[4][axis] = seed % 5 == 0 ? 0 : 2;
+        const std::array triangle{p[2], p[3], p[4]};
+        const Vec3 exact = exact_crossing(p[0], p[1], triangle);
+        const auto place = plane_crossing(p[0], p[1], triangle);
+        wrong += !place || *place != exact;
+        const double part = seed % 5 == 0 ? 0.25 : 0.75;
+        for (std::size_t k = 0; k < 3; ++k)
+            at_doubles += mpq_class(p[0][k]) + mpq_class(part) * (mpq_class(p[1][k]) - mpq_class(p[0][k])) ==
+                          mpq_class(exact[k]);
+    }
+    CHECK(wrong == 0);
+    CHECK(at_doubles > 2000);
+}
+
 TEST_CASE("a crossing at a double, or that may be none, is not told", "[geometry]") {
     const std::array triangle{Vec3{0, 0, 0.5}, Vec3{1, 0, 0.5}, Vec3{0, 1, 0.5}};
     const std::array diagonal{Vec3{0, 0, 0}, Vec3{1, 0, 1}, Vec3{0, 1, 0}};
