@@ -74,7 +74,7 @@ void raise_maximum(DirectedDeviation& d, const Surface& from, const Farthest& fa
 void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWalk& walk, const FaceTree& to,
                       const DeviationSettings& settings) {
     const std::vector<Vec3> vertices = walk.vertices();
-    const auto found = closest_points(to, vertices);
+    const auto found = closest_points(to, vertices, OfSeveral::any);
     std::vector<double> distances(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
         distances[i] = found[i].distance;
@@ -182,7 +182,6 @@ double usual_length(const Surface& surface) {
 /// Whether most of about 64 points of a surface are farther from another than its triangles are long. They
 /// are looked up from the triangle that the one before was near, until those that are near are enough.
 bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
-    if (tree.empty()) return false;
     const double near = usual_length(to);
     const std::size_t step = from.size() / 64 + 1, points = (from.size() + step - 1) / step;
     std::size_t not_far = 0;
@@ -193,6 +192,26 @@ bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
         if (closest.distance <= near && 2 * ++not_far >= points) return false;
     }
     return points > 0;
+}
+
+/// Whether boxes along the axes hold far more than most of about 64 triangles, as around slivers that lie
+/// askew: those of thousands overlap then.
+bool are_askew(const Surface& surface) {
+    constexpr double far_more = 32; // times the area, on three sides of the box; at most 6 of even triangles
+    std::size_t askew = 0, count = 0;
+    for (std::size_t t = 0; t < surface.size(); t += surface.size() / 64 + 1, ++count) {
+        const Vec3 &a = surface.point(t, 0), &b = surface.point(t, 1), &c = surface.point(t, 2);
+        Box box;
+        for (const Vec3& p : {a, b, c}) box.add(p);
+        const Vec3 e = box.extent();
+        const double sides = e.x * e.y + e.y * e.z + e.z * e.x, area = length(cross(b - a, c - a)) / 2;
+        askew += sides > far_more * area ? 1 : 0;
+    }
+    return 2 * askew > count;
+}
+
+void flatten_if_useful(FaceTree& tree, const Surface& of, const Surface& from) {
+    if (!tree.empty() && (are_askew(of) || is_far(from, of, tree))) tree.flatten();
 }
 
 /// The triangles in the order of their tree, and those that are in none.
@@ -252,10 +271,10 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
     std::vector<Index> near_first, near_second; // vertices
     steps.next();
-    if (is_far(first, second, second_tree)) second_tree.flatten();
+    flatten_if_useful(second_tree, second, first);
     result.forward = measured_to(first, first_order, second_tree, settings, near_first);
     steps.next();
-    if (is_far(second, first, first_tree)) first_tree.flatten();
+    flatten_if_useful(first_tree, first, second);
     result.backward = measured_to(second, second_order, first_tree, settings, near_second);
     const bool one_empty = (result.forward.vertices == 0) != (result.backward.vertices == 0);
     if (one_empty)

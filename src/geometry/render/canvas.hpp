@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <utility>
 
 namespace facetmill {
 
@@ -178,6 +179,24 @@ struct CanvasTriangle {
     }
 };
 
+/// The samples of a row of the box that may lie between the lines of the triangle's edges: those there, and
+/// one more on either side, where the test of each sample decides. py: the row's.
+inline std::pair<int, int> row_between(const CanvasTriangle& t, double py, const SampleBox& box) {
+    constexpr double far = 0x1p40; // beyond, rounding might be a sample
+    double low = box.left, high = box.right;
+    for (const EdgeLine& e : t.edges) {
+        const double inside = t.area > 0 ? e.sign * e.dy : -e.sign * e.dy; // above 0: to the right
+        const double at = e.x + e.dx * (py - e.y) / e.dy - 0.5;
+        if (inside == 0 || !(std::abs(e.x) < far && std::abs(at) < far)) continue;
+        if (inside > 0)
+            low = std::max(low, at - 1);
+        else
+            high = std::min(high, at + 1);
+    }
+    return {static_cast<int>(std::min(std::ceil(low), box.right + 1.0)),
+            static_cast<int>(std::max(std::floor(high), box.left - 1.0))};
+}
+
 /// Calls visit(x, y, depth) for the samples of the triangle in that box, which samples_around gave. Where a
 /// back and a front are at one place the front is seen: backs lie a thousandth of a sample behind. front: the
 /// outer side is seen.
@@ -186,9 +205,11 @@ void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, 
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;
     const double nearest = nearest_depth(t.p); // on a sliver, rounding would put samples before it
     const EdgeLine &e = t.edges[0], &f = t.edges[1], &g = t.edges[2];
+    const bool wide = box.right - box.left > 16; // of slivers hardly a sample of the box is inside
     for (int y = box.top; y <= box.bottom; ++y) {
         const double py = y + 0.5, ey = e.dx * (py - e.y), fy = f.dx * (py - f.y), gy = g.dx * (py - g.y);
-        for (int x = box.left; x <= box.right; ++x) {
+        const auto [left, right] = wide ? row_between(t, py, box) : std::pair(box.left, box.right);
+        for (int x = left; x <= right; ++x) {
             const double px = x + 0.5; // as EdgeLine::of
             const double a = e.sign * (e.dy * (px - e.x) - ey);
             if (!(a * side >= 0)) continue;

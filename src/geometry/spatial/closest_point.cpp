@@ -337,7 +337,7 @@ std::vector<Index> order_of_queries(std::span<const Vec3> points) {
     return order_along_curve(points.size(), dense_box(points.size(), box_of(points), point), point);
 }
 
-std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points) {
+std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points, OfSeveral which) {
     const std::vector<Index> order = order_of_queries(points);
     std::vector<Closest> found(points.size());
     Share::loop_tells();
@@ -346,8 +346,11 @@ std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> 
         [&](std::size_t begin, std::size_t end) {
             Index hint = none;
             for (std::size_t i = begin; i < end; ++i) {
-                found[order[i]] = closest_point(tree, points[order[i]], hint);
-                hint = found[order[i]].triangle;
+                const Vec3& p = points[order[i]];
+                Closest& c = found[order[i]];
+                if (which == OfSeveral::any && hint != none) c = closest_on(tree, hint, p);
+                if (!(c.distance == 0)) c = closest_point(tree, p, hint);
+                hint = c.triangle;
             }
         },
         1024);

@@ -31,8 +31,12 @@ Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint = none, do
 /// An order of points in which each is near the one before, so that its answer is a good hint.
 std::vector<Index> order_of_queries(std::span<const Vec3> points);
 
+/// Of several triangles that a point lies on: the one of the lowest face, or any, where only the distance is
+/// of use and thousands may lie in one place.
+enum class OfSeveral { lowest, any };
 /// For many points, in parallel: they are visited along a curve through their box, each with the one before
 /// as a hint. The result is in the order of the points and the same for any number of threads.
-std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points);
+std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points,
+                                    OfSeveral which = OfSeveral::lowest);
 
 } // namespace facetmill

@@ -414,3 +414,37 @@ TEST_CASE("figures keep their digits at any size", "[geometry]") {
         CHECK(scaled.rms() / size == Approx(d.rms()).epsilon(1e-5));
     }
 }
+
+TEST_CASE("slivers that lie askew and meet in one place are measured as others are", "[geometry]") {
+    // A cone of 3,000 slivers from its apex against one of 300. The larger one is farther out everywhere, by
+    // what the chords of the base cut off.
+    const auto cone = [](std::size_t sides) {
+        Surface s;
+        s.positions.push_back({0, 0, 1});
+        for (std::size_t i = 0; i < sides; ++i) {
+            const double angle = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(sides);
+            s.positions.push_back({std::cos(angle), std::sin(angle), 0});
+            s.corners.insert(s.corners.end(),
+                             {0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % sides)});
+        }
+        return s;
+    };
+    const Surface fine = cone(3000), coarse = cone(300);
+    const auto d = deviation(fine, coarse, {.certify = true});
+    // The farthest is in the middle of a chord, which is the closest to it.
+    const double truth = 1 - std::cos(3.14159265358979 / 300);
+    CHECK(d.forward.maximum == Approx(truth).epsilon(1e-3));
+    CHECK(*d.bound() >= d.maximum());
+    CHECK(*d.bound() <= d.maximum() * 1.01 + 1e-6 * d.diagonal);
+}
+
+TEST_CASE("triangles that are all in one place are not searched one by one", "[geometry]") {
+    Surface one; // a search of each of these points for the lowest of these triangles would take minutes
+    one.positions.assign(200000, Vec3{1, 2, 3});
+    for (Index i = 0; i < 3 * 60000; ++i) one.corners.push_back(i);
+    Surface other = one;
+    other.corners.resize(3 * 50000);
+    const auto d = deviation(one, other);
+    CHECK(d.maximum() == 0);
+    CHECK(d.forward.vertices == 180000);
+}
