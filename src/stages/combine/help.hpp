@@ -30,7 +30,8 @@ attributes, and others that go on evenly, as texture coordinates do across a fla
 together, so no vertex stays where a cut crosses their diagonal. Materials stay with their faces, and where faces of two parts coincide, those of the first part stay. New vertices get
 interpolated attributes, within the face that they are cut from. Faces of `with` that bound a
 difference are turned round, with their normals. Where an attribute exists only in some parts, the
-others get white (colours), the normal of the face, or zero. After union, the face attribute group
+others get white (colours), the normal of the face, no number (nan, where attributes have no meaning
+to facetmill, such as quality), or zero. After union, the face attribute group
 numbers the original parts; after the others, cut_id numbers the faces that come from a part of
 `with`, beginning after the numbers that are there, 0 elsewhere, so that relax and crumple can hold
 them as they hold caps. Their group is 0 then, unless it is that of a cap: numbers of their own part
