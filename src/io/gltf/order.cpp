@@ -204,14 +204,33 @@ std::vector<Index> corners_along(const Table& table, const std::vector<Placed>& 
     return corners;
 }
 
+/// A function of meshoptimizer.
+using Optimize = void (*)(Index* to, const Index* corners, std::size_t count, std::size_t vertices);
+
+/// It looks at all triangles of a vertex for each that it adds: where thousands meet at one, each has a
+/// vertex of its own there meanwhile.
+void order_by(Optimize optimize, std::vector<Index>& corners, std::size_t vertices) {
+    constexpr Index many = 4096;
+    std::vector<Index> at(vertices), apart; // triangles of each vertex; the vertices of those by themselves
+    for (const Index v : corners) ++at[v];
+    for (Index& v : corners)
+        if (at[v] > many) {
+            apart.push_back(v);
+            v = static_cast<Index>(vertices + apart.size() - 1);
+        }
+    optimize(corners.data(), corners.data(), corners.size(), vertices + apart.size());
+    for (Index& v : corners)
+        if (v >= vertices) v = apart[v - vertices];
+}
+
 /// Triangles as strips, begun in the order that is given.
 void order_in_strips(std::vector<Index>& corners, std::size_t vertices) {
-    meshopt_optimizeVertexCacheStrip(corners.data(), corners.data(), corners.size(), vertices);
+    order_by(meshopt_optimizeVertexCacheStrip, corners, vertices);
 }
 
 /// The order for caches.
 void order_for_cache(std::vector<Index>& corners, std::size_t vertices) {
-    meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(), vertices);
+    order_by(meshopt_optimizeVertexCache, corners, vertices);
 }
 
 /// The triangles along a curve through space, so that those of any stretch are near each other.

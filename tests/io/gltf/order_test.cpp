@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 using namespace facetmill;
@@ -88,6 +89,30 @@ TEST_CASE("a large mesh is ordered in stretches, as well as in one piece", "[io]
         return faces;
     };
     CHECK(faces_of(test::read_bytes(files[0], "glb").parts.at(0).mesh) == faces_of(mesh));
+}
+
+TEST_CASE("where thousands of triangles meet at a vertex each is looked at once", "[io]") {
+    constexpr Index sides = 200000; // for the order that looks at all of them for each this takes a minute
+    Mesh fan;
+    fan.positions.push_back({0, 0, 1});
+    for (Index i = 0; i < sides; ++i) {
+        const double angle = 6.283185307179586 * i / sides;
+        fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+    for (Index i = 0; i < sides; ++i) {
+        const auto at = static_cast<Index>(std::uint64_t{i} * 70001 % sides); // in another order
+        fan.corners.insert(fan.corners.end(), {0, 1 + at, 1 + (at + 1) % sides});
+    }
+    for (const auto order : {io::TriangleOrder::draw, io::TriangleOrder::strips, io::TriangleOrder::size}) {
+        io::gltf::Builder builder(Json::object(), nullptr);
+        io::Written written;
+        io::gltf::EncodeSettings settings;
+        settings.order = order;
+        const io::VertexCacheUse cache = io::gltf::encode_mesh(builder, fan, settings, written).cache;
+        CHECK(cache.triangles == sides);
+        CHECK(cache.before >= 2 * sides);
+        CHECK(cache.after < 1.3 * sides);
+    }
 }
 
 TEST_CASE("one order of strips is nearly as small under meshopt as the best of several", "[io]") {
