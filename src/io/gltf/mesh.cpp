@@ -395,9 +395,11 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
     if (skipped > 0)
         merge.warn(
             "W-SKIPPED",
-            fmt::format("{}: {} of points or without positions kept in the document as written, not read",
-                        merge.mesh_place.path(),
-                        skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)));
+            fmt::format(
+                "{}: {} of points or without positions kept in the document as written: stages see only "
+                "what else the mesh has, transform --bake does not move the points, merge drops them",
+                merge.mesh_place.path(),
+                skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)));
     join_blocks(merge);
     Mesh& mesh = merge.out.mesh;
     if (mesh.primitives.size() == 1) mesh.line_primitive.clear();
