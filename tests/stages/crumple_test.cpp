@@ -61,6 +61,20 @@ TEST_CASE("crumple: a surface far from the origin is roughened, and not moved as
           smooth * 1e-92 * 1.002);
 }
 
+TEST_CASE("crumple: files that meet stay together, whatever their sizes", "[stages]") {
+    const auto sheet = [](double from, double to, double far) {
+        Mesh mesh = shapes::grid(4, 4);
+        for (Vec3& p : mesh.positions) p = {far + from + (to - from) * p.x / 4, far + p.y / 4, 0};
+        return run_stage("crumple", "{grid: 1, amplitude: 0.1}", scene_of(mesh)).mesh();
+    };
+    for (const double far : {0.0, 20.0, 40.0, 100.0, 1e4, 1e6, 1e8}) {
+        INFO(far);
+        const Mesh small = sheet(0, 1, far), large = sheet(1, 9, far);
+        for (std::size_t row = 0; row <= 4; ++row)
+            CHECK(small.positions[5 * row + 4] == large.positions[5 * row]);
+    }
+}
+
 TEST_CASE("crumple: parts that meet stay together", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts.front());

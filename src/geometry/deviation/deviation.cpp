@@ -226,9 +226,10 @@ std::vector<Index> order_of(const Surface& surface, const FaceTree& tree) {
 }
 
 /// Of a tree that is to be asked for points of another surface: where they are fewer than its triangles, it
-/// is not worth sorting as well as it can be.
+/// is not worth sorting as well as it can be. A bound may ask for many more.
 FaceTree::Use use_of_tree(const Surface& surface, const Surface& other, const DeviationSettings& settings) {
-    const std::size_t points = settings.samples + other.positions.size();
+    const std::size_t points =
+        settings.samples + other.positions.size() + (settings.certify ? settings.certify_work : 0);
     return points < surface.size() ? FaceTree::Use::few : FaceTree::Use::near;
 }
 
@@ -285,6 +286,7 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     steps.next();
     bound_deviation(result.backward, second, second_order, first_tree, near_second, result.maximum(),
                     settings);
+    for (auto* d : {&result.forward, &result.backward}) d->bound = std::max(*d->bound, result.maximum());
     return result;
 }
 

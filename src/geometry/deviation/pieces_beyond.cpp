@@ -90,17 +90,30 @@ class TriangleGroup {
     std::vector<Vec3> points_;
 };
 
-constexpr std::size_t most_cuts = 6; ///< of an edge: 28 points make 36 parts
+constexpr std::size_t most_cuts = 6;  ///< of an edge: 28 points make 36 parts
+constexpr std::size_t most_rows = 15; ///< of a sliver: 31 points make 29 parts
 
 double longest_edge(const SurfacePiece& piece) {
     const auto& [a, b, c] = piece.corners;
     return std::max({length(b - a), length(c - b), length(a - c)});
 }
 
-/// Into how many an edge is cut, so that parts of even deviation are near enough to one triangle.
-std::size_t cuts_of(const SurfacePiece& piece, double distance) {
+/// Into how many, at most, an edge is cut, so that parts of even deviation are near enough to one triangle.
+std::size_t cuts_of(const SurfacePiece& piece, double distance, std::size_t most) {
     const double wanted = longest_edge(piece) / (2 * distance);
-    return wanted >= most_cuts ? most_cuts : std::max<std::size_t>(2, static_cast<std::size_t>(wanted) + 1);
+    return wanted >= static_cast<double>(most)
+               ? most
+               : std::max<std::size_t>(2, static_cast<std::size_t>(wanted) + 1);
+}
+
+/// The corner across from an edge that is short beside the longest and beside the distance, so that nothing
+/// would be gained by cutting it; or none.
+std::size_t tip_of(const SurfacePiece& piece, double distance) {
+    const auto& p = piece.corners;
+    const double a = length(p[2] - p[1]), b = length(p[0] - p[2]), c = length(p[1] - p[0]);
+    const double longest = std::max({a, b, c}), shortest = std::min({a, b, c});
+    if (!(3 * shortest < longest && shortest < distance)) return none;
+    return shortest == a ? 0 : shortest == b ? 1 : 2;
 }
 
 /// Cuts pieces into parts and finds those that are not within the distance.
@@ -108,9 +121,15 @@ class PieceCutter {
   public:
     PieceCutter(const FaceTree& to, double distance) : to_(to), distance_(distance), together_(to) {}
 
-    void cut(const SurfacePiece& piece) {
-        if (is_within(piece)) return;
-        lay_out(piece, cuts_of(piece, distance_));
+    /// is_part: of what was cut, and found to be beyond.
+    void cut(const SurfacePiece& piece, bool is_part) {
+        if (!is_part && is_within(piece)) return;
+        points_.clear();
+        sets_.clear();
+        if (const std::size_t tip = tip_of(piece, distance_); tip != none)
+            lay_out_rows(piece, tip, cuts_of(piece, distance_, most_rows));
+        else
+            lay_out(piece, cuts_of(piece, distance_, most_cuts));
         left_ = sets_;
         together_.remove_within(points_, distance_, left_, hint_);
         for (const std::uint32_t set : left_) {
@@ -118,7 +137,8 @@ class PieceCutter {
             std::size_t corner = 0;
             for (std::size_t i = 0; i < points_.size(); ++i)
                 if (set >> i & 1) part.corners[corner++] = points_[i];
-            beyond.push_back(part);
+            if (!is_within(part))
+                beyond.push_back(part); // near many triangles that are smaller than the part
         }
     }
 
@@ -140,8 +160,6 @@ class PieceCutter {
     /// The points of n equal parts of each edge and between them, row by row, and the parts as sets of them.
     void lay_out(const SurfacePiece& piece, std::size_t n) {
         const auto& [a, b, c] = piece.corners;
-        points_.clear();
-        sets_.clear();
         const auto size = static_cast<double>(n);
         for (std::size_t row = 0, first = 0; row <= n; first += n + 1 - row, ++row) {
             const std::size_t above = first + n + 1 - row;
@@ -156,6 +174,22 @@ class PieceCutter {
                 if (i + row + 1 < n) sets_.push_back(bits(first + i + 1, above + i, above + i + 1));
             }
         }
+    }
+
+    /// The same of n rows between the tip of a sliver and the edge across from it, which is not cut.
+    void lay_out_rows(const SurfacePiece& piece, std::size_t tip, std::size_t n) {
+        const Vec3 &a = piece.corners[tip], &b = piece.corners[(tip + 1) % 3],
+                   &c = piece.corners[(tip + 2) % 3];
+        const auto size = static_cast<double>(n);
+        for (std::size_t row = 0; row < n; ++row) {
+            const double share = static_cast<double>(row) / size;
+            points_.push_back(b + (a - b) * share);
+            points_.push_back(c + (a - c) * share);
+            const std::size_t i = 2 * row;
+            sets_.push_back(bits(i, i + 1, i + 2));
+            if (row + 1 < n) sets_.push_back(bits(i + 1, i + 2, i + 3));
+        }
+        points_.push_back(a);
     }
 
     static std::uint32_t bits(std::size_t i, std::size_t j, std::size_t k) {
@@ -185,18 +219,19 @@ std::vector<Index> triangles_beyond(const Surface& from, std::span<const Index> 
 }
 
 /// Their parts that are beyond.
-std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, const FaceTree& to,
-                                       double distance) {
+std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, bool are_parts,
+                                       const FaceTree& to, double distance) {
     return parallel_reduce(
         pieces.size(), std::vector<SurfacePiece>{},
         [&](std::size_t begin, std::size_t end) {
             PieceCutter cutter(to, distance);
-            for (const SurfacePiece& piece : pieces.subspan(begin, end - begin)) cutter.cut(piece);
+            for (const SurfacePiece& piece : pieces.subspan(begin, end - begin)) cutter.cut(piece, are_parts);
             return std::move(cutter.beyond);
         },
         in_a_row<SurfacePiece>, 256);
 }
 
+constexpr int most_times = 3;        ///< that a triangle is cut
 constexpr std::size_t batch = 16384; ///< pieces that are cut before it is asked whether too many are left
 
 /// Cuts pieces so many times and adds what is left of them, those not cut as well: once more than about
@@ -205,7 +240,7 @@ void cut_until(std::size_t most, int times, std::span<const SurfacePiece> pieces
                double distance, std::vector<SurfacePiece>& left) {
     while (times > 0 && !pieces.empty() && left.size() <= most) {
         const auto some = pieces.first(std::min(batch, pieces.size()));
-        cut_until(most, times - 1, parts_beyond(some, to, distance), to, distance, left);
+        cut_until(most, times - 1, parts_beyond(some, times < most_times, to, distance), to, distance, left);
         pieces = pieces.subspan(some.size());
     }
     left.insert(left.end(), pieces.begin(), pieces.end());
@@ -227,7 +262,7 @@ Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const Fa
             const Index t = triangles[done];
             whole.push_back({{from.point(t, 0), from.point(t, 1), from.point(t, 2)}, t});
         }
-        cut_until(most, 3, whole, to, distance, beyond.pieces);
+        cut_until(most, most_times, whole, to, distance, beyond.pieces);
         Share::tell(static_cast<double>(done) / static_cast<double>(triangles.size()));
     }
     triangles.erase(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(done));

@@ -121,23 +121,30 @@ std::vector<bool> shown_nodes(const Json& document) {
     const std::size_t count = count_of(document, "nodes"), scenes = count_of(document, "scenes");
     std::vector<bool> shown(count, scenes == 0);
     if (scenes == 0) return shown;
+    const auto number = [](const Json& n, std::size_t below) -> std::optional<std::size_t> {
+        const bool is_one = n.is_number_unsigned() && n.get<std::uint64_t>() < below;
+        return is_one ? std::optional(n.get<std::size_t>()) : std::nullopt;
+    };
     std::vector<std::size_t> waiting;
-    const auto visit = [&](const std::optional<Place>& list) {
-        for (std::size_t i = 0; list && i < list->size(); ++i)
-            if (const std::size_t n = list->at(i).index(count, "node"); !shown[n]) {
-                shown[n] = true;
-                waiting.push_back(n);
+    const auto visit = [&](const Json& of, const char* key) {
+        const auto list = of.find(key);
+        if (list == of.end() || !list->is_array()) return;
+        for (const Json& item : *list)
+            if (const auto n = number(item, count); n && !shown[*n]) {
+                shown[*n] = true;
+                waiting.push_back(*n);
             }
     };
-    const auto scene = Place(document, "").find("scene");
-    visit(item(document, "scenes", scene ? scene->index(scenes, "scene") : 0).find("nodes"));
+    const auto scene = document.find("scene");
+    visit(document["scenes"][scene == document.end() ? 0 : number(*scene, scenes).value_or(0)], "nodes");
     while (!waiting.empty()) {
-        const Place node = item(document, "nodes", waiting.back());
+        const Json& node = document["nodes"][waiting.back()];
         waiting.pop_back();
-        visit(node.find("children"));
+        visit(node, "children");
         const auto extensions = node.find("extensions");
-        if (const auto levels = extensions ? extensions->find("MSFT_lod") : std::nullopt)
-            visit(levels->find("ids"));
+        if (extensions == node.end()) continue;
+        if (const auto levels = extensions->find("MSFT_lod"); levels != extensions->end())
+            visit(*levels, "ids");
     }
     return shown;
 }

@@ -32,7 +32,7 @@ std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
 std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
 
 /// By node, whether the scene that viewers show (`scene`, or the first) has it, itself or as a level of
-/// detail; all are where the document has no scenes. Throws malformed (E-GLTF) for numbers that are none.
+/// detail; all are where the document has no scenes. What refers to no node, or to no scene, is passed over.
 std::vector<bool> shown_nodes(const Json& document);
 
 /// The nodes whose translation, rotation or scale an animation drives.

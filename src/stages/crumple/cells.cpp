@@ -51,8 +51,9 @@ void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context)
                              "use a smaller grid");
     const Scene outline = world_outline(flow);
     const Part& part = outline.parts.front();
-    CrumpleSettings settings = crumple_settings(o, outline);
-    settings.amplitude = context.resolve(o.amplitude, outline, "amplitude", &part);
+    const double amplitude = context.resolve(o.amplitude, outline, "amplitude", &part);
+    CrumpleSettings settings = crumple_settings(o, outline, amplitude);
+    settings.amplitude = amplitude;
     settings.to_world = flow.transform;
     const Mesh first = flow.partition->cell(0).mesh;
     const auto still = cells::split_source(flow.partition->shared_source(), {static_cast<int>(o.grid)});

@@ -15,13 +15,13 @@ vertices at one position move by the smallest share of any of them. The caps of 
 compared with their size.
 
 The noise at a vertex depends only on the seed and on its world position rounded to float32 (to 40
-bits in scenes so far from the origin that float32 would move them by a millionth of their diagonal):
+bits in scenes so far from the origin that float32 would move them by a hundredth of the amplitude):
 vertices at one position move together across seams, unwelded copies, parts and files, and neither
 the order of vertices nor the number of threads matters. For the same reason instances of one mesh
-differ afterwards, and each has its own mesh. There are two exceptions to the rule. Along the normal,
-a position shared by several parts has a normal in each of them, so the parts may separate there;
-and frequency is relative to the scene, so files are crumpled alike only when their diagonals are
-equal.
+differ afterwards, and each has its own mesh. There are three exceptions to the rule. Along the
+normal, a position shared by several parts has a normal in each of them, so the parts may separate
+there; frequency is relative to the scene, so files are crumpled alike only when their diagonals are
+equal; and of two files at that distance from the origin one may be beyond it and the other not.
 
 With self_intersections: avoid, each position moves by a share of its displacement: 1, 1/2 ...
 1/256, or 0. First, the shares are lowered until no face is stretched by more than eight times its

@@ -82,7 +82,7 @@ void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& probl
                         "crumple", given, problems);
 }
 
-CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
+CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, double amplitude) {
     CrumpleSettings s;
     s.direction = o.direction;
     s.boundary = o.boundary;
@@ -92,10 +92,10 @@ CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
     s.frequency = whole > 0 ? o.frequency / whole : 0;
     s.octaves = static_cast<int>(o.octaves);
     s.roughness = o.roughness;
-    // Where write gives positions 64 bits, too: float32 would move them by a millionth of the diagonal. What
-    // avoids intersections takes them as float32 in any case.
+    // By the amplitude and not by the size of the scene, so that the same holds in files that meet. What
+    // avoids intersections takes positions as float32 in any case.
     if (o.self_intersections == CrumpleOptions::Intersections::allow && whole > 0 &&
-        0.5 * float32_ulp(scene.bounds()) > 1e-6 * whole)
+        0.5 * float32_ulp(scene.bounds()) > amplitude / 100)
         s.places = PlaceRounding::far;
     return s;
 }

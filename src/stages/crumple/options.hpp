@@ -28,7 +28,7 @@ void declare_crumple(Declare<CrumpleOptions>& d);
 /// What the declaration cannot say: options that go with a frequency only.
 void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems);
 
-/// What is the same for all parts; amplitude, transform and mask are each part's own.
-CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene);
+/// What is the same for all parts; amplitude, transform and mask are each part's own. amplitude: the largest.
+CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, double amplitude);
 
 } // namespace facetmill::crumple_stage

@@ -58,7 +58,12 @@ void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, c
 }
 
 Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport& report) {
-    CrumpleSettings settings = crumple_settings(o, scene);
+    const auto amplitude = [&](const Part& part) {
+        return context.resolve(o.amplitude, scene, "amplitude", &part);
+    };
+    double largest = 0;
+    for (const Part& part : scene.parts) largest = std::max(largest, amplitude(part));
+    CrumpleSettings settings = crumple_settings(o, scene, largest);
     require_room(scene, o, context);
     warn_of_crossing_faces_in_grid(scene, context);
     std::vector<CrumpledPart> works;
@@ -66,7 +71,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
     MaskOfParts masks(scene, o.mask, o.caps);
     ShareOfSteps steps({1, o.self_intersections != Intersections::allow ? 9.0 : 0.5, 1});
     context.for_each_part(scene, [&](Part& part) {
-        settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
+        settings.amplitude = amplitude(part);
         settings.to_world = part.transform;
         SplitResult pieces = split_part(part, o.grid);
         part.mesh = std::move(pieces.mesh);

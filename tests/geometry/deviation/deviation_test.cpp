@@ -139,6 +139,26 @@ TEST_CASE("most of rough surfaces is bounded without looking up closest points",
     }
 }
 
+TEST_CASE("the bound of each way is at least the maximum of both", "[geometry]") {
+    // A square with a hole against the whole: its middle is found only while the way back is bounded.
+    Surface ring, whole;
+    ring.positions = {{0, 0, 0},   {2, 0, 0},    {2, 2, 0},     {0, 2, 0},
+                      {.5, .5, 0}, {1.5, .5, 0}, {1.5, 1.5, 0}, {.5, 1.5, 0}};
+    for (Index k = 0; k < 4; ++k) {
+        const Index next = (k + 1) % 4;
+        ring.corners.insert(ring.corners.end(), {k, next, 4 + next, k, 4 + next, 4 + k});
+    }
+    whole.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    whole.corners = {0, 1, 2, 0, 2, 3};
+    for (const std::size_t samples : {0, 1000}) {
+        const auto d = deviation(ring, whole, {.samples = samples, .certify = true});
+        CHECK(d.maximum() == Approx(0.5).epsilon(0.01));
+        CHECK(*d.forward.bound >= d.maximum());
+        CHECK(*d.backward.bound >= d.maximum());
+        CHECK(*d.bound() <= 0.505 + 1e-6 * d.diagonal);
+    }
+}
+
 TEST_CASE("little work is enough for a bound where little of a surface is far", "[geometry]") {
     // A large triangle is near many small ones, and parts of it are cut again before those of the next.
     const Surface coarse = surface_of(test::noisy_icosphere(3, 0.004, 2)),
@@ -147,6 +167,33 @@ TEST_CASE("little work is enough for a bound where little of a surface is far", 
     CHECK(d.looked_up < 2000);
     CHECK(*d.bound >= d.maximum);
     CHECK(*d.bound <= d.maximum * 1.01 + 1e-6 * coarse.bounds().diagonal());
+}
+
+TEST_CASE("little work is enough for the bound of slivers that are far longer than they are apart",
+          "[geometry]") {
+    // A thin prism of 200 sides against one of 160: near each sliver are more others than are looked at
+    // together.
+    const auto prism = [](Index sides) {
+        Surface s;
+        for (Index i = 0; i < sides; ++i)
+            for (const double z : {0.0, 100.0}) {
+                const double angle = 6.283185307179586 * i / sides;
+                s.positions.push_back({0.5 * std::cos(angle), 0.5 * std::sin(angle), z});
+            }
+        for (Index i = 0; i < sides; ++i) {
+            const Index a = 2 * i, b = 2 * ((i + 1) % sides);
+            s.corners.insert(s.corners.end(), {a, b, a + 1, b, b + 1, a + 1});
+        }
+        return s;
+    };
+    Surface rough = prism(1000);
+    for (std::size_t v = 0; v < rough.positions.size(); ++v)
+        rough.positions[v].x += 0.05 * uniform(hashed(3, v));
+    rough.positions[0].x += 0.3;
+    const auto d = deviation(prism(1000), rough, {.samples = 1000, .certify = true});
+    CHECK(d.forward.looked_up + d.backward.looked_up < 5000);
+    CHECK(*d.bound() >= d.maximum());
+    CHECK(*d.bound() <= d.maximum() * 1.01 + 1e-6 * d.diagonal);
 }
 
 TEST_CASE("little work leaves a bound that holds", "[geometry]") {

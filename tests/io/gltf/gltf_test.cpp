@@ -474,6 +474,26 @@ TEST_CASE("nodes of lines beside triangles are parts, and those of points are na
     CHECK(log.warnings[0].message.starts_with("nodes[1] and 1 more have no triangles and no lines"));
 }
 
+TEST_CASE("scenes that refer to nothing do not keep a file from being read", "[io]") {
+    const auto parts_of = [](const char* scenes) {
+        const std::string text = std::string(R"({"asset":{"version":"2.0"},)") + scenes + R"(,
+ "nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+        io::ReadLog log;
+        const std::size_t parts = test::read_text(text, &log).parts.size();
+        return std::pair(parts, log.warnings.size());
+    };
+    using Told = std::pair<std::size_t, std::size_t>; // parts, and warnings that they are not shown
+    for (const char* first :
+         {R"("scene":7,"scenes":[{"nodes":[0]}])", R"("scene":null,"scenes":[{"nodes":[0]}])",
+          R"("scene":"0","scenes":[{"nodes":[0]}])", R"("scene":-1,"scenes":[{"nodes":[0]}])",
+          R"("scene":0,"scenes":[{"nodes":[99,0]}])"})
+        CHECK(parts_of(first) == Told{1, 0});
+    CHECK(parts_of(R"("scene":0,"scenes":[{"nodes":null}])") == Told{1, 1});
+}
+
 TEST_CASE("a part more asks for memory as often as its mesh and its document need it", "[io]") {
     const auto counts = [](std::size_t parts) { // of writing what was read, and of reading it
         Scene scene = test::scene_in_metres(shapes::cube());
