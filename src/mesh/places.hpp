@@ -32,6 +32,11 @@ inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t 
     return mixed(mixed(a ^ keys[0], b ^ keys[1]) ^ keys[2], c ^ keys[1]);
 }
 inline std::uint64_t place_hash(const FloatBits& p) { return place_hash(p[0], p[1], p[2]); }
+/// The same for -0 and 0.
+inline std::uint64_t place_hash(const Vec3& p) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
+    return place_hash(bits(p.x), bits(p.y), bits(p.z));
+}
 
 /// A hash table of places that all threads fill at once. A slot holds a place, and the first point there;
 /// which slot that is depends on the threads, what it holds in the end does not.

@@ -113,8 +113,7 @@ struct HashedVertex {
 /// the index keeps them apart.
 std::uint32_t position_hash(const Vec3& p, std::size_t v) {
     if (!(p == p)) return static_cast<std::uint32_t>(place_hash(v, 0, 0));
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 + 0 is 0
-    return static_cast<std::uint32_t>(place_hash(bits(p.x), bits(p.y), bits(p.z)));
+    return static_cast<std::uint32_t>(place_hash(p));
 }
 
 constexpr int bucket_bits = 11; // one pass of the radix sort

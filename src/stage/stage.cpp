@@ -34,17 +34,26 @@ const StageInfo* stage_named(std::string_view name) {
 
 namespace {
 
+/// Of what a stage that works on faces leaves: `id` warns of it, unless the stage leaves it out of what it
+/// says or makes.
+void tell_of_left(const StageInfo& stage, const std::string& what, bool is_one, bool leaves_out,
+                  const char* id, const char* hint, Context& context) {
+    if (leaves_out)
+        context.say(what + " left out");
+    else
+        context.warn(id,
+                     fmt::format("{} works on faces and leaves {} as {}", stage.name, what,
+                                 is_one ? "it is" : "they are"),
+                     hint);
+}
+
 void leave_lines(const StageInfo& stage, const Scene& scene, Context& context) {
     if (stage.lines == LinesPolicy::work || stage.loads) return;
     const std::size_t left = context.leave_lines(scene);
     if (left == 0) return;
-    if (stage.lines == LinesPolicy::pass || stage.checks || stage.tells)
-        context.say(counted(left, "part") + " of lines left out");
-    else
-        context.warn("W-LINES",
-                     fmt::format("{} works on faces and leaves {} of lines as {}", stage.name,
-                                 counted(left, "part"), left == 1 ? "it is" : "they are"),
-                     "load: {lines: 1%} makes tubes of lines");
+    tell_of_left(stage, counted(left, "part") + " of lines", left == 1,
+                 stage.lines == LinesPolicy::pass || stage.checks || stage.tells, "W-LINES",
+                 "load: {lines: 1%} makes tubes of lines", context);
 }
 
 void tell_of_points(const StageInfo& stage, const Scene& scene, Context& context) {
@@ -55,13 +64,8 @@ void tell_of_points(const StageInfo& stage, const Scene& scene, Context& context
                    part.mesh.vertex_count() > 0 && context.selects(part, scene);
         }));
     if (clouds == 0) return;
-    if (stage.tells)
-        context.say(counted(clouds, "cloud") + " of points left out");
-    else
-        context.warn("W-POINTS",
-                     fmt::format("{} works on faces and leaves {} of points as {}", stage.name,
-                                 counted(clouds, "cloud"), clouds == 1 ? "it is" : "they are"),
-                     "leave them out with only; crop, clip and tile work on points");
+    tell_of_left(stage, counted(clouds, "cloud") + " of points", clouds == 1, stage.tells, "W-POINTS",
+                 "leave them out with only; crop, clip and tile work on points", context);
 }
 
 } // namespace

@@ -2,8 +2,10 @@
 // Triangles of one plane cut along segments and along each other. Only for the files in this folder.
 
 #include "base/predicates.hpp"
+#include "base/random.hpp"
 #include "geometry/cgal/arrangement.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/places.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <algorithm>
@@ -26,8 +28,7 @@ struct HashOfIndices {
     template <class Indices>
     std::size_t operator()(const Indices& indices) const {
         std::uint64_t hash = 0;
-        std::apply([&](auto... i) { ((hash = std::rotl((hash ^ i) * 0x9e3779b97f4a7c15, 29)), ...); },
-                   indices);
+        std::apply([&](auto... i) { ((hash = hashed(hash, i)), ...); }, indices);
         return hash;
     }
 };
@@ -52,7 +53,7 @@ class ExactNodes {
 
     /// From now on a made point at the place of this one is this one.
     void know(Index point) {
-        auto& here = at_place_[hash(points_[point])];
+        auto& here = at_place_[place_hash(points_[point])];
         for (const Index other : here)
             if (other == point) return;
         here.push_back(point);
@@ -62,7 +63,7 @@ class ExactNodes {
     Index find_or_add(const Point& p) { return find_or_add(SideCrossing{}, p, place_of(p)); }
     /// The point of a crossing, which need not have been made, at its place.
     Index find_or_add(const SideCrossing& crossing, std::optional<Point> p, const Vec3& place) {
-        auto& here = at_place_[hash(place)];
+        auto& here = at_place_[place_hash(place)];
         for (const Index other : here) {
             if (rounded(other) != place) continue;
             if (!p) p = point_of(crossing);
@@ -74,7 +75,7 @@ class ExactNodes {
     Index find_or_add(const PlaneTriple& planes, std::optional<Point> p, const Vec3& place) {
         const auto [known, fresh] = of_planes_.try_emplace(planes, none);
         if (!fresh) return known->second;
-        auto& here = at_place_[hash(place)];
+        auto& here = at_place_[place_hash(place)];
         for (const Index other : here) {
             if (rounded(other) != place) continue;
             if (!p) p = point_of(planes);
@@ -178,15 +179,6 @@ class ExactNodes {
     }
 
     static double nearest(const ExactKernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); }
-
-    static std::uint64_t hash(const Vec3& p) {
-        std::uint64_t h = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            h = (h ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15;
-            h ^= h >> 29;
-        }
-        return h;
-    }
 
     const TriangleSoup& soup_;
     const std::vector<Vec3>& points_;

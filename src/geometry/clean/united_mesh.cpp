@@ -3,10 +3,10 @@
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "mesh/indices_where.hpp"
+#include "mesh/places.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <tuple>
@@ -152,16 +152,10 @@ class Assembly {
         return v < mesh_.vertex_count() ? mesh_.positions[v] : fresh_positions_[v - mesh_.vertex_count()];
     }
 
-    using Place = std::array<double, 3>;
     struct HashOfPlace {
-        std::size_t operator()(const Place& p) const {
-            std::uint64_t hash = 0;
-            for (const double x : p) // of zero the positive one
-                hash = std::rotl((hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15, 29);
-            return hash;
-        }
+        std::size_t operator()(const Vec3& p) const { return place_hash(p); }
     };
-    Place cell(const Vec3& p, const Vec3& beside = {}) const {
+    Vec3 cell(const Vec3& p, const Vec3& beside = {}) const {
         const auto place = [&](double x, double d) {
             return tolerance_ > 0 ? std::floor(x / tolerance_) + d : x;
         };
@@ -272,7 +266,7 @@ class Assembly {
     std::vector<Index> vertex_numbers_, wedge_numbers_; ///< [of the mesh] in the result, or none
     Mesh result_;
     Descent descent_;
-    std::unordered_multimap<Place, Index, HashOfPlace> at_place_;  ///< vertices that pieces use, by cell
+    std::unordered_multimap<Vec3, Index, HashOfPlace> at_place_;   ///< vertices that pieces use, by cell
     std::vector<Index> of_node_;                                   ///< [nodes that are new] vertices, or none
     std::map<std::tuple<Index, Index, Index, Index>, Index> made_; ///< wedges
 };
