@@ -29,7 +29,7 @@ struct LatticeQuads {
     std::uint64_t key(const std::array<std::uint64_t, 3>& p) const {
         return (p[2] * (n + 1) + p[1]) * (n + 1) + p[0];
     }
-    /// The side of cell c towards the positive or negative end of an axis, seen anticlockwise from there.
+    /// The side of cell c towards the positive or negative end of an axis, seen anticlockwise from that end.
     void add(std::array<std::uint64_t, 3> c, std::size_t axis, bool positive) {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         c[axis] += positive;
@@ -98,7 +98,7 @@ Mesh lattice_cube(std::int64_t cells) {
     return quads.mesh();
 }
 
-/// The outer surface of the Menger sponge of side 1 around the origin, one quad for every lattice face
+/// The outer surface of the Menger sponge of side 1 around the origin. It has one quad for every lattice face
 /// between the sponge and empty space: 2 * 20^level + 4 * 8^level quads, closed and manifold. level 0 to 6.
 Mesh lattice_sponge(int level) {
     std::uint64_t n = 1;
@@ -143,7 +143,7 @@ void refuse_giants(const GenerateSettings& s) {
             fmt::format("generate: the shape would have about {:.3g} faces, at most {:.3g} are possible",
                         faces, 2147483648.0 / 3),
             "ask for fewer faces, cells or subdivisions");
-    // Per triangle: three corners and half a vertex, twice while quads are cut, and what sorting takes.
+    // Per triangle: three corners and half a vertex, twice while quads are cut, and the memory for sorting.
     require_memory(100 * faces, fmt::format("generate: a shape of {:.3g} faces", faces),
                    "ask for fewer faces, cells or subdivisions");
 }

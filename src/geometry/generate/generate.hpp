@@ -1,12 +1,12 @@
 #pragma once
-// Shapes from numbers: what pipelines and figures start from when there is no file.
+// Shapes from numbers: the start of pipelines and figures without an input file.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
 enum class Shape {
-    sphere,    ///< latitude and longitude, poles on the z axis: faces crowd there
+    sphere,    ///< latitude and longitude, poles on the z axis, where faces crowd
     icosphere, ///< an icosahedron refined on the sphere: faces of nearly one size
     cube,      ///< gridded faces
     grid,      ///< a square in the plane z = 0
@@ -18,8 +18,8 @@ enum class Shape {
 };
 
 /// Lengths in scene units, all above zero and at most 1e37, so that files of float32 can hold them. Each
-/// shape is centred on the origin (grid and gaussian stand on z = 0) and uses the members that are named with
-/// it.
+/// shape is centred on the origin (the base of grid and gaussian is z = 0) and uses the members documented
+/// for it.
 struct GenerateSettings {
     Shape shape = Shape::sphere;
     double radius = 1; ///< sphere, icosphere, cylinder, cone; torus: of the circle that the tube follows
@@ -39,10 +39,10 @@ struct GenerateSettings {
 };
 
 /// A mesh without attributes, every face seen anticlockwise from outside (grid and gaussian: from above).
-/// Sphere, icosphere, cube, torus, menger, and cylinder and cone with caps are closed and manifold.
-/// Quads are cut along the shorter diagonal. Noise is crumple's: the same for vertices at one place. Throws
-/// usage (E-RANGE) for a setting out of range, limit (E-LIMIT) for more than 2^31 corners, (E-MEMORY) for
-/// more than the machine has, before anything is built.
+/// Sphere, icosphere, cube, torus, menger, and cylinder and cone with caps are closed and manifold. Quads are
+/// cut along the shorter diagonal. Noise is crumple's: the same for coincident vertices. Throws before
+/// building: usage (E-RANGE) for a setting out of range, limit (E-LIMIT) for more than 2^31 corners,
+/// (E-MEMORY) if memory is short.
 Mesh generate(const GenerateSettings& settings);
 
 /// How many faces generate would make, as a real number because it may be beyond any integer.
@@ -52,10 +52,9 @@ double generate_face_estimate(const GenerateSettings& settings);
 Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed);
 
 /// The segments and rings of a latitude-longitude sphere of about that many triangles, which is 2 segments
-/// (rings - 1). Of all pairs of at least 3 segments and 2 rings whose facets at the equator are neither more
-/// than twice as wide as high nor the reverse (rings <= segments <= 4 rings): the one nearest in number
-/// (ties: fewer), then nearest to square facets (segments = 2 rings), then with fewer segments. 4000 gives 80
-/// x 26.
+/// (rings - 1). Candidates have at least 3 segments and 2 rings, and facets at the equator at most twice as
+/// wide as high and vice versa (rings <= segments <= 4 rings). The choice is by the nearest number (ties:
+/// fewer), then the squarest facets (segments = 2 rings), then fewer segments. 4000 gives 80 x 26.
 struct SphereBands {
     std::int64_t segments = 0, rings = 0;
 };

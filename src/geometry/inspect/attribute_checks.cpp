@@ -14,7 +14,7 @@ struct AttributeCheck {
     bool (*concerns)(const Attribute& attribute);
     /// Whether element i keeps it from holding.
     bool (*fails)(const Mesh& mesh, const Attribute& attribute, std::size_t i);
-    bool together = false; ///< all of these attributes are judged as one, told at the first
+    bool together = false; ///< all of these attributes are judged together and reported with the first
     bool of_any = false;   ///< it holds for a mesh without such attributes, else it does not apply
 };
 
@@ -81,7 +81,7 @@ std::optional<double> holds(const Mesh& mesh, const AttributeCheck& check) {
     return 1;
 }
 
-/// The elements of the attributes that fails(attribute, element) tells of.
+/// The elements of the attributes for which fails(attribute, element) is true.
 template <class Fails>
 std::vector<Location> failing(const Mesh& mesh, const std::vector<Index>& attributes, std::size_t limit,
                               Fails&& fails) {

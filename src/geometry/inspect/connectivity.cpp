@@ -25,7 +25,7 @@ struct Side {
 using EdgeKey = std::uint64_t;
 EdgeKey key_of(Index a, Index b) { return EdgeKey{std::min(a, b)} << 32 | std::max(a, b); }
 
-/// What one bucket of vertices contributes.
+/// The contribution of one bucket of vertices.
 struct Found {
     Connectivity counts;
     std::vector<EdgeKey> boundary;                  ///< boundary edges, each once
@@ -187,7 +187,8 @@ class LinkReader {
         return i;
     }
 
-    /// Each triangle is looked at from its lowest vertex; those with a repeated vertex are counted elsewhere.
+    /// Each triangle is looked at from its lowest vertex; triangles with a repeated vertex are counted
+    /// elsewhere.
     void count_duplicates(Index v, std::span<const Wing> wings) {
         opposite_.clear();
         for (const Wing& w : wings)

@@ -1,6 +1,6 @@
 #pragma once
-// What the faces around each vertex tell of a mesh: edges, boundary, manifoldness, orientation, in one pass
-// and without an edge table.
+// Properties of the faces around each vertex: edges, boundary, manifoldness, orientation, in one pass and
+// without an edge table.
 
 #include "mesh/mesh.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-/// The part of Properties that follows from connectivity alone; the meaning of each is told there.
+/// The part of Properties that follows from connectivity alone; Properties documents each member.
 struct Connectivity {
     std::int64_t edges = 0, boundary_edges = 0, boundary_loops = 0, isolated_vertices = 0;
     std::int64_t uncancelled_edges = 0; ///< where the directions of the faces do not cancel
@@ -24,7 +24,7 @@ struct Properties;
 /// The properties that these numbers are or decide: edges, boundary edges, closed, manifold, oriented.
 void set_connectivity(Properties& p, const Connectivity& c);
 
-/// Where a vertex stands that a mesh shares with others, as the parts of a larger one are counted one after
+/// The state of a vertex that a mesh shares with others when the parts of a larger mesh are counted one after
 /// another.
 enum class Turn : std::uint8_t {
     later, ///< not all of its faces are here

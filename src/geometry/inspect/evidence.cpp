@@ -1,4 +1,4 @@
-// What speaks against a property: its locations, the chains of a boundary, or what the parts contribute.
+// Evidence against a property: its locations, the chains of a boundary, or the contributions of the parts.
 #include "geometry/inspect/evidence.hpp"
 
 #include "geometry/inspect/measures.hpp"
@@ -11,8 +11,8 @@ namespace facetmill {
 
 namespace {
 
-/// The mesh alone where it stands in the world, as inspect looks at it: a mirrored part's faces are not
-/// turned round, so that both see the same corner first.
+/// The mesh alone in world space, as inspect looks at it. A mirrored part's faces are not turned round, so
+/// that both see the same corner first.
 Mesh placed(const Part& part) {
     Mesh mesh = bare(part.mesh);
     for (Vec3& p : mesh.positions) p = in_world(part, p);
@@ -40,7 +40,7 @@ bool is_out(const Box& box, const Box& within, bool high) {
     return false;
 }
 
-/// What the property is of each part, those first that take the whole farthest.
+/// The value of the property for each part, sorted by influence on the value of the whole.
 std::vector<Evidence> amounts_of_parts(const Scene& scene, const EvidenceQuery& query) {
     const Property& property = query.property;
     if (property.truth()) return {};

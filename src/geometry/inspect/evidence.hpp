@@ -1,5 +1,5 @@
 #pragma once
-// Where a property fails: what a person (or a marked copy of the mesh) is shown.
+// Locations where a property fails, for people and for marked copies of the mesh.
 
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/topology.hpp"
@@ -8,20 +8,20 @@
 
 namespace facetmill {
 
-/// A place on a mesh: a face (or none), and a point of it in the mesh's space.
+/// A location on a mesh: a face (or none), and a point of it in the mesh's space.
 struct Location {
     Index face = none;
     Vec3 at = {};
     Index with = none;      ///< the other face of a pair
     Index attribute = none; ///< the mesh's attribute that it is about
-    /// What it is, whatever the numbers and the order of faces, corners and vertices: a hash of the positions
-    /// that it is about (of a face, a pair of faces, an edge, a vertex; of a component its lowest position).
-    /// Equal coordinates give equal keys, and only they (but for chance, at 64 bits); 0 and -0 are equal, and
-    /// so are all numbers that are none.
+    /// Identifies the location whatever the numbers and the order of faces, corners and vertices. It is a
+    /// hash of the positions of a face, a pair of faces, an edge or a vertex; for a component of its lowest
+    /// position. Equal coordinates give equal keys, and different ones different keys (except by chance, at
+    /// 64 bits). 0 and -0 are equal, and so are all NaNs.
     std::uint64_t key = 0;
 };
 
-/// What locations are asked for.
+/// The options of a location query.
 struct LocationQuery {
     std::size_t limit = 10;
     /// Whether a value fails, of properties that each face or element has a value of; empty: all do.
@@ -52,15 +52,15 @@ struct Evidence {
     std::string part = {}, material = {};  ///< whose it is; one of them may be empty
     std::optional<Location> location = {}; ///< `at` is in the world
     std::string attribute = {};            ///< the location is about it
-    std::optional<std::size_t> loop = {};  ///< the number of the boundary chain among those of its part,
+    std::optional<std::size_t> loop = {};  ///< the number of the boundary chain within its part,
     BoundaryChain chain = {};              ///< ... and it
-    std::optional<double> amount = {};     ///< what the part contributes, where no location tells more
+    std::optional<double> amount = {};     ///< the part's contribution, if there is no location
 };
 
 struct EvidenceQuery {
     const Property& property;
     std::function<bool(double)> fails = {};
-    Box within = {}; ///< of a box: what it has to lie in
+    Box within = {}; ///< for a box: the required bounds
     std::size_t limit = 10;
 };
 
@@ -72,7 +72,7 @@ Location location_of(const Mesh& mesh, Index f);
 /// The location as evidence, told where the part stands.
 Evidence evidence_of(const Part& part, Location location);
 
-/// [of_face's numbers below count] The key of each component: that of its lowest position (x first, then y
+/// [of_face's numbers below count] The key of each component: the key of its lowest position (x first, then y
 /// and z).
 std::vector<std::uint64_t> keys_of_components(const Mesh& mesh, const std::vector<Index>& of_face,
                                               std::size_t count);

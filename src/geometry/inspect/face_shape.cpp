@@ -87,8 +87,8 @@ std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 
-/// How far along d, of length 1, a ray from p meets a triangle that it passes through: between the corners,
-/// also where it grazes the plane and rounding leaves nothing of the angle.
+/// The distance along d, of length 1, from p to a triangle that the ray meets. The result is limited to the
+/// corners' distances, because rounding may cancel the angle of a grazing ray.
 double meets_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 n = cross(b - a, c - a);
     const auto [least, most] = std::minmax({dot(a - p, d), dot(b - p, d), dot(c - p, d)});

@@ -100,7 +100,7 @@ FaceSums far_face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, con
     return sums;
 }
 
-/// What does not depend on where the mesh stands. repeating: triangles that have a vertex twice.
+/// Properties that do not depend on the transform. repeating: triangles that have a vertex twice.
 void inspect_as_it_is(Properties& p, const Mesh& mesh, std::int64_t repeating,
                       const InspectSettings& settings) {
     ShareOfSteps steps({4, 1, settings.self_intersections ? 12.0 : 0.0});
@@ -126,8 +126,8 @@ void inspect_as_it_is(Properties& p, const Mesh& mesh, std::int64_t repeating,
     }
 }
 
-/// positions: the mesh's, or where a transform puts them; one that mirrors turns the faces round, as glTF has
-/// it. alike: what was found of an equal mesh, wherever it stands, or none.
+/// positions: the mesh's, or transformed; a mirroring transform turns the faces round, as in glTF. alike: the
+/// properties of an equal mesh with any transform, or null.
 Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, bool mirrored,
                           const InspectSettings& settings, const Properties* alike) {
     Properties p;
@@ -172,7 +172,7 @@ struct MemberValue {
     }
 };
 
-/// Joins what a part has with what those before it have.
+/// Joins the properties of a part with the properties of the parts before it.
 class Joiner {
   public:
     Joiner(Properties& sum, const Properties& part) : sum_(sum), part_(part) {}
@@ -206,7 +206,7 @@ class Joiner {
     }
     void add_member(std::monostate, Join) const {}
 
-    /// Where both apply, one value of two parts; where only one does, its own.
+    /// Joins the values if both apply; if only one applies, keeps it.
     void add_requested(const Property& property) const {
         const auto value = property.get(part_);
         if (!value) return;
@@ -240,7 +240,7 @@ void measure_requested(Properties& p, const Mesh& world, const Mesh& local, cons
     p.requested = std::move(values);
 }
 
-/// How long it takes to inspect a mesh, and to measure what is requested beside that.
+/// The relative times to inspect a mesh and to measure the requested properties.
 std::vector<double> lengths_of(const InspectSettings& settings) {
     return {settings.self_intersections ? 18.0 : 6.0, static_cast<double>(settings.requested.size())};
 }

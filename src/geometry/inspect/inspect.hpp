@@ -1,5 +1,5 @@
 #pragma once
-// The properties of a mesh that info, validate, ensure, when, the report and the manual share: a struct of
+// The properties of a mesh used by info, validate, ensure, when, the report and the manual: a struct of
 // values, and a table with one row for each.
 
 #include "mesh/scene.hpp"
@@ -22,8 +22,8 @@ struct LocationQuery;
 struct Evidence;
 struct EvidenceQuery;
 
-/// The values of properties. Of a scene: what its parts have, joined as each property's row says; bounds,
-/// area and volume in world space.
+/// The values of properties. For a scene, the values of its parts are joined according to each property's
+/// row; bounds, area and volume are in world space.
 struct Properties {
     std::int64_t vertices = 0, wedges = 0, edges = 0, faces = 0, triangles = 0;
     std::int64_t lines = 0;      ///< of parts without faces
@@ -48,13 +48,13 @@ struct Properties {
     std::optional<std::int64_t> parts, materials; ///< these four of a scene only
     std::optional<Unit> unit;
     std::optional<UpAxis> up;
-    /// What was measured on request and applies.
+    /// The requested properties that apply, with their values.
     std::vector<std::pair<const Property*, double>> requested;
 };
 
 struct InspectSettings {
     bool self_intersections = false;
-    std::vector<const Property*> requested = {}; ///< those with a function of their own
+    std::vector<const Property*> requested = {}; ///< measured only on request
     /// The mesh is one of several components of a solid: one of negative volume is a cavity of it.
     bool part_of_solid = false;
 
@@ -65,7 +65,7 @@ struct InspectSettings {
 /// Properties of a mesh in its own space. O(n log n) at most, parallel, never throws for a valid mesh (NaN
 /// included).
 Properties inspect(const Mesh& mesh, const InspectSettings& settings = {});
-/// Of a part in world space; its transform bears on area, volume and bounds.
+/// Inspects a part in world space; its transform affects area, volume and bounds.
 Properties inspect(const Part& part, const InspectSettings& settings = {});
 /// Of all parts in world space (closedness is a property of a part: docs/architecture.md, "What flows").
 Properties inspect(const Scene& scene, const InspectSettings& settings = {});
@@ -74,7 +74,7 @@ Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 /// the one of the lowest face); isolated vertices belong to none. O(n log n).
 std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit);
 
-/// What kind of value a property has, and so its unit and what may be asked of it.
+/// The kind of a property's value, which decides its unit and the valid conditions.
 enum class PropertyKind {
     count,  ///< a whole number
     number, ///< any number, without a unit
@@ -89,7 +89,7 @@ enum class PropertyKind {
 /// "degrees", "scene units"; empty where there is none.
 std::string_view unit_of(PropertyKind kind);
 
-/// How the values of parts become that of a scene.
+/// How the values of parts are combined to the value of a scene.
 enum class Join {
     sum,
     sum_if_all, ///< of a scene only when every part has one
@@ -100,11 +100,11 @@ enum class Join {
     of_scene, ///< parts have none: it is about the scene
 };
 
-/// Whether a truth, or a count of what is wrong, is part of being sound.
+/// Whether a boolean, or a count of defects, is part of soundness.
 enum class Soundness {
     none,
-    file,   ///< what a file must not lose when it is written
-    surface ///< that, and what every surface that others work with should have
+    file,   ///< property that writing to a file must not lose
+    surface ///< as file, and required of every surface for further processing
 };
 
 /// A mesh that is measured.
@@ -135,21 +135,21 @@ struct Property {
     Member member = {};
     bool costly = false;    ///< a member that needs InspectSettings::self_intersections
     bool is_size = false;   ///< how much there is, rather than how it hangs together
-    bool where_any = false; ///< a count that is told where it is not 0
+    bool where_any = false; ///< a count that is reported only if it is not 0
     Soundness soundness = Soundness::none;
     /// On request: the value; none when it does not apply (no faces, no such attribute). Truths as 0 and 1.
     std::optional<double> (*measure)(const Measured& mesh) = nullptr;
     /// On request: the value of each face; the property is the least or most of them, as they join. Infinity
     /// where it does not apply. The mesh is near 1 in size; lengths are scaled back.
     std::vector<double> (*of_faces)(const Mesh& mesh) = nullptr;
-    /// The places that speak against it, null when it has none (those of of_faces are found by themselves).
+    /// The locations where it fails, null if it has none (properties with of_faces have their own search).
     LocationsOf locations = nullptr;
-    /// What a failed check shows; null: locations, else what the parts contribute.
+    /// The evidence of a failed check; null: locations, else the contributions of the parts.
     EvidenceOf evidence = nullptr;
-    /// How many locations there are is told beside the value, which does not say it.
+    /// The number of locations is shown next to the value, because the value does not include it.
     bool counts_locations = false;
     double lowest = 0, highest = HUGE_VAL; ///< no mesh has a value beyond
-    /// Of a word: what it may be, by the enumeration's value.
+    /// For a word: the possible words, by the enumeration's value.
     std::vector<std::string_view> (*words)() = nullptr;
 
     bool truth() const { return kind == PropertyKind::truth; }

@@ -30,7 +30,7 @@ bool is_lower(const Vec3& a, const Vec3& b) {
     return false;
 }
 
-/// The ends in any order: sums do not ask for one; the last hash tells apart what sums alike.
+/// The ends in any order, because addition is commutative; the last hash distinguishes ends with equal sums.
 std::uint64_t key_of_edge(const Vec3& a, const Vec3& b) {
     return hashed(2, inspect_room::key_of_point(a) + inspect_room::key_of_point(b));
 }

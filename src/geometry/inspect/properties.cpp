@@ -98,7 +98,7 @@ constexpr Property table[] = {
      .help = "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 with one component.",
      .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
      .member = &P::euler,
-     .locations = non_manifold_locations, // what is not open, and no handle
+     .locations = non_manifold_locations, // neither open nor a handle
      .evidence = by_boundary,
      .lowest = -HUGE_VAL},
     {.name = "genus",
@@ -253,7 +253,7 @@ constexpr Property table[] = {
      .member = &P::parts,
      .evidence = by_part_names},
 
-    // What follows is measured on request.
+    // The following properties are measured on request.
     {.name = "min_angle",
      .kind = Kind::angle,
      .join = Join::least,

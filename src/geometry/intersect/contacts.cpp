@@ -85,8 +85,8 @@ bool cross_inside(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
            turn(c, d, a, view) * turn(c, d, b, view) < 0;
 }
 
-/// How many different points the borders of two triangles that are not in one plane have in common, where
-/// that are single points; more than one for a stretch.
+/// The number of different common points of the borders of two triangles that are not coplanar. If the
+/// borders share a segment, it is more than one.
 std::size_t common_points(const Corners& s, const Corners& t) {
     std::vector<Vec3> corners;
     std::size_t crossings = 0;
@@ -113,8 +113,8 @@ bool run_along(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return false;
 }
 
-/// How far a half plane at the edge u v is turned from that of p, in quarters: 0 not at all, 1 less than half
-/// a turn, 2 half a turn, 3 more.
+/// How far the half plane of q at the edge u v is turned from the half plane of p, in quarters. 0: not at
+/// all, 1 less than half a turn, 2 half a turn, 3 more.
 int quarter(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q) {
     const int side = orientation_3d(u, v, p, q);
     if (side != 0) return side > 0 ? 1 : 3;
@@ -130,7 +130,8 @@ int order_from(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q, const
     return a == 0 || a == 2 ? 0 : -orientation_3d(u, v, q, r);
 }
 
-/// Whether the half planes of p and o at an edge part those of q and r: none of these lies on p's or o's.
+/// Whether the half planes of p and o at an edge separate the half planes of q and r, none of which may
+/// coincide with p's or o's.
 bool parts(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& o, const Vec3& q, const Vec3& r) {
     if (quarter(u, v, p, q) == 0 || quarter(u, v, p, r) == 0) return false;
     return order_from(u, v, p, q, o) * order_from(u, v, p, r, o) < 0;

@@ -8,19 +8,19 @@
 
 namespace facetmill {
 
-/// Judges pairs of triangles of a surface that meet elsewhere than in the corners that they share. Such a
-/// pair *touches* when all points that it has in common lie on the edges of both, and the surface does not
-/// pass through itself there: where edges of both run along each other, the triangles beyond them must not
-/// lie on different sides. So a solid of which two edges lie on each other touches itself, and one whose
-/// walls pass through each other exactly at their edges does not. A surface all of whose pairs touch never
-/// passes through itself: around a common point of edges it would do so along a direction, which lies inside
-/// a triangle of some pair, or along edges of two. Where a triangle beyond an edge has no area or is not
-/// finite, the pair does not touch. Decided exactly.
+/// Judges pairs of triangles of a surface that meet elsewhere than in their shared corners. Such a pair
+/// *touches* if all its common points are on the edges of both, and the surface does not pass through itself
+/// at these points. If edges of both overlap, the triangles beyond them must not be on different sides. For
+/// example, a solid with two coincident edges touches itself, but a solid whose walls pass through each other
+/// exactly at their edges does not. If all pairs of a surface touch, the surface never passes through itself.
+/// Proof: around a common point of edges it would do so along a direction, which is inside a triangle of some
+/// pair or along edges of two. If a triangle beyond an edge has no area or is not finite, the pair does not
+/// touch. Decided exactly.
 class TouchTest {
   public:
     explicit TouchTest(const Surface& surface) : surface_(surface) {}
 
-    /// Of two triangles with area that meet and share at most one vertex. From any thread.
+    /// Both triangles have area, meet and share at most one vertex. From any thread.
     bool only_touch(Index s, Index t) const;
 
   private:

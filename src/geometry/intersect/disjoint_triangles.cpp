@@ -1,6 +1,6 @@
-// Separating lines of the triangles seen along an axis, then separating planes. The thresholds of signs are
-// those of J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-// predicates" (1997) in the plane, and in space the semi-static filter of A. Meyer and S. Pion, "FPG: a code
+// Separating lines of the triangles seen along an axis, then separating planes. In the plane, the thresholds
+// of signs come from J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates" (1997). In space, they come from the semi-static filter of A. Meyer and S. Pion, "FPG: a code
 // generator for fast and certified geometric predicates" (2008).
 #include "geometry/intersect/disjoint_triangles.hpp"
 
@@ -43,8 +43,8 @@ bool beyond_an_edge(const double (&s)[3][2], const double (&t)[3][2]) {
     return false;
 }
 
-/// Whether the corners of two triangles at their common first point are apart but for that point: no side of
-/// one is within the other.
+/// Whether the corners of two triangles at their common first point share only that point: no side of either
+/// is within the other.
 bool corners_disjoint(const View& view) {
     const auto& a = view.a;
     const auto& b = view.b;

@@ -28,7 +28,8 @@ class Sectors {
         ++count_;
     }
 
-    /// Along the axis that the first of them faces most, which nearly always is as good as that of all.
+    /// Looks along the axis that the first triangle faces most, which is nearly always as good as the axis of
+    /// all.
     Star kind() const {
         if (count_ > most) return Star::unknown;
         const std::size_t quick = axis(1);
@@ -50,8 +51,8 @@ class Sectors {
         return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
     }
 
-    /// How often the sectors, seen along the axis, reach or pass a half-axis, coming from before it; none
-    /// unless all are sure to turn the same way.
+    /// The number of sectors, seen along the axis, that reach or pass a half-axis from before it. None unless
+    /// all certainly turn the same way.
     std::optional<std::size_t> laps_along(std::size_t axis) const {
         const auto &au = a_[(axis + 1) % 3], &av = a_[(axis + 2) % 3];
         const auto &bu = b_[(axis + 1) % 3], &bv = b_[(axis + 2) % 3];
@@ -68,8 +69,8 @@ class Sectors {
         return {};
     }
 
-    /// One ring goes round once: two would pass the half-axis twice. What begins after it and does not come
-    /// to it again goes round less than once.
+    /// A single ring goes round once: two rings would pass the half-axis twice. Triangles that begin after
+    /// the half-axis and do not reach it again go round less than once.
     Star kind_of(std::size_t laps) const {
         if (laps > 1) return Star::unknown;
         const std::uint32_t all = (std::uint32_t{1} << count_) - 1;

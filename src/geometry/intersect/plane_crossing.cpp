@@ -1,5 +1,5 @@
 // Numbers of two doubles (T. J. Dekker, "A floating-point technique for extending the available precision",
-// 1971), with bounds of the error beside them.
+// 1971), with bounds of their error.
 #include "geometry/intersect/plane_crossing.hpp"
 
 #include "base/predicates.hpp"
@@ -13,9 +13,9 @@ namespace facetmill {
 
 namespace {
 
-/// high + low, low at most half a unit in the last place of high. Of each operation below but `difference`,
-/// which is exact, the result is off by less than 2^-100 of the sum of the sizes of what it adds, or of the
-/// product or quotient.
+/// high + low, low at most half a unit in the last place of high. `difference` is exact. The result of each
+/// other operation below has an error of less than 2^-100 of its size; for a sum, of the summed sizes of its
+/// terms.
 struct Twofold {
     double high = 0, low = 0;
 };
@@ -67,7 +67,7 @@ double largest(const Twofolds& v) {
 
 Twofold product_of(const Twofolds& a, const Twofolds& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Whether what x is off by is so little that neither end is beyond the next double on either side.
+/// Whether the error of x is so small that neither end is beyond the next double on either side.
 bool is_near(const Twofold& x, double error) {
     const double size = std::abs(x.high);
     return size > 1e-100 && error < size * 0x1p-60;
@@ -80,12 +80,12 @@ std::optional<double> towards_zero(const Twofold& x, double error) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x.high) - 1);
 }
 
-/// Rounded towards zero, the exact coordinate along an axis of the point where the line from p to q passes
-/// through the plane that stands across axis `level` at z: it is so near to x that only x and its neighbours
-/// are left.
+/// The exact coordinate along an axis, rounded towards zero, of the point where the line from p to q crosses
+/// a plane. The plane is perpendicular to axis `level` at z. The coordinate is so near to x that only x and
+/// its neighbours are possible.
 double towards_zero_at_level(const Vec3& p, const Vec3& q, std::size_t axis, std::size_t level, double z,
                              double x) {
-    // (q - p)[level] times what the coordinate is above x
+    // (q - p)[level] times the difference of the coordinate and x
     const int side =
         orientation_2d(p[axis], p[level], q[axis], q[level], x, z) * (q[level] > p[level] ? 1 : -1);
     if (side == 0 || (side > 0) == (x > 0)) return x;
@@ -110,7 +110,7 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     // Both have the same sign in this difference: the quotient is between 0 and 1.
     const Twofold whole = above - below, part = above / whole;
     const double error_of_part = 4 * error / std::abs(whole.high) + 0x1p-98;
-    std::optional<std::size_t> across; // the axis that the plane stands across
+    std::optional<std::size_t> across; // the axis perpendicular to the plane
     for (std::size_t k = 0; k < 3; ++k)
         if (is_level(a, b, c, k)) across = k;
     Vec3 place;
@@ -140,8 +140,8 @@ Twofolds cross_of(const Twofolds& u, const Twofolds& v) {
 
 } // namespace
 
-/// With n the normals, o a corner of the first and d the products of normals with corners less o:
-/// o + (d1 n2 x n0 + d2 n0 x n1) / (n0 . n1 x n2).
+/// The formula is o + (d1 n2 x n0 + d2 n0 x n1) / (n0 . n1 x n2). n are the normals, o is a corner of the
+/// first, d are the products of normals with corners minus o.
 std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& triangles) {
     const Vec3& origin = triangles[0][0];
     std::array<Twofolds, 3> normals;
@@ -168,9 +168,9 @@ std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& tr
     }
     const Twofolds a = cross_of(normals[2], normals[0]), b = cross_of(normals[0], normals[1]);
     const Twofold whole = product_of(normals[0], cross_of(normals[1], normals[2]));
-    // A normal is off by 6 * 2^-100 of its size, a height by 30 of that times the reach, a product of two
-    // normals by 30 and of three by 100 of their sizes; so of the numerator, of at most 12 size * reach, it
-    // is less than 2^-91 of that. No normal is larger than its part of `size`.
+    // The error of a normal is 6 * 2^-100 of its size, and of a height 30 of that times the reach. The error
+    // of a product of two normals is 30, and of three 100, of their sizes. So the numerator, of at most 12
+    // size * reach, has an error of less than 2^-91 of that. No normal is larger than its part of `size`.
     const double error = 0x1p-91 * size;
     if (!(std::abs(whole.high) > 16 * error)) return {};
     for (std::size_t k = 0; k < 3; ++k) {

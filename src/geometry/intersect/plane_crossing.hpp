@@ -1,5 +1,5 @@
 #pragma once
-// Where an edge passes through the plane of a triangle, and where three planes meet, in doubles.
+// Crossings of an edge with the plane of a triangle, and of three planes, in doubles.
 
 #include "base/vec.hpp"
 

@@ -17,10 +17,10 @@ namespace facetmill {
 struct SelfIntersectionSettings {
     std::size_t limit = 10;               ///< how many pairs are listed; all are counted
     std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
-    /// [vertices] of plain_stars; where none are given and all pairs are asked for, they are found.
+    /// [vertices] of plain_stars; if empty and all pairs are requested, they are computed.
     std::vector<Star> stars = {};
     bool separate_touching = false; ///< pairs that only touch are counted and listed separately
-    /// When the boxes of more pairs of triangles meet, nothing is looked at. They are counted first.
+    /// If the boxes of more pairs of triangles meet, the search does not start. They are counted first.
     std::size_t max_box_pairs = std::size_t(-1);
 };
 
@@ -31,7 +31,7 @@ struct SelfIntersections {
     std::size_t touching =
         0; ///< with `separate_touching`: pairs that only touch, which `count` and `pairs` leave out
     std::vector<std::pair<Index, Index>> touching_pairs; ///< the first of them, likewise
-    /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
+    /// Pairs of triangles whose boxes meet. They measure the work and are the same for any number of threads.
     std::size_t box_pairs = 0;
     bool too_many = false; ///< box_pairs, which were counted up to one more than the limit: the rest is empty
 };
@@ -50,37 +50,37 @@ SelfIntersections find_self_intersections(Surface surface, std::size_t faces,
                                           const SelfIntersectionSettings& settings);
 
 struct MeetingFaces {
-    bool too_many = false;           ///< box pairs: what faces were found is left out
-    std::vector<std::uint8_t> faces; ///< [faces] 1 for those that meet another
+    bool too_many = false;           ///< box pairs: the faces are left out
+    std::vector<std::uint8_t> faces; ///< [faces] 1 for faces that meet another
     std::size_t box_pairs = 0;       ///< as above
 };
 
-/// Looks for pairs of faces of a mesh again and again, while its vertices move. The tree is sorted once; what
-/// a look takes after that is for the faces that have moved and for those around them.
+/// Searches repeatedly for pairs of faces of a mesh while its vertices move. The tree is sorted once; each
+/// later search depends on the moved faces and their surroundings.
 class SelfIntersectionSearch {
   public:
     /// frame: of another search, whose boxes were rounded in it, so that as many pairs of boxes meet here.
     explicit SelfIntersectionSearch(const Mesh& mesh, const Box& frame = {});
-    /// Of triangles that stand for so many faces, which do not move.
+    /// For the triangles of so many faces, which do not move.
     SelfIntersectionSearch(Surface surface, std::size_t faces);
     SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept;
     SelfIntersectionSearch& operator=(SelfIntersectionSearch&&) noexcept;
     ~SelfIntersectionSearch();
 
-    /// The vertices of the mesh, which is the same else, have moved: those of the faces that are flagged, or
-    /// where none are given, of any.
+    /// Updates the search after vertices of the mesh, otherwise unchanged, have moved. moved: flags of the
+    /// faces with moved vertices; empty if any may have.
     void move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved);
 
-    /// Holds all that there has been, and what another search was given.
+    /// Contains all positions so far, including the frame given by another search.
     const Box& frame() const;
 
     /// As find_self_intersections.
     SelfIntersections pairs(const SelfIntersectionSettings& settings);
 
-    /// The faces of those pairs, the exempt pairs (lower face first, ascending)
-    /// left out. Where a face is in many pairs this is much faster: a pair of faces that are known both is
-    /// not looked at. Which pair tells of a face depends on the threads, whether one does, does not. Ends
-    /// when more than max_box_pairs were looked at.
+    /// The faces of those pairs, without the exempt pairs (lower face first, ascending). This is much faster
+    /// than `pairs` if a face is in many pairs, because a pair of two known faces is skipped. The result for
+    /// a face does not depend on the threads, but the pair that decides it may. Ends after more than
+    /// max_box_pairs tests.
     MeetingFaces faces(const std::vector<std::uint8_t>& among,
                        std::span<const std::pair<Index, Index>> exempt,
                        std::size_t max_box_pairs = std::size_t(-1));

@@ -60,7 +60,7 @@ double length_of(const Mesh& mesh, const EdgeTable::Edge& e) {
     return length(mesh.positions[e.high] - mesh.positions[e.low]);
 }
 
-/// The inner angle of a face at a corner; normal tells which side is inside.
+/// The inner angle of a face at a corner; normal decides which side is inside.
 double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec3& normal) {
     const Vec3 a = after - at, b = before - at;
     if (!(dot(a, a) > 0) || !(dot(b, b) > 0)) return none_there;
@@ -110,7 +110,8 @@ EdgeValues values_of_edges(const Mesh& mesh, EdgeTurns t, const EdgeSettings& se
     return values;
 }
 
-/// mesh: of triangles; those of `vertices` are given, the others stand where faces cross themselves.
+/// mesh: of triangles; vertices up to `vertices` are in the input, later ones are where faces cross
+/// themselves.
 CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& areas, const EdgeTurns& t,
                                     std::size_t vertices, std::span<const Turn> turns_of_vertices);
 
@@ -202,7 +203,7 @@ CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& a
     return r;
 }
 
-/// What was measured in scaled coordinates, and is a length to that power.
+/// Scales statistics from scaled coordinates back; the values are lengths to that power.
 void unscale(Statistics& s, int power) {
     for (double* x : {&s.minimum, &s.maximum, &s.mean, &s.deviation, &s.median, &s.sum})
         *x = unscaled(*x, power);

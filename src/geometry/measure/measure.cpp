@@ -124,7 +124,7 @@ void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
     }
 }
 
-// Of a mesh whose box is not far from 1 in size, by its sums as seen from a point.
+// Expects a mesh whose box is not far from 1 in size; the sums are relative to a point.
 
 ShellMass shell_of(const Sums& sums, const Vec3& from) {
     ShellMass shell;
@@ -149,7 +149,7 @@ SolidMass solid_of(const Sums& sums, const Vec3& from) {
     return solid;
 }
 
-// What was measured in scaled coordinates, as it is in the given ones.
+// Conversions from scaled to given coordinates.
 
 /// measure: the power of the area or volume that the moments were summed over.
 Symmetric taken_back(const Symmetric& s, const PowerScale& scale, int measure) {

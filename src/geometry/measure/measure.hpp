@@ -1,7 +1,7 @@
 #pragma once
-// Areas, centroids, volume and inertia; edges, angles and curvature. After P. Bourke, "Calculating the area
-// of a 3D polygon" (2000) and "Centroid of a 3D shell described by 3 vertex facets" (weighted by area); the
-// solid after D. Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of
+// Areas, centroids, volume and inertia; edges, angles and curvature. Sources: P. Bourke, "Calculating the
+// area of a 3D polygon" (2000) and "Centroid of a 3D shell described by 3 vertex facets" (weighted by area).
+// Solids follow D. Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of
 // the box.
 
 #include "geometry/section/section.hpp"
@@ -47,7 +47,7 @@ Eigen3 eigen(const Symmetric& m);
 /// The inertia tensor of mass that is spread like that: the integral of |r|^2 I - r r^T.
 Symmetric inertia_of(const Symmetric& spread);
 
-/// Of a surface without thickness.
+/// A surface without thickness.
 struct ShellMass {
     double area = 0;
     Vec3 centroid; ///< of the area; the origin when there is none
@@ -55,7 +55,8 @@ struct ShellMass {
     Symmetric spread;
 };
 
-/// Of the inside of a closed surface, filled with density 1. All negative for a surface that is inside out.
+/// The inside of a closed surface, filled with density 1. All values are negative for a surface that is
+/// inside out.
 struct SolidMass {
     double volume = 0;
     Vec3 centroid;
@@ -69,8 +70,8 @@ SolidMass joined(const SolidMass& a, const SolidMass& b);
 
 struct MassResult {
     ShellMass shell;
-    /// When every edge's faces cancel (closed); all zero when the volume is rounding only, as of a surface
-    /// that is doubled on itself: no more than 1e-12 of a ball's of that area.
+    /// Present if every edge's faces cancel (closed). All zero if the volume is only rounding, for example of
+    /// a doubled surface: at most 1e-12 of the volume of a ball with the same area.
     std::optional<SolidMass> solid;
 };
 /// Sums over faces in parallel. The area of a face is the length of polygon::area_vector, its centroid and
@@ -96,11 +97,10 @@ struct EdgeSettings {
 EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
 /// One polygon in space, measured as P. Bourke, "Calculating the area and centroid of a polygon" (1988),
-/// measures polygons in the plane. Its frame is that of its plane (frame_of), the normal turned so that its
-/// longest component is positive: a polygon in a plane z = constant has the axes x and y, and is seen from
-/// above. A planar polygon that crosses itself is measured as a section measures such a contour: area,
-/// centroid and moments are of all that it winds around, each point counted once, and the signed area has the
-/// sign of the part that is larger.
+/// measures polygons in the plane. Its frame is the frame of its plane (frame_of), with the normal's longest
+/// component positive. Thus a polygon in a plane z = constant has the axes x and y, and is seen from above. A
+/// planar polygon that crosses itself is measured as a section measures such a contour. Its area, centroid
+/// and moments count each point that it winds around once. The signed area has the sign of the larger part.
 struct PolygonResult {
     polygon::Kind kind = polygon::Kind::degenerate;
     bool planar = true;
@@ -109,8 +109,8 @@ struct PolygonResult {
     double signed_area = 0; ///< positive when the corners run anticlockwise, seen in the frame, or as much
                             ///< either way (to 1e-12 of the area)
     Vec3 centroid;          ///< the first corner when there is no area
-    Vec3 normal; ///< unit, that of the corners' order, the frame's when they run as much either way;
-                 ///< zero when there is no area
+    Vec3 normal; ///< unit, by the order of the corners; the frame's if both directions are equal; zero if
+                 ///< there is no area
     SectionFrame frame;
     /// Second moments of area in the frame, of the projection along the normal when the polygon is not
     /// planar. None for a polygon that is degenerate, or crosses itself and is not planar.
@@ -124,21 +124,20 @@ struct FaceResult {
     Statistics area, angle;  ///< angle: 0 to 2 pi, beyond pi at concave corners
     Statistics aspect_ratio; ///< of triangles with an area (mesh/aspect_ratio.hpp)
     FaceKinds kinds;
-    /// The sum of the area vectors: the signed areas of the projections along x, y and z. Zero for what is
-    /// closed.
+    /// The sum of the area vectors: the signed areas of the projections along x, y and z. Zero for closed
+    /// surfaces.
     Vec3 signed_area;
     std::vector<double> areas; ///< per face
 };
 FaceResult measure_faces(const Mesh& mesh);
 
 /// Discrete curvature at vertices, after M. Meyer et al., "Discrete differential-geometry operators for
-/// triangulated 2-manifolds" (2003): what is missing of the full angle, and the turn of the edges, over a
-/// third of the area of the triangles around. Vertices on a boundary or where the surface is no manifold have
-/// none (nan).
+/// triangulated 2-manifolds" (2003). It is the angle defect, and the turn of the edges, over a third of the
+/// area of the triangles around. It is nan on a boundary and at non-manifold vertices.
 struct CurvatureResult {
     std::vector<double> gaussian, mean; ///< per vertex; mean is positive where the surface bulges outward
     Statistics of_gaussian, of_mean;
-    /// The sum of missing angles over all vertices (those on a boundary miss up to half a turn): 2 pi times
+    /// The sum of angle defects over all vertices (on a boundary: relative to half a turn). It is 2 pi times
     /// Euler's number of a manifold, whatever its shape.
     double total = 0;
 };

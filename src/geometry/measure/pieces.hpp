@@ -1,6 +1,6 @@
 #pragma once
-// What geometry/measure/measure.hpp tells of a mesh, of one that comes in pieces: sums, and values that are
-// summed up afterwards.
+// The values of geometry/measure/measure.hpp for a mesh that comes in pieces: sums, and values that are added
+// up afterwards.
 
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/measure/measure.hpp"
@@ -32,8 +32,8 @@ class MassPieces {
     std::size_t faces_ = 0;
 };
 
-// What follows is of meshes whose boxes are not far from 1 in size: those of the whole mesh, scaled by
-// even_scale. Values are not finite where there is none. Parallel, and the same for any number of threads.
+// The following functions expect meshes whose boxes are not far from 1 in size: pieces of the whole mesh,
+// scaled by even_scale. Undefined values are not finite. Parallel, and the same for any number of threads.
 
 struct FaceValues {
     std::vector<double> area, angle, aspect_ratio; ///< [faces], [corners], [faces]

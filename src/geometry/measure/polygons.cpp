@@ -43,12 +43,12 @@ std::optional<polygon::Moments> moments_in(const SectionFrame& frame, std::span<
 
 /// The area and the centroid of a polygon that crosses itself, from its moments.
 void take_covered(PolygonResult& r) {
-    if (r.area <= 1e-12 * r.moments->area) r.normal = r.frame.normal; // what is left of it is rounding
+    if (r.area <= 1e-12 * r.moments->area) r.normal = r.frame.normal; // the rest is rounding
     r.area = r.moments->area;
     r.centroid = r.frame.point(r.moments->centroid);
 }
 
-/// Of a polygon whose box is not far from 1 in size.
+/// Expects a polygon whose box is not far from 1 in size.
 PolygonResult polygon_of(std::span<const Vec3> p) {
     PolygonResult r;
     r.kind = face_kind(p);

@@ -56,7 +56,7 @@ std::vector<double> powers(int first_octave, std::size_t bins) {
     return limits;
 }
 
-/// The bin among those that begin at the octave, four to an octave; what is below is in the first.
+/// The bin of x if bins begin at the octave, four to an octave; smaller values are in the first.
 std::size_t power_bin(double x, int first_octave) {
     if (!(x > 0)) return 0;
     constexpr int mantissa_bits = 52, bias = 1023;
@@ -73,8 +73,8 @@ constexpr double angle_bin = 2.5; // degrees
 constexpr std::size_t angle_bins = 72, aspect_bins = 24;
 
 struct Shapes {
-    /// Those of the first, second and third edges of faces apart: neighbours are alike, so one count would
-    /// wait for itself.
+    /// Separate counts of the first, second and third edges of faces: neighbours are alike, so a single count
+    /// would wait for itself.
     std::array<Counted, 3> edges{Counted(4 * octaves), Counted(4 * octaves), Counted(4 * octaves)};
     Counted angles{angle_bins}, aspects{aspect_bins};
     std::uint64_t flat = 0;
@@ -113,8 +113,8 @@ void add_shape(double smallest, double worst, Shapes& out) {
         ++out.flat;
 }
 
-/// Triangles that follow each other. What they are measured by is gathered first, angles are computed side by
-/// side, and then all is counted, in order: none of the three waits for what another decides.
+/// Consecutive triangles. Their data is gathered first, then angles are computed side by side, then all is
+/// counted, in order. No step waits for a decision of another.
 class TriangleBatch {
   public:
     bool is_full() const { return count_ == most; }
@@ -135,7 +135,7 @@ class TriangleBatch {
         y_[i] = twice;
         x_[i] = along[shortest];
         if (twice > 1e-140 && twice < 1e140) return; // the area gives the angle without a root of its own
-        // Flat, or squares of squares are beyond all numbers; where those of lengths are, too, it is -1.
+        // Flat, or fourth powers of lengths overflow; if squares of lengths overflow, too, the cosine is -1.
         const std::size_t first = (shortest + 1) % 3, second = (shortest + 2) % 3;
         odd_.emplace_back(i, arc_cosine(std::max(-1.0, cosine_between(sides[first], lengths[first],
                                                                       sides[second], lengths[second]))));
@@ -158,7 +158,7 @@ class TriangleBatch {
     std::size_t count_ = 0;
     std::array<double, 3 * most> edges_;
     std::array<double, most> y_, x_, aspects_;        ///< y and x: of the smallest angle
-    std::vector<std::pair<std::size_t, double>> odd_; ///< those whose angles come from elsewhere
+    std::vector<std::pair<std::size_t, double>> odd_; ///< triangles whose angles are computed separately
 };
 
 class ShapesOfFaces {
@@ -250,7 +250,7 @@ class ShapesOfFaces {
     bool is_moved_;
 };
 
-/// The bins from `begin` to `end`, `together` of them in one.
+/// The bins from `begin` to `end`, each group of `together` bins merged.
 void rebin(Histogram& h, std::size_t begin, std::size_t end, std::size_t together) {
     Histogram out = h;
     out.limits = {h.limits[begin]};

@@ -7,11 +7,11 @@
 
 namespace facetmill {
 
-/// Counts of numbers between limits that are the same for all scenes, so that histograms can be shown one on
-/// the other; and their range and mean.
+/// Counts of numbers between limits, and their range and mean. The limits are the same for all scenes, so
+/// that histograms can be shown one on the other.
 struct Histogram {
     std::vector<double> limits;        ///< one more than bins
-    std::vector<std::uint64_t> counts; ///< of bins; what lies beyond is in the first or the last
+    std::vector<std::uint64_t> counts; ///< of bins; values outside are in the first or the last
     std::uint64_t total = 0;
     double minimum = 0, maximum = 0, mean = 0; ///< 0 for no numbers
 };
@@ -26,8 +26,8 @@ struct ShapeHistograms {
 /// Of all faces in world space; what is not finite is left out. The same for any number of threads. O(n).
 ShapeHistograms shape_histograms(const Scene& scene);
 
-/// Leaves out bins at the ends that are empty in both, and joins neighbours until at most `most` are left. Of
-/// histograms with the same limits. One without numbers gets the limits of the other.
+/// Leaves out bins at the ends that are empty in both, and joins neighbours until at most `most` are left.
+/// The histograms have the same limits. An empty histogram gets the limits of the other.
 void trim(Histogram& a, Histogram& b, std::size_t most = 40);
 
 } // namespace facetmill

@@ -14,8 +14,8 @@ namespace facetmill {
 
 namespace {
 
-constexpr double bent = 0.99985;        // cosine of 1 degree: edges that are straighter tell nothing
-constexpr double near_face = 0.9986;    // cosine of 3 degrees: what quantised normals keep
+constexpr double bent = 0.99985;        // cosine of 1 degree: straighter edges give no evidence
+constexpr double near_face = 0.9986;    // cosine of 3 degrees: the precision of quantised normals
 constexpr double nearly_all = 0.95;     // of the edges or corners
 constexpr double same_facet = 0.999962; // cosine of half a degree
 // A vertex may have a million faces: no more than so many wedges are compared with each other.
@@ -32,7 +32,7 @@ std::vector<Vec3> double_area_vectors(const Mesh& mesh) {
 
 double cosine_between(const Vec3& a, const Vec3& b) { return dot(normalised(a), normalised(b)); }
 
-/// What the wedges of a mesh say besides their normals and tangents.
+/// The attributes of wedges except their normals and tangents.
 class Others {
   public:
     explicit Others(const Mesh& mesh) {
@@ -63,7 +63,7 @@ struct Evidence {
     std::size_t bent = 0, seams = 0, corners = 0, facing = 0;
 };
 
-/// Whether the normals are those of flat shading.
+/// Whether the normals are flat-shaded.
 bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<Vec3>& areas,
                  const std::vector<Index>& face_of) {
     const EdgeTable edges = build_edges(mesh);
@@ -107,7 +107,7 @@ bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<V
     return e.bent > 0 && share(e.seams, e.bent) && share(e.facing, e.corners);
 }
 
-/// The wedges at one vertex, and which of them may become one.
+/// The wedges at one vertex, and which of them may be merged.
 class Fan {
   public:
     Fan(const Mesh& mesh, const std::vector<Vec3>& areas, const std::vector<Index>& face_of,
@@ -209,7 +209,7 @@ class Fan {
     std::vector<std::size_t> firsts_;
 };
 
-/// When every vertex has one wedge left: makes wedge v that of vertex v, the form without seams.
+/// If every vertex has one wedge left: makes wedge v the wedge of vertex v, the form without seams.
 void forget_wedges(Mesh& mesh) {
     if (mesh.wedge_count() != mesh.vertex_count()) return;
     std::vector<Index> wedge_of(mesh.vertex_count(), none);

@@ -87,7 +87,7 @@ class SmoothFan {
     const std::vector<Vec3>& normals_;
     double least_cosine_;
     OneRing ring_;
-    std::vector<std::size_t> roots_; ///< by place among the vertex' corners
+    std::vector<std::size_t> roots_; ///< indexed like the vertex' corners
     std::vector<Key> keys_;
 };
 

@@ -11,8 +11,8 @@ namespace facetmill {
 class OneRing {
   public:
     /// Calls pair(c, d, agree) for two corners of the vertex whose faces are the only ones at an edge that
-    /// ends there; agree says that the edge runs in opposite directions in them. In the order of the vertices
-    /// at the other ends.
+    /// ends in it. agree is true if the edge runs in opposite directions in them. In the order of the
+    /// vertices at the other ends.
     template <class Pair>
     void pairs(const Mesh& mesh, const std::vector<Index>& face_of, std::span<const Index> corners,
                Pair&& pair) {

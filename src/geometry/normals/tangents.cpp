@@ -1,4 +1,4 @@
-// Tangents as glTF's viewers make them where a file has none: M. S. Mikkelsen, "Simulation of Wrinkled
+// Tangents as glTF's viewers make them for a file without tangents: M. S. Mikkelsen, "Simulation of Wrinkled
 // Surfaces Revisited" (2008), chapter 3 and appendix A, in the form that bakers of normal maps agree on
 // (MikkTSpace).
 
@@ -15,7 +15,7 @@ namespace facetmill {
 
 namespace {
 
-constexpr double smallest_float = 1.1754943508222875e-38; ///< float32's: what is below it counts as zero
+constexpr double smallest_float = 1.1754943508222875e-38; ///< float32's: smaller numbers count as zero
 
 bool vanishes(const Vec3& v) {
     return std::abs(v.x) <= smallest_float && std::abs(v.y) <= smallest_float &&
@@ -24,7 +24,7 @@ bool vanishes(const Vec3& v) {
 
 Vec3 unit_or_zero(const Vec3& v) { return vanishes(v) ? v : v / length(v); }
 
-/// What is left of v in the plane with that normal, of length 1 unless nothing is.
+/// The unit vector of v projected into the plane with that normal; zero if the projection is.
 Vec3 unit_in_plane(const Vec3& v, const Vec3& normal) { return unit_or_zero(v - normal * dot(normal, v)); }
 
 /// A corner's position, normal and texture coordinates.
@@ -64,7 +64,7 @@ Unfolded unfolded(const Mesh& mesh, const Attribute& normals, const Attribute& u
 struct MappedFace {
     Vec3 along_u, along_v;   ///< of length 1, against u and v where these are mirrored
     bool preserving = false; ///< u, v and the normal are right-handed
-    bool any = true;         ///< no direction of its own: goes with whatever is beside it
+    bool any = true;         ///< no direction of its own: joins any neighbour
     bool degenerate = false;
     std::array<Index, 3> beside{none, none, none}; ///< the triangle across each edge
     std::array<Index, 3> group{none, none, none};  ///< of each corner
@@ -89,8 +89,8 @@ void set_texture_directions(MappedFace& t, const Unfolded& s, Index f) {
     t.along_v = unit_or_zero(t.along_v) * sign;
 }
 
-/// Triangles beside each other have the same ids at both ends of an edge, which they pass in opposite
-/// directions. Where there are more than two, they pair up in their order.
+/// Neighbouring triangles have the same ids at both ends of an edge, which they pass in opposite directions.
+/// If there are more than two, they pair up in their order.
 void find_mapped_neighbours(std::vector<MappedFace>& triangles, const Unfolded& s) {
     struct Edge {
         Index low, high, face, corner;
@@ -111,7 +111,7 @@ void find_mapped_neighbours(std::vector<MappedFace>& triangles, const Unfolded& 
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const Edge& a = edges[i];
         if (triangles[a.face].beside[a.corner] != none) continue;
-        constexpr std::size_t farthest = 64; // of thousands at an edge nobody can tell which belong together
+        constexpr std::size_t farthest = 64; // with thousands at an edge, the right pairs are unknown
         for (std::size_t j = i + 1; j < std::min(edges.size(), i + farthest) && edges[j].ends() == a.ends();
              ++j) {
             const Edge& b = edges[j];
@@ -129,7 +129,7 @@ struct TangentGroup {
     std::vector<Index> corners;
 };
 
-/// Adds the triangle's corner of that id, and what lies beside it.
+/// Adds the triangle's corner of that id, and the neighbouring triangles.
 void grow_tangent_group(TangentGroup& group, Index number, Index id, Index first,
                         std::vector<MappedFace>& triangles, const Unfolded& s) {
     std::vector<Index> open{first};
@@ -162,7 +162,7 @@ std::vector<TangentGroup> tangent_groups(std::vector<MappedFace>& triangles, con
     return groups;
 }
 
-/// The mean direction of u around the corners, weighted by the faces' angles there.
+/// The mean direction of u around the corners, weighted by the angles of the faces.
 Vec3 tangent_of(TangentGroup& group, const std::vector<MappedFace>& triangles, const Unfolded& s) {
     std::sort(group.corners.begin(), group.corners.end());
     Vec3 sum;
@@ -177,7 +177,7 @@ Vec3 tangent_of(TangentGroup& group, const std::vector<MappedFace>& triangles, c
     return unit_or_zero(sum);
 }
 
-/// What is said of one corner; groups by their number, then what has no group.
+/// The group of each corner; no_group for corners without one.
 std::vector<Index> groups_of_corners(const std::vector<MappedFace>& triangles, const Unfolded& s,
                                      Index no_group) {
     std::vector<Index> group(3 * triangles.size(), no_group), first(s.tuples.size(), none);
@@ -186,7 +186,7 @@ std::vector<Index> groups_of_corners(const std::vector<MappedFace>& triangles, c
             if (triangles[f].group[k] != none) group[3 * f + k] = triangles[f].group[k];
             if (first[s.ids[3 * f + k]] == none) first[s.ids[3 * f + k]] = 3 * f + k;
         }
-    for (Index f = 0; f < triangles.size(); ++f) // those without area go with the first one at their corner
+    for (Index f = 0; f < triangles.size(); ++f) // faces without area join the first group at their corner
         for (Index k = 0; k < 3 && triangles[f].degenerate; ++k)
             if (const Index like = first[s.ids[3 * f + k]]; like != none) group[3 * f + k] = group[like];
     return group;
@@ -209,7 +209,7 @@ std::optional<AttributeChange> give_tangents(Mesh& mesh, int uv_set) {
     for (TangentGroup& group : groups) {
         Vec3 t = tangent_of(group, triangles, s);
         if (vanishes(t)) t = {1, 0, 0};
-        // v points down in glTF, and up where the method comes from.
+        // v points down in glTF, and up in the original method.
         tangents.push_back({static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z),
                             group.preserving ? -1.0F : 1.0F});
     }

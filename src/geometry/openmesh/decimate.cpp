@@ -21,7 +21,7 @@ using Halfedges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 Vec3 vec(const OpenMesh::Vec3d& p) { return {p[0], p[1], p[2]}; }
 
-/// What the module of ours knows, and what it finds.
+/// The input and results of our OpenMesh module.
 struct Shared {
     std::vector<DecimatedVertex> roles{};
     std::vector<Index> face_of{}; ///< as it was numbered, by face of the halfedges
@@ -31,9 +31,9 @@ struct Shared {
     std::vector<Decimation> made{};
 };
 
-/// Allows a collapse when it removes a free vertex, keeps the faces within the angle of the normal that they
-/// came with and the aspect ratio within its limit (or no worse than it was), and makes none flat. Notes what
-/// is made. (OpenMesh's own module for normals uses acos, whose results depend on the machine.)
+/// Allows a collapse if it removes a free vertex and makes no face flat. Faces must stay within the angle of
+/// their original normal and within the limit of the aspect ratio (or get no worse). Records the collapses.
+/// (OpenMesh's own module for normals uses acos, whose results depend on the machine.)
 template <class MeshT>
 class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
   public:
@@ -91,7 +91,8 @@ class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
     Shared* shared_ = nullptr;
 };
 
-/// Builds the halfedges; what they cannot hold (non-manifold places) stays out, and its vertices as they are.
+/// Builds the halfedges. Faces that halfedges cannot hold (non-manifold) are left out, with their vertices
+/// unchanged.
 void build(Halfedges& mesh, Shared& shared, std::span<const Vec3> at, std::span<const Index> tri) {
     ::omerr().disable();
     for (const Vec3& p : at) mesh.add_vertex({p.x, p.y, p.z});

@@ -7,7 +7,7 @@
 
 namespace facetmill {
 
-/// What a vertex may take part in.
+/// The allowed collapses of a vertex.
 enum class DecimatedVertex : std::uint8_t {
     free,      ///< may go, and others into it
     stays,     ///< others may go into it

@@ -42,8 +42,8 @@ class Spreader {
     }
 
   private:
-    /// A face that runs along an edge to and fro (a corner is repeated there) ends at none of its sides: what
-    /// is across the edge for the two others, when there are just two.
+    /// A face that runs along an edge to and fro (a corner is repeated) does not end at this edge. If just
+    /// two other faces do, they become neighbours.
     void look_past_spikes(Index e) {
         std::vector<Index> others;
         for (const Index c : edges_.corners_of(e)) {
@@ -73,7 +73,7 @@ class Spreader {
         component.faces = queue.size();
         const auto turned = static_cast<std::size_t>(
             std::count_if(queue.begin(), queue.end(), [&](Index f) { return out_.flips[f] != 0; }));
-        // The front is what most faces had as front; a component without one stays as it was.
+        // The front follows the majority of the faces; a component that cannot be oriented is unchanged.
         const bool other = 2 * turned > queue.size();
         for (const Index f : queue) out_.flips[f] = component.orientable && (out_.flips[f] != 0) != other;
         out_.components.push_back(component);
@@ -196,7 +196,7 @@ class Outside {
                 spread_.components[p].depth += !meeting.contains({std::min(p, q), std::max(p, q)});
     }
 
-    /// The pairs of components, of those that may be nested, whose faces meet.
+    /// The pairs of possibly nested components whose faces meet.
     std::set<std::pair<Index, Index>>
     intersecting_components(const std::vector<std::vector<Index>>& around) const {
         constexpr std::size_t max_pairs = std::size_t{1} << 24;
@@ -259,7 +259,7 @@ OrientResult orient(Mesh mesh, const OrientSettings& settings) {
         Spread spread = Spreader(mesh).run();
         flips = spread.flips;
         if (settings.method == OrientMethod::outward) {
-            Mesh agreed = bare(mesh); // what outside is asked of
+            Mesh agreed = bare(mesh); // the input of the search for the outside
             flip_faces(agreed, flips);
             const auto turns = Outside(agreed, spread, settings.nested).run();
             for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.component_of[f]];
@@ -293,7 +293,7 @@ std::vector<Vec3> faces_at_wedges(const Mesh& mesh, const std::vector<std::uint8
     return sums;
 }
 
-/// Turns the normals that point against their faces, and the handedness of the tangents there.
+/// Turns the normals that point against their faces, and the handedness of their tangents.
 void turn_normals(Mesh& mesh, const std::vector<Vec3>& faces) {
     Attribute& normals = *mesh.find("NORMAL", Domain::wedge);
     Attribute* tangents = mesh.find("TANGENT", Domain::wedge);

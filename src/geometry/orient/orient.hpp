@@ -1,6 +1,6 @@
 #pragma once
-// Which side of a surface is its outside: the order of vertices that P. Bourke, "Facets, planes, normals,
-// rendering" (1992), asks for.
+// The orientation of a surface: vertices are ordered as P. Bourke, "Facets, planes, normals, rendering"
+// (1992), requires.
 
 #include "mesh/mesh.hpp"
 
@@ -11,7 +11,7 @@ namespace facetmill {
 
 enum class OrientMethod {
     outward,    ///< neighbours agree, and the front is the outside
-    consistent, ///< neighbours agree; the front is what most faces of a component had as front
+    consistent, ///< neighbours agree; the front follows the majority of the faces of a component
     flip,       ///< every face is turned round
 };
 enum class Nested {
@@ -32,7 +32,7 @@ struct OrientedComponent {
     bool closed = false;    ///< every edge has two faces
     bool orientable = true; ///< else it is left as it was
     bool undecided = false; ///< open, and both sides look alike: only made consistent
-    std::size_t depth = 0;  ///< how many closed components it lies in, when it is closed itself
+    std::size_t depth = 0;  ///< the number of closed components that contain it, if it is closed itself
     Vec3 conflict;          ///< not orientable: where neighbours cannot agree
 };
 
@@ -55,7 +55,7 @@ OrientResult orient(Mesh mesh, const OrientSettings& settings);
 /// 1 for the faces that the method consistent turns round; the mesh stays as it is.
 std::vector<std::uint8_t> consistent_flips(const Mesh& mesh);
 
-/// Turns the flagged faces round; see orient for what becomes of attributes.
+/// Turns the flagged faces round; orient documents the changes of attributes.
 AttributeChanges flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags);
 
 } // namespace facetmill

@@ -1,6 +1,6 @@
-// Triangles are wrapped from edge to edge, as those of the constrained Delaunay triangulation (D. T. Lee and
-// A. K. Lin, "Generalized Delaunay triangulation for planar graphs", 1986); that they are a triangulation is
-// proved afterwards.
+// Triangles are wrapped from edge to edge, as in the constrained Delaunay triangulation (D. T. Lee and A. K.
+// Lin, "Generalized Delaunay triangulation for planar graphs", 1986). A proof that they are a triangulation
+// follows.
 #include "geometry/polygon/certain_triangulation.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_points = 48;
 constexpr double unit = 0x1p-52;
 
-/// A determinant of points, and the size of what it was made from.
+/// A determinant of points, and the magnitude of its terms.
 struct Sized {
     double det, size;
 };
@@ -28,7 +28,7 @@ Sized turn_of(const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 u = b - a, v = c - a;
     return {u.x * v.y - u.y * v.x, size_of({u.x, u.y, v.x, v.y})};
 }
-/// What a determinant must exceed for its sign to be sure.
+/// The sign of a determinant above this bound is certain.
 double bound_of(double size, double off) { return 16 * size * (2 * off + unit * size); }
 
 /// How wrong any coordinate may be; none where a product could overflow, or underflow where it matters.
@@ -141,7 +141,7 @@ class CertainTriangulation {
     std::vector<std::array<Index, 3>> triangles_;
 };
 
-/// Which lines cross: those whose boxes meet are looked at, from left to right.
+/// Finds crossing lines: lines whose boxes meet are tested, from left to right.
 class CertainCrossings {
   public:
     CertainCrossings(const CutTriangle& cut, double off) : cut_(cut), off_(off) {

@@ -17,8 +17,8 @@ namespace facetmill::polygon {
 /// beside the size, the bound exceeds any determinant.)
 bool surely_left(const Vec2& a, const Vec2& b, const Vec2& c, double off);
 
-/// What is to be triangulated. Coordinates may differ from the true ones by 2^-52 of their size, those of the
-/// corners not at all.
+/// The input of a triangulation. Coordinates may differ from the true ones by 2^-52 of their size; corners
+/// are exact.
 struct CutTriangle {
     std::vector<Vec2> points;                ///< the corners first, anticlockwise
     std::vector<std::uint8_t> sides;         ///< [points] bit k: truly on the side from corner k to the next

@@ -1,6 +1,6 @@
-// How the edges of rings meet, by a sweep over their corners from left to right: M. I. Shamos and D. Hoey,
-// "Geometric intersection problems" (1976), which ends at the first crossing, and edges that touch. Every
-// sign is of three corners and exact, no point is constructed.
+// Contacts between the edges of rings, by a sweep over their corners from left to right: M. I. Shamos and D.
+// Hoey, "Geometric intersection problems" (1976). The sweep ends at the first crossing and also finds edges
+// that touch. Every sign is of three corners and exact; no point is constructed.
 #include "geometry/polygon/ring_tree.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace facetmill::polygon {
 
 namespace {
 
-/// By x, then y: as if the sweep's line leaned a little, so that no edge stands upright.
+/// By x, then y: as if the sweep's line leaned a little, so that no edge is vertical.
 bool comes_before(const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 /// An edge that has a length, from its left end to its right.
@@ -35,7 +35,7 @@ struct LowerOnLine {
     bool operator()(const SweptEdge& e, const SweptEdge& f) const {
         return comes_before(f.left, e.left) ? order(f, e) < 0 : order(e, f) > 0;
     }
-    /// Of points on the sweep's line.
+    /// Compares edges with points on the sweep's line.
     bool operator()(const SweptEdge& e, const Vec2& p) const { return height_over(e, p) > 0; }
     bool operator()(const Vec2& p, const SweptEdge& e) const { return height_over(e, p) < 0; }
 
@@ -53,7 +53,7 @@ bool runs_back(const RingEdge& e, const RingEdge& f) {
     return comes_before(e.a, e.b) != comes_before(f.a, f.b);
 }
 
-/// Whether edges i and j touch at a place where both have a corner.
+/// Whether edges i and j touch at a point that is a corner of both.
 bool touch_at_corner(const std::vector<RingEdge>& edges, Index i, Index j) {
     const RingEdge &e = edges[i], &f = edges[j];
     const bool after = e.next == j, before = e.previous == j;
@@ -61,9 +61,9 @@ bool touch_at_corner(const std::vector<RingEdge>& edges, Index i, Index j) {
     return (after && runs_back(e, f)) || (before && runs_back(f, e));
 }
 
-/// Two edges that touch do so in an end of one of them, and there the sweep sees it. As long as none have
-/// crossed, the edges that the line meets have an order; two that will cross next are neighbours in it before
-/// they do, but for edges that end where they cross and go out first.
+/// Two edges that touch do so in an end of one of them, where the sweep finds the contact. Until the first
+/// crossing, the edges that the line meets have an order. Two edges that cross next are neighbours in this
+/// order before they cross, except edges that end at the crossing and are removed first.
 class ContactSweep {
   public:
     explicit ContactSweep(const std::vector<RingEdge>& edges) : edges_(edges), order_(edges.size()) {
@@ -113,7 +113,7 @@ class ContactSweep {
         return false;
     }
 
-    /// Edges that end at the place go; others through it touch what has a corner there.
+    /// Removes edges that end at the point; others through it touch an edge with a corner at the point.
     void take_out(const Vec2& place) {
         auto at = on_line_.lower_bound(place);
         std::size_t through = 0;
@@ -126,13 +126,13 @@ class ContactSweep {
             }
         }
         touching_ = touching_ || through > 0;
-        crossing_ = crossing_ || through > 1; // on two lines, as those on one line are one
+        crossing_ = crossing_ || through > 1; // on two lines, because collinear edges are merged
         look_below(at);
         if (through > 0) look_below(std::prev(at));
     }
 
-    /// Of edges along each other only the one that ends last stays: from here on it is what crosses others
-    /// wherever one of them does. So few edges go through a place, however many lie on one line.
+    /// Among collinear overlapping edges only the last to end stays: from here on it crosses others wherever
+    /// one of them does. Thus few edges go through a point, however many are collinear.
     void put_in(const SweptEdge& e) {
         auto [at, alone] = on_line_.insert(e);
         if (!alone) {
@@ -151,7 +151,7 @@ class ContactSweep {
 
     const std::vector<RingEdge>& edges_;
     std::vector<Corner> order_;
-    std::vector<Index> here_; ///< edges with a corner at the place
+    std::vector<Index> here_; ///< edges with a corner at the point
     OnLine on_line_;
     bool touching_ = false, crossing_ = false;
 };
@@ -163,7 +163,7 @@ bool in_bounds(const Vec2& p, const SweptEdge& e) {
 
 bool lies_on(const SweptEdge& e, const Vec2& p) { return in_bounds(p, e) && height_over(e, p) == 0; }
 
-/// Of edges that may be without length.
+/// The edges may have zero length.
 Contact contact_of(const std::vector<RingEdge>& edges, Index i, Index j) {
     const RingEdge &e = edges[i], &f = edges[j];
     if (e.next == j || e.previous == j)

@@ -36,7 +36,7 @@ std::vector<std::vector<Vec2>> tidied(std::vector<std::vector<Vec2>> rings) {
     return rings;
 }
 
-/// Names the first place where two segments cross.
+/// Reports the first point where two segments cross.
 void refuse_crossings(const RingTree& tree, polygon::Rings rings) {
     if (polygon::contact(rings) != polygon::Contact::crossing) return; // of a star, nearly all boxes meet
     const auto& edges = tree.edges();

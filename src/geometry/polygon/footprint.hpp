@@ -16,11 +16,11 @@ enum class OutlineMeeting {
 
 class Footprint {
   public:
-    /// Any number of rings: outlines, holes, islands in holes, in any order and either way round; a last
-    /// corner that repeats the first, and corners that repeat the one before, are left out. What is inside an
-    /// odd number of rings is inside. Throws usage (E-FOOTPRINT) for numbers that are not finite, a ring of
-    /// fewer than three corners or without area, and rings that cross themselves or each other, with the
-    /// place; touching is allowed.
+    /// Any number of rings: outlines, holes, islands in holes, in any order and either orientation. Repeated
+    /// consecutive corners are left out, also a last corner equal to the first. A point in an odd number of
+    /// rings is inside. Throws usage (E-FOOTPRINT) for numbers that are not finite and for a ring of fewer
+    /// than three corners or without area. It also throws, with the position, if rings cross themselves or
+    /// each other; touching is allowed.
     explicit Footprint(std::vector<std::vector<Vec2>> rings);
 
     /// Outlines anticlockwise, holes clockwise: the inside is on the left of every segment.
@@ -37,7 +37,7 @@ class Footprint {
         tree_.query({p.x - distance, p.y - distance, p.x + distance, p.y + distance}, [&](Index i) {
             const auto& e = tree_.edges()[i];
             const Vec2 d = e.b - e.a, to = p - e.a;
-            // Most lines are far more off than rounding can tell, which is seen without a division.
+            // Most lines are much farther off than rounding errors, which this test finds without a division.
             const double square = dot(d, d), off = cross(d, to), most = 4 * (distance * distance * square);
             if (off * off > most && most > std::numeric_limits<double>::min()) return true;
             const double along = dot(to, d) / square, t = along > 0 ? along < 1 ? along : 1 : 0;

@@ -14,7 +14,7 @@ namespace {
 struct Crossing {
     std::int64_t line;
     double at; ///< along the line
-    int turn;  ///< what the winding number changes by; 0: the frame around it all begins or ends
+    int turn;  ///< the change of the winding number; 0: the surrounding frame begins or ends
 };
 
 Box bounds_of(Rings rings) {
@@ -67,7 +67,7 @@ std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep 
     for (const Ring ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             Vec2 p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
-            // In one order, so that coincident edges are crossed at the same place.
+            // In a fixed order, so that coincident edges are crossed at the same point.
             if (q.x < p.x || (q.x == p.x && q.y < p.y)) std::swap(p, q);
             const auto left = [&](const Vec2& c) {
                 return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y) >= 0;
@@ -99,8 +99,8 @@ std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep 
 
 namespace {
 
-/// Between crossings, by line and place, where the winding number says so; each from the line's start on, but
-/// for odd lines, which run back.
+/// The segments between crossings whose winding number is kept, by line and position. Each segment runs from
+/// the line's start on; odd lines run back.
 std::vector<Segment> kept_segments(const std::vector<Crossing>& crossings, const HatchSettings& s) {
     const Vec2 across{-s.direction.y, s.direction.x};
     std::vector<Segment> segments;
@@ -112,7 +112,7 @@ std::vector<Segment> kept_segments(const std::vector<Crossing>& crossings, const
         winding += turn;
         framed ^= turn == 0;
         const bool kept = s.keep == Keep::inside ? winding != 0 : framed && winding == 0;
-        if (kept && from == to) continue; // corners and edges at one place
+        if (kept && from == to) continue; // coincident corners and edges
         if (kept) {
             const Vec2 foot = across * (static_cast<double>(line) * s.spacing);
             const Vec2 begin = foot + s.direction * from, end = foot + s.direction * to;
@@ -136,7 +136,7 @@ std::vector<Segment> hatch(Rings rings, const HatchSettings& s) {
     std::vector<Crossing> crossings;
     for (const Ring ring : rings) cross_ring(ring, s, false, crossings);
     if (s.keep ==
-        Keep::outside) { // the frame around it all, so that what is between it and the outline is inside
+        Keep::outside) { // the surrounding frame, so that the region between it and the outline is inside
         const double w = s.spacing;
         const std::array frame{Vec2{box.min.x - w, box.min.y - w}, Vec2{box.max.x + w, box.min.y - w},
                                Vec2{box.max.x + w, box.max.y + w}, Vec2{box.min.x - w, box.max.y + w}};

@@ -13,8 +13,8 @@ namespace facetmill::polygon {
 
 namespace {
 
-/// Integrals over a ring, about a point of reference: the sums of P. Bourke, "Calculating the area and
-/// centroid of a polygon" (1988), with their factors.
+/// Integrals over a ring, about a reference point: the sums of P. Bourke, "Calculating the area and centroid
+/// of a polygon" (1988), with their factors.
 struct Integrals {
     double one = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 
@@ -126,8 +126,8 @@ double area(std::span<const Vec3> p) {
 
 namespace {
 
-/// Along the normal of the polygon's plane, also where its parts cancel in the sum (a bow-tie): then that of
-/// its largest triangle at the corner farthest from the first. Zero when all corners are on a line.
+/// The normal of the polygon's plane, not of unit length. If its parts cancel in the sum (a bow-tie), the
+/// normal of its largest triangle at the corner farthest from the first. Zero if all corners are on a line.
 Vec3 upright(std::span<const Vec3> p) {
     const Vec3 area = area_vector(p);
     Vec3 far, largest;

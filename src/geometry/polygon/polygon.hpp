@@ -31,8 +31,7 @@ namespace polygon {
 
 /// The corners of a closed polygon; the last is joined to the first.
 using Ring = std::span<const Vec2>;
-/// A polygon with holes: its rings in any order. Where areas count, holes run the other way round than
-/// outlines.
+/// A polygon with holes: its rings in any order. For areas, holes run the other way round than outlines.
 using Rings = std::span<const Ring>;
 
 // --- Area, centroid, second moments
@@ -79,16 +78,16 @@ PrincipalAxes principal_axes(const SecondMoments& moments);
 /// negative. For any closed polygon, planar or not.
 Vec3 area_vector(std::span<const Vec3> corners);
 
-/// |(P1 - P0) x (P2 - P0)| / 2 for a triangle, |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
-/// parallelogram of its edge midpoints), the length of area_vector beyond.
+/// |(P1 - P0) x (P2 - P0)| / 2 for a triangle. |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
+/// parallelogram of its edge midpoints). For more corners, the length of area_vector.
 double area(std::span<const Vec3> corners);
 
 /// The largest distance of a corner from the plane through the mean of the corners across area_vector; 0 for
 /// triangles. For a polygon whose parts cancel in area: across that of its largest triangle; 0 on a line.
 double plane_deviation(std::span<const Vec3> corners);
 
-/// The unit normal of the polygon's plane: along area_vector, or, where the parts cancel in it to 1e-12 of
-/// the square of the polygon's size (a bow-tie), across its largest triangle. Zero when all corners are on a
+/// The unit normal of the polygon's plane, along area_vector. If the parts cancel in it to 1e-12 of the
+/// square of the polygon's size (a bow-tie), the normal of its largest triangle. Zero if all corners are on a
 /// line.
 Vec3 plane_normal(std::span<const Vec3> corners);
 
@@ -99,8 +98,8 @@ std::vector<Vec2> flattened(std::span<const Vec3> corners);
 
 // --- Kinds
 
-/// Convex: all turns (cross products of neighbouring edges) have one sign or are straight, and the ring goes
-/// round once (a pentagram's turns agree as well). Exact.
+/// Convex: all turns (cross products of neighbouring edges) have the same sign or are straight, and the ring
+/// goes round once (a pentagram's turns agree as well). Exact.
 bool is_convex(Ring ring);
 
 /// How the edges of rings meet other than at common corners of neighbours.

@@ -1,6 +1,6 @@
 #pragma once
-// A tree of boxes over the edges of rings, in their order: neighbours along a ring are neighbours in the
-// tree, so it is built in one pass and still finds what is near quickly.
+// A tree of boxes over the edges of rings, in their order. Neighbours along a ring are neighbours in the
+// tree, so one pass builds it, and searches for near edges are still fast.
 
 #include "base/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
@@ -55,10 +55,10 @@ class RingTree {
     void query(const Bounds& box, Visit&& visit) const {
         if (!edges_.empty()) query(1, 0, leaves_, box, visit);
     }
-    /// Of the edges whose boxes meet the ray from a point to the left, calls visit(edge number) for those
-    /// that reach above or below the point and some others, ascending, until it returns false. Returns
-    /// whether an odd number of the edges that it was not called for, all on the left, pass the point's
-    /// height; on it counts as below it. In logarithmic time, but for what is visited.
+    /// Calls visit(edge number) for edges whose boxes meet the ray from a point to the left, ascending, until
+    /// it returns false. It visits the edges that reach above or below the point and some others. Returns
+    /// whether an odd number of the unvisited edges, all on the left, pass the point's height; on it counts
+    /// as below it. Takes logarithmic time plus the time of the visits.
     template <class Visit>
     bool odd_on_left(const Vec2& p, Visit&& visit) const {
         bool odd = false;

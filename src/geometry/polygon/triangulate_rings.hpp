@@ -19,8 +19,8 @@ struct AddedPoint {
 /// Triangles that cover all the rings wind around, none twice.
 struct Triangulation {
     std::vector<std::array<Index, 3>>
-        triangles;            ///< anticlockwise; corners counted through all rings, then added points.
-                              ///< Of corners at the same place the first stands for all
+        triangles; ///< anticlockwise; corners counted through all rings, then added points; coincident
+                   ///< corners are represented by the first of them
     std::vector<int> winding; ///< [triangles] how often the rings go round it; never 0
     std::vector<AddedPoint> added;
 };

@@ -7,7 +7,7 @@
 
 namespace facetmill {
 
-/// What of a scene comes along in a preview.
+/// The attributes of a scene that a preview keeps.
 struct PreviewAttributes {
     bool normals = false, colours = false, textures = false;
     bool baked = false;              ///< base textures as colours, sampled at each wedge

@@ -51,7 +51,7 @@ class Numbers {
     Index count_ = 0;
 };
 
-/// The cells that vertices lie in.
+/// The grid cells of vertices.
 class Cells {
   public:
     Cells(const Box& box, double edge) : least_(box.min) {
@@ -102,7 +102,7 @@ struct InCell {
     float off_centre; ///< squared, in cells
 };
 
-/// [vertices] by their places. The keys of a block are found by all threads, and numbered by one.
+/// [vertices] by their positions. All threads compute the keys of a block, and one thread numbers them.
 template <class Place>
 std::vector<InCell> in_cells(std::size_t vertices, const Place& place, const Cells& cells, Numbers& numbers) {
     constexpr std::size_t block = std::size_t{1} << 16;

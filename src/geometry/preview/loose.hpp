@@ -1,5 +1,5 @@
 #pragma once
-// What a scene has besides faces: lines and single points.
+// The lines and single points of a scene.
 
 #include "geometry/preview/preview.hpp"
 

@@ -16,9 +16,9 @@ namespace facetmill {
 
 namespace {
 
-/// Scenes of so many times the triangles asked for go through a grid first, which costs a tenth of what their
-/// simplification would; textures would be torn by it, so scenes with them do so later, and their textures
-/// become colours.
+/// Scenes with so many times the requested triangles go through a grid first, which costs a tenth of their
+/// simplification. The grid would tear textures, so scenes with textures have a higher limit, and their
+/// textures become colours.
 constexpr std::size_t many = 2, many_with_textures = 20;
 
 std::size_t triangles_in(const Mesh& mesh) {
@@ -59,7 +59,7 @@ double cell_edge(const Scene& scene, std::size_t cells) {
     return std::sqrt(met * area / static_cast<double>(cells));
 }
 
-/// The triangles of a mesh of triangles that these corners are of, three each.
+/// The mesh reduced to the triangles with these corners, three each.
 Mesh with_corners(Mesh mesh, const std::vector<Index>& corners) {
     std::vector<Index> wedges(corners.size()), faces(corners.size() / 3);
     for (std::size_t c = 0; c < corners.size(); ++c) wedges[c] = mesh.corners[corners[c]];
@@ -92,7 +92,7 @@ Mesh without_some_components(Mesh mesh, std::size_t faces) {
     return with_corners(std::move(mesh), corners);
 }
 
-/// The mesh with about so many triangles at most, its vertices among those that it had.
+/// The mesh simplified to at most about so many triangles, with a subset of its vertices.
 Mesh reduced(Mesh mesh, std::size_t faces) {
     SimplifySettings settings;
     settings.method = SimplifySettings::Method::quadric_endpoints;
@@ -133,7 +133,7 @@ Preview gathered(const Scene& scene, const MaterialLooks* looks, const PreviewAt
     return gatherer.finish();
 }
 
-/// Of the faces alone.
+/// A preview of the faces alone.
 Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     std::size_t faces = 0;
     for (const Part& part : scene.parts) faces += triangles_in(part.mesh);
@@ -147,7 +147,7 @@ Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     if (!wanted.textures && faces > many * settings.faces)
         cell = cell_edge(scene, settings.faces * 3 / 4); // almost two triangles for each cell that is met
     Preview out = gathered(scene, looks, wanted, cell);
-    // What is made of pieces smaller than a cell has no triangles between cells.
+    // A surface of components smaller than a cell has no triangles between cells.
     if (cell && out.mesh.face_count() < settings.faces / 4) out = gathered(scene, looks, wanted, {});
     out.faces = faces;
     if (out.mesh.face_count() > settings.faces) out.mesh = reduced(std::move(out.mesh), settings.faces);

@@ -16,7 +16,7 @@ struct PreviewSettings {
     std::optional<Index> last_cap{};
 };
 
-/// What the faces of a primitive of the preview are painted with.
+/// The paint of the faces of a primitive of the preview.
 struct PreviewPaint {
     Index material = none; ///< of the scene
     bool coloured = false; ///< their part has colours
@@ -24,11 +24,14 @@ struct PreviewPaint {
 };
 
 struct Preview {
-    /// Triangles in world space with the wedge attributes NORMAL where all parts with faces have it, COLOR_0
-    /// where a part has colours (linear, clamped to 0 to 1) and TEXCOORD_0 where a material has a base
-    /// texture (as the image is sampled: Texture::set and Texture::transform are applied). Each vertex is one
-    /// of the scene's. After the wedges of triangles come those of parts without faces, every n-th of them:
-    /// the ends of lines, two each, and single points; then all have COLOR_0.
+    /// Triangles in world space with wedge attributes:
+    /// - NORMAL if all parts with faces have it;
+    /// - COLOR_0 (linear, clamped to 0 to 1) if a part has colours;
+    /// - TEXCOORD_0 if a material has a base texture (Texture::set and Texture::transform are applied).
+    ///
+    /// Each vertex is a vertex of the scene. After the wedges of triangles come the wedges of parts without
+    /// faces, every n-th of them: the ends of lines, two each, and single points. In this case all wedges
+    /// have COLOR_0.
     Mesh mesh;
     std::size_t first_loose = 0, first_dot = 0; ///< wedges: the first end of a line, the first single point
     std::vector<PreviewPaint> paints;           ///< [mesh.primitives]

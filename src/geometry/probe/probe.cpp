@@ -18,7 +18,7 @@ class Walk {
     PointAnswer next(const Vec3& p) {
         PointAnswer a;
         a.closest = closest_point(tree_, p, hint_);
-        if (a.closest.face == none) { // nothing there, or no such point
+        if (a.closest.face == none) { // no surface, or no such point
             a.side = settings_.closed && is_finite(p) ? Side::outside : Side::unknown;
             return a;
         }
@@ -36,11 +36,12 @@ class Walk {
     }
 
   private:
-    /// A ball around a point that does not reach the surface is on one side of it: the number of the point
-    /// before is that of this one when either's ball holds the other. Else the way between them is looked at.
+    /// A ball around a point that does not reach the surface is on one side of it. So this point has the
+    /// winding number of the previous point if either's ball contains the other. Otherwise the segment
+    /// between them is tested.
     int winding_at(const Vec3& p, double distance) {
         const double step = length(p - last_.point), sure = 0.999; // far more than distances are rounded by
-        if (!last_.known || !(step * tree_.scale < 4))             // a way far outside tells little
+        if (!last_.known || !(step * tree_.scale < 4)) // a long way outside gives little information
             last_.winding = winding(tree_, p);
         else if (!(step < sure * std::max(distance, last_.distance)))
             last_.winding = winding_beside(tree_, last_.point, last_.winding, p);

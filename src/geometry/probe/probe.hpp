@@ -1,5 +1,5 @@
 #pragma once
-// Questions asked of a surface, point by point and line by line: what the probe stage answers.
+// Queries on a surface for points and lines: the work of the probe stage.
 
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"

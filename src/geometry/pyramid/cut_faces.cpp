@@ -48,9 +48,9 @@ class FaceSetCutter {
         return at;
     }
 
-    /// The leaves of up to four children of a node with so many, about as many in each. A tree of n leaves
-    /// whose nodes all have four children has (n - 1) / 3 of these, so all but the last are 1 more than a
-    /// multiple of 3: then no tree has fewer nodes.
+    /// The numbers of leaves of up to four children of a node with so many leaves, about as many in each. A
+    /// tree of n leaves whose nodes all have four children has (n - 1) / 3 nodes. All numbers except the last
+    /// are 1 more than a multiple of 3, so no tree has fewer nodes.
     static std::vector<std::size_t> leaves_of_children(std::size_t leaves) {
         if (leaves <= most_children) return std::vector<std::size_t>(leaves, 1);
         std::vector<std::size_t> children;

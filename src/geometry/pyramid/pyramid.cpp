@@ -22,15 +22,15 @@ constexpr std::size_t faces_of_held = 3;
 /// Beyond so many times its target a tile is simplified without regard to topology.
 constexpr std::size_t too_large = 2;
 
-/// A tile with the numbers that its vertices have in the whole mesh; `none` for those that it has alone.
+/// A tile with the numbers of its vertices in the whole mesh; `none` for vertices of this tile alone.
 struct TilePiece {
     Mesh mesh;
     std::vector<Index> numbers; ///< [vertices]
 };
 
-/// For each place of a vertex the first and the last leaf that has a vertex there.
+/// The first and the last leaf with a vertex at each vertex position.
 struct LeavesOfPlaces {
-    std::vector<Index> place;       ///< [vertices] the lowest vertex there
+    std::vector<Index> place;       ///< [vertices] the lowest coincident vertex
     std::vector<Index> first, last; ///< [vertices] of those
 
     LeavesOfPlaces(const Mesh& mesh, const std::vector<Index>& leaf_of_face) : place(lowest_at_place(mesh)) {
@@ -43,7 +43,7 @@ struct LeavesOfPlaces {
                 last[p] = std::max(last[p], leaf_of_face[f]);
             }
     }
-    /// Whether a leaf that the tile does not stand for has the place of the vertex.
+    /// Whether a leaf outside the tile has a vertex at the same position.
     bool shared(Index vertex, const FaceCut& tile) const {
         const Index p = place[vertex];
         return first[p] < tile.first_leaf || last[p] >= tile.last_leaf;
@@ -69,7 +69,7 @@ std::vector<TilePiece> pieces_of(const Mesh& mesh, const std::vector<Index>& lea
     return pieces;
 }
 
-/// Pieces as one: vertices of the same number become one, and wedges there that are equal.
+/// Merges pieces: vertices of the same number are merged, and so are their equal wedges.
 TilePiece joined(const std::vector<const TilePiece*>& pieces) {
     TilePiece all;
     for (const TilePiece* piece : pieces) {

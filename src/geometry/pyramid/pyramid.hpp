@@ -1,6 +1,6 @@
 #pragma once
-// A mesh as a tree of tiles: the leaves have all its faces, and each tile above them has, in fewer, what the
-// tiles below it have together. The one header of this folder that others include.
+// A mesh as a tree of tiles: the leaves have all its faces, and each tile above them is a coarser version of
+// the tiles below it. Other folders include only this header of the folder.
 
 #include "mesh/mesh.hpp"
 
@@ -10,17 +10,19 @@
 namespace facetmill {
 
 struct PyramidSettings {
-    /// A tile has at most so many triangles, but where the vertices that it shares with others need more, or
-    /// its mesh cannot be simplified that far.
+    /// A tile has at most so many triangles, unless its shared vertices need more, or its mesh cannot be
+    /// simplified that far.
     std::size_t faces = 20000;
-    /// The positions that come in are multiples of this, a power of two; those of all tiles are then. 0: any.
+    /// The input positions are multiples of this, a power of two, and so are the positions of all tiles. 0:
+    /// any.
     double step = 0;
 };
 
 struct PyramidTile {
     Mesh mesh;
-    /// How far the tile and the faces that it stands for are apart at most: the deviation from the tiles
-    /// below it, measured both ways, plus the largest error of those; 0 for a leaf. In the mesh's units.
+    /// The largest distance between the tile and the faces that it represents. This is the deviation from the
+    /// tiles below it, measured both ways, plus the largest error of these tiles; 0 for a leaf. In the mesh's
+    /// units.
     double error = 0;
     std::vector<std::size_t> children; ///< four of most, two or three of others; none for a leaf
     std::string name;                  ///< the way from the root, a digit for each child: "" for the root
@@ -28,27 +30,27 @@ struct PyramidTile {
     std::vector<Index> numbers;
 };
 
-/// Cuts a mesh of triangles into whole faces, along the longest side again and again, as few leaves of up to
-/// `faces` as there can be, and joins up to four tiles at a time and simplifies them, up to one tile: the
-/// first of the result; each tile stands before its children.
+/// Cuts a mesh of triangles into whole faces, repeatedly along the longest side, with as few leaves of up to
+/// `faces` as possible. Then joins up to four tiles at a time and simplifies them, up to one tile: the first
+/// of the result. Each tile comes before its children.
 ///
-/// Vertices at one place that tiles have in common are held until all tiles that have them are joined. So
-/// whichever tiles are chosen such that each face that came in is represented once, their common borders are
-/// the same vertices and edges on both sides, whatever the levels: tiles of a closed mesh close. The price:
-/// along its border a tile is as fine as the mesh that came in, so its triangles are at least about as many
-/// as the square root of those that it stands for, times six for compact tiles.
+/// Coincident vertices of several tiles are held until all these tiles are joined. If a choice of tiles
+/// represents each input face once, common borders have the same vertices and edges on both sides, whatever
+/// the levels: tiles of a closed mesh close. The price: a tile's border is as fine as the input mesh. A
+/// compact tile thus has at least about six times the square root of the number of triangles that it
+/// represents.
 ///
-/// Where simplification is stuck at more than twice what a tile should have (many components), it may also
-/// drop components and close holes, which counts in the error.
+/// If simplification stops at more than twice the limit of a tile (many components), it may also drop
+/// components and close holes, which counts in the error.
 ///
-/// Attributes: as simplify has them; wedges that tiles have in common are one again above. Vertices that no
-/// face uses are dropped. The same bytes for any number of threads. About O(n log n).
+/// Attributes follow the rules of simplify; common wedges of tiles are merged above. Vertices that no face
+/// uses are dropped. The same bytes for any number of threads. About O(n log n).
 ///
 /// held: [vertices] those that what stands beside this mesh has, too, which stay in every tile; empty: none.
 std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings,
                                       const std::vector<std::uint8_t>& held = {});
 
-/// A tile that stands for others.
+/// A tile that represents finer tiles.
 struct CoarserTile {
     Mesh mesh;
     double error = 0;           ///< see PyramidTile

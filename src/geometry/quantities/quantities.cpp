@@ -63,7 +63,7 @@ struct OfProperty {
     std::vector<std::string_view> other_names;
 };
 
-/// What the rows of properties do not say.
+/// Details that the rows of properties lack.
 const std::vector<OfProperty>& of_properties() {
     static const std::vector<OfProperty> all{
         {"min_angle", "", {"smallest_angle", "minimum_angle"}},

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers that every face, or every vertex, of a mesh has by its shape: what measure keeps as attributes, and
-// pictures show.
+// Numbers that every face, or every vertex, of a mesh has by its shape. The stage measure keeps them as
+// attributes, and pictures show them.
 
 #include "geometry/spatial/face_tree.hpp"
 #include "mesh/scene.hpp"
@@ -9,19 +9,19 @@
 
 namespace facetmill {
 
-/// What numbers are of: a power of a length, an angle in degrees, or a pure number.
+/// The dimension of numbers: a power of a length, an angle in degrees, or a pure number.
 enum class Measure { number, degrees, length, area, per_length, per_area };
 
-/// One of them: a row of a table. Those of properties that faces have (min_angle, wall_thickness) come from
-/// the rows of these (geometry/inspect), so that they have the same names and values.
+/// A quantity: a row of a table. Properties of faces (min_angle, wall_thickness) come from the rows of
+/// geometry/inspect, so that they have the same names and values.
 struct Quantity {
     std::string_view name; ///< as users write it, and of the attribute
     Domain domain = Domain::face;
     Measure measure = Measure::number;
     std::string_view help;
     std::string_view missing{};                  ///< where there is none, in words: "on boundaries"
-    std::vector<std::string_view> other_names{}; ///< what else people call it
-    bool is_signed = false;                      ///< both sides of 0 are told apart
+    std::vector<std::string_view> other_names{}; ///< synonyms
+    bool is_signed = false;                      ///< the sign has a meaning
     bool compares = false;                       ///< it is from another surface
     std::vector<double> (*of)(const Quantity&, const Mesh& world, const FaceTree* other) = nullptr;
 };
@@ -33,7 +33,7 @@ std::vector<std::string> quantity_names();
 std::vector<std::string> quantity_words();
 /// Null when there is none of that name.
 const Quantity* quantity_named(std::string_view name);
-/// Also by what else people call it.
+/// Also finds synonyms.
 const Quantity* quantity_called(std::string_view word);
 
 /// "mm", "1/mm^2", "degrees"; "scene units" and the like where the unit is unknown, empty for pure numbers.
@@ -44,7 +44,8 @@ std::string unit_of(const Quantity& quantity, Unit unit);
 /// same for any number of threads.
 std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other = nullptr);
 
-/// Makes an attribute of them, instead of any of that name; those that are missing become `none`, if given.
+/// Makes an attribute of the values and replaces any attribute of that name; missing values become `none`, if
+/// given.
 void give_attribute(Part& part, const Quantity& quantity, std::vector<double> values,
                     std::optional<double> none = {});
 

@@ -14,10 +14,10 @@ namespace facetmill {
 
 namespace {
 
-/// The other ends of the feature edges at each vertex, ascending. A feature edge is one whose two faces'
-/// normals differ by more than the angle (radians, in world space; the faces' directions are compared along
-/// the edge, so neighbours that disagree in direction make no feature edge), and one of more than two faces;
-/// with boundaries, one of a single face too. Faces without area make none.
+/// The other ends of the feature edges at each vertex, ascending. An edge is a feature if the normals of its
+/// two faces differ by more than the angle (radians, in world space). The faces' directions are compared
+/// along the edge, so neighbours with opposite orientation make no feature edge. An edge of more than two
+/// faces is a feature; with boundaries, an edge of a single face too. Faces without area make none.
 VertexLists feature_ends(const Mesh& mesh, double angle, const Transform& to_world, bool boundaries) {
     const EdgeTable table = build_edges(mesh);
     const std::vector<Index> faces = corner_faces(mesh);
@@ -87,7 +87,7 @@ bool same_once(const std::vector<Index>& a, const std::vector<Index>& b) {
     return matches == n && repeated == 2 * n;
 }
 
-/// What one thread needs to look around a vertex; reused, so that nothing is allocated per vertex.
+/// Buffers of one thread for the surroundings of a vertex; reused, so that no memory is allocated per vertex.
 struct Surroundings {
     std::vector<Index> next, previous; ///< the other ends of the two edges of each corner
     std::vector<Index> all;            ///< the neighbours, each once
@@ -104,7 +104,7 @@ struct Surroundings {
             if (c.previous != c.vertex) previous.push_back(c.previous);
             polygons = polygons || (whole_faces && mesh.face_size(c.face) > 3);
         }
-        // Where faces go round the vertex, each neighbour comes next once and comes before once.
+        // If faces go round the vertex, each neighbour is once the next and once the previous.
         if (same_once(next, previous))
             all = next;
         else
@@ -136,8 +136,8 @@ struct Surroundings {
     }
 };
 
-/// Calls visit(vertex, surroundings) for every vertex of a chunk that some face uses; chunks are buckets of
-/// vertices, so that what is looked at is in the cache.
+/// Calls visit(vertex, surroundings) for every vertex of a chunk that some face uses. Chunks are buckets of
+/// vertices, so that their data is in the cache.
 template <class Visit>
 void around_vertices(const Mesh& mesh, bool whole_faces, Buckets<Corner>& buckets, Visit&& visit) {
     buckets = fill_buckets<Corner>(mesh, [&](Index f, auto&& emit) {
@@ -176,7 +176,8 @@ void around_vertices(const Mesh& mesh, bool whole_faces, Buckets<Corner>& bucket
         buckets.at_once());
 }
 
-/// In a polygon of n corners every vertex has n - 1 neighbours: refuses what would not fit before it starts.
+/// In a polygon of n corners every vertex has n - 1 neighbours: refuses such polygons in advance if the lists
+/// would not fit.
 void refuse_giants(const Mesh& mesh, const Settings& settings) {
     if (mesh.all_triangles() || settings.neighbours == Settings::Neighbours::edges) return;
     const auto pairs = parallel_reduce(

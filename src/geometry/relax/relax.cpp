@@ -17,7 +17,7 @@ namespace {
 using Settings = RelaxSettings;
 using Method = Settings::Method;
 
-/// What a setting must be, and what it is.
+/// The requirement for a setting, and its value.
 struct Need {
     bool holds;
     const char* name;
@@ -28,12 +28,14 @@ struct Need {
 Need need_of_lambda(const Settings& s) {
     const double f = relax_lambda(s);
     if (s.method == Method::implicit) return {f > 0 && f <= 1e6, "lambda", "0 < x <= 1e+06 for implicit", f};
-    if (s.method == Method::taubin) // the step out would grow what the step in has turned around
+    if (s.method ==
+        Method::taubin) // otherwise the step out would amplify frequencies that the step in has inverted
         return {f > 0 && f < 0.7, "lambda", "0 < x < 0.7 for taubin", f};
     return {f > 0 && f <= 1, "lambda", "0 < x <= 1", f};
 }
 
-// Of the area that is left by the first iteration: with less, it is shrinking that goes on, not smoothing.
+// Relative to the area after the first iteration: below this, the surface shrinks rather than getting
+// smoother.
 constexpr double least_area_left = 2.0 / 3;
 
 /// Twice the area of the mesh with its vertices at `places`, in world units.
@@ -52,7 +54,7 @@ double twice_area(const Mesh& mesh, const std::vector<Vec3>& places, const Trans
         [](double a, double b) { return a + b; });
 }
 
-/// The places after at most so many iterations.
+/// The positions after at most so many iterations.
 struct Run {
     std::vector<Vec3> places;
     std::int64_t iterations = 0;
@@ -93,7 +95,7 @@ bool is_position_target(const Attribute& a) {
            a.name.ends_with("_POSITION");
 }
 
-/// Where the vertices are in the morph target; empty when wedges of one vertex disagree.
+/// The positions of the vertices in the morph target; empty if wedges of a vertex disagree.
 std::vector<Vec3> target_places(const Mesh& mesh, const Attribute& a) {
     std::vector<Vec3> places = mesh.positions;
     std::vector<std::uint8_t> seen(mesh.vertex_count());
@@ -119,7 +121,8 @@ void set_target(const Mesh& mesh, Attribute& a, const std::vector<Vec3>& target,
     });
 }
 
-/// Relaxes the morph targets of positions as often as the surface was, and says what became of all targets.
+/// Relaxes the morph targets of positions as often as the surface was, and reports the changes of all
+/// targets.
 AttributeChanges relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
                                const Run& base) {
     AttributeChanges changes;

@@ -13,7 +13,7 @@ struct RelaxSettings {
         taubin,    ///< a step in and a step out: shrinks hardly
         cotangent, ///< towards the mean weighted by the angles: vertices do not drift along the surface
         implicit,  ///< one linear system per iteration: any lambda is stable
-        hc,        ///< towards the mean, then pushed back by what the neighbours moved: keeps the volume
+        hc,        ///< towards the mean, then pushed back by the moves of the neighbours: keeps the volume
     };
     enum class Neighbours {
         faces, ///< all vertices of the faces that share the vertex, each once: a quad's far corner counts
@@ -21,8 +21,8 @@ struct RelaxSettings {
     };
     enum class Boundary {
         fixed, ///< boundary vertices stay
-        slide, ///< averaged with their neighbours along the boundary only: its corners become round, but for
-               ///< those that feature_angle holds
+        slide, ///< averaged with their neighbours along the boundary only: its corners become round unless
+               ///< feature_angle holds them
         free,  ///< as all others: an open surface shrinks
     };
     Method method = Method::laplacian;
@@ -33,13 +33,13 @@ struct RelaxSettings {
     Boundary boundary = Boundary::fixed;
     std::optional<double> feature_angle = {}; ///< radians: edges whose faces meet at a larger angle are kept;
                                               ///< vertices on them move along them only
-    double pass_band = 0.1;        ///< taubin: 0 < k < 1, what of the surface's frequencies is kept
+    double pass_band = 0.1;        ///< taubin: 0 < k < 1, the frequencies of the surface that are kept
     double alpha = 0;              ///< hc: 0 to 1: how much the first surface counts
-    double beta = 0.5;             ///< hc: 0 to 1: the vertex's own share of what is pushed back
+    double beta = 0.5;             ///< hc: 0 to 1: the vertex's own share of the push back
     std::vector<double> mask = {}; ///< [vertices] 0 to 1: share of the move; empty: all of it
-    /// Stop when no vertex moved farther in an iteration, world units; 0: never. Where the surface shrinks
-    /// all the while, stop before a third of its area is gone (of that after the first iteration, which may
-    /// take noise away): the end would be a point.
+    /// Stop when no vertex moved farther in an iteration, world units; 0: never. If the surface keeps
+    /// shrinking, relaxation stops before a third of its area is lost, because it would end as a point. The
+    /// area after the first iteration counts, because that iteration may remove noise.
     double until = 0;
     Transform to_world = {}; ///< part space -> world, where angles and moves are measured
 };
@@ -50,42 +50,44 @@ struct RelaxResult {
     std::int64_t iterations = 0; ///< done
     bool settled = false;        ///< stopped by `until`
     bool shrank = false;         ///< stopped because of the area, with `until`
-    double largest_move = 0;     ///< the farthest that a vertex came from its place, in world units
-    double last_move = 0;        ///< the farthest in the last iteration; only when `until` was given
-    std::size_t moved = 0;       ///< vertices that are elsewhere than before
-    std::size_t held = 0;        ///< vertices that had to stay: boundary, corners of features, mask 0
+    double largest_move = 0; ///< the farthest distance of a vertex from its original position, in world units
+    double last_move = 0;    ///< the farthest in the last iteration; only when `until` was given
+    std::size_t moved = 0;   ///< vertices that are elsewhere than before
+    std::size_t held = 0;    ///< vertices that had to stay: boundary, corners of features, mask 0
 };
 
 /// P' = P + lambda (mean of the neighbours - P) per iteration, simultaneously for all vertices.
 ///
-/// laplacian takes the plain mean (P. Bourke, "Surface Relaxation and Smoothing", 1997). taubin (G. Taubin,
-/// "A signal processing approach to fair surface design", 1995) follows each step by one of mu = 1 /
-/// (pass_band - 1 / lambda), which is negative. cotangent weights each neighbour by the cotangents of the two
-/// angles opposite to the edge (U. Pinkall and K. Polthier, "Computing discrete minimal surfaces and their
-/// conjugates", 1993), computed anew in every iteration; obtuse angles count 0 and slivers at most 10^6, so
-/// the mean stays among the neighbours, and triangles without area count nothing. implicit (M. Desbrun et
-/// al., "Implicit fairing of irregular meshes using diffusion and curvature flow", 1999) solves P' = P +
-/// lambda (mean' - P') with Eigen's conjugate gradients to a relative residual of 1e-10. hc (J. Vollmer, R.
-/// Mencl and H. Mueller, "Improved Laplacian smoothing of noisy surface meshes", 1999) takes the laplacian
-/// step and pushes back by beta of the vertex's and 1 - beta of the neighbours' mean difference to alpha *
-/// first + (1 - alpha) * previous place.
+/// - laplacian takes the plain mean (P. Bourke, "Surface Relaxation and Smoothing", 1997).
+/// - taubin (G. Taubin, "A signal processing approach to fair surface design", 1995) follows each step by one
+/// of mu = 1 / (pass_band - 1 / lambda), which is negative.
+/// - cotangent weights each neighbour by the cotangents of the two angles opposite to the edge (U. Pinkall
+/// and K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993). They are recomputed in
+/// every iteration. Obtuse angles count 0, slivers at most 10^6 and triangles without area 0, so the mean
+/// stays among the neighbours.
+/// - implicit (M. Desbrun et al., "Implicit fairing of irregular meshes using diffusion and curvature flow",
+/// 1999) solves P' = P + lambda (mean' - P') with Eigen's conjugate gradients to a relative residual of
+/// 1e-10.
+/// - hc (J. Vollmer, R. Mencl and H. Mueller, "Improved Laplacian smoothing of noisy surface meshes", 1999)
+/// takes the laplacian step and pushes back by beta of the vertex's and 1 - beta of the neighbours' mean
+/// difference to alpha * first + (1 - alpha) * previous position.
 ///
-/// A boundary edge is one with exactly one face; edges with three and more faces are not boundary, but are
-/// features. A vertex with exactly two feature (or, sliding, boundary) edges moves along them; one with
-/// another number of feature edges stays, and so does one where the line turns by more than the angle.
-/// Vertices without neighbours stay. Faces, wedges and topology are untouched; NORMAL is recomputed, TANGENT
-/// made perpendicular to it, morph targets of positions are relaxed with the surface (each as the surface it
-/// stands for) where the wedges of a vertex agree, all else is kept; the changes say so. The result does not
-/// depend on the frame for similar transforms; angles and until are measured in the world. Throws usage
-/// (E-RANGE) when a setting is out of range, stage (E-SOLVE) when the linear system cannot be solved.
-/// O(iterations * corners), parallel; the same bytes for any number of threads.
+/// A boundary edge has exactly one face; edges with three and more faces are features. A vertex with exactly
+/// two feature (or, sliding, boundary) edges moves along them. A vertex with one feature edge or more than
+/// two stays, and so does a vertex where the line turns by more than the angle. Vertices without neighbours
+/// stay. Faces, wedges and topology are unchanged. NORMAL is recomputed, TANGENT made perpendicular to it.
+/// Morph targets of positions are relaxed like the surface if the wedges of a vertex agree. All else is kept;
+/// the result lists the changes. The result does not depend on the frame for similar transforms; angles and
+/// until are measured in the world. Throws usage (E-RANGE) if a setting is out of range, stage (E-SOLVE) if
+/// the linear system cannot be solved. O(iterations * corners), parallel; the same bytes for any number of
+/// threads.
 RelaxResult relax(Mesh mesh, const RelaxSettings& settings = {});
 
 /// What is refused when a setting is out of range (E-RANGE); relax throws it first of all.
 std::optional<Refusal> check_relax_settings(const RelaxSettings& settings);
 
 struct Neighbourhoods {
-    VertexLists lists; ///< neighbours of each vertex, in a fixed order, each once; empty for those that stay
+    VertexLists lists; ///< neighbours of each vertex, in a fixed order, each once; empty for fixed vertices
     std::size_t held = 0; ///< vertices whose list is empty because they are on a fixed boundary, or where
                           ///< features meet or end
     std::vector<std::uint8_t> along; ///< [vertices] 1: moves along its boundary or feature only; may be empty

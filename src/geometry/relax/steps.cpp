@@ -14,8 +14,8 @@ namespace {
 
 using Method = RelaxSettings::Method;
 
-/// hc: what the laplacian step p made of q is taken back in part, by the vertex's own difference to where it
-/// should be and by that of its neighbours.
+/// hc: takes the laplacian step from q to p back in part. The push back mixes the vertex's own difference
+/// from its target position and the mean difference of its neighbours.
 RelaxStep hc_step(const Neighbourhoods& near, const RelaxSettings& settings, const std::vector<Vec3>& start) {
     auto difference = std::make_shared<std::vector<Vec3>>(start.size());
     return [&, difference](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
@@ -93,7 +93,7 @@ RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSe
 
 namespace {
 
-/// Triangles that stand for the faces, the corners at each vertex, and a weight for each corner.
+/// Triangles of the faces, the corners at each vertex, and a weight for each corner.
 struct Cotangents {
     std::vector<Index> corners; ///< vertices, three to a triangle
     VertexLists at;             ///< corners at each vertex
@@ -168,7 +168,7 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The vertices that one linear system is about; all others count as known. Symmetric and positive definite:
+/// The unknown vertices of one linear system; all others count as known. Symmetric and positive definite:
 /// with n neighbours, mask w and lambda f the row of vertex v is n / w (x - p) + f sum(x - xj) = 0.
 class System {
   public:

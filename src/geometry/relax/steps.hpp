@@ -7,7 +7,7 @@
 
 namespace facetmill {
 
-/// Computes all new places from all old ones; not in place.
+/// Computes all new positions from all old ones; from and to must differ.
 using RelaxStep = std::function<void(const std::vector<Vec3>& from, std::vector<Vec3>& to)>;
 
 /// The step of the settings' method. start: where the surface is before the first step (hc). What is given

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles and dots on a z-buffer of samples that know what is seen in them.
+// Triangles and dots on a z-buffer of samples; each sample keeps the number of the visible triangle or dot.
 
 #include "geometry/render/render.hpp"
 
@@ -13,9 +13,8 @@ namespace facetmill {
 
 using Colour = std::array<float, 3>; ///< linear
 
-/// What has been drawn so far. x right, y down, z towards the viewer, all in samples. Threads may draw at the
-/// same time, in any order: of what is put at a sample the nearest is seen, and of the nearest the lowest
-/// number.
+/// The drawing so far. x right, y down, z towards the viewer, all in samples. Threads may draw at the same
+/// time, in any order: each sample shows the nearest element, with the lowest number if depths are equal.
 struct Canvas {
     static constexpr int samples = 2; ///< a side of each pixel
 
@@ -73,8 +72,8 @@ struct SampleBox {
     }
 };
 
-/// The first sample whose middle is not before x, and the last one that is not behind it, among those from
-/// low to high. What is not a number is at low.
+/// The first sample whose middle is not before x, and the last sample whose middle is not behind it, limited
+/// to low to high. NaN counts as low.
 inline double within(double x, int low, int high) { // NaN is outside of no range
     return x > low ? (x < high ? x : high) : low;
 }
@@ -99,13 +98,13 @@ inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int
             last_sample(highest(a.y, b.y, c.y), first - 1, last - 1)};
 }
 
-/// The same of each point by itself, in four small numbers: most triangles of a large mesh have no sample,
-/// which these tell before the points are read. Left, top, and right and bottom with the other sign, so that
-/// of several points together each number is the least.
+/// The same for each point by itself, in four small numbers. Most triangles of a large mesh have no sample,
+/// and these numbers show this before the points are read. Right and bottom are negated, so that the minimum
+/// of each number over several points gives their common box.
 class SamplesAt {
   public:
     SamplesAt() = default;
-    /// Of a canvas of at most 32,767 samples a side.
+    /// The canvas has at most 32,767 samples a side.
     SamplesAt(const Vec3& p, const Canvas& canvas)
         : bounds_{short_of(first_sample(p.x, 0, canvas.width)), short_of(first_sample(p.y, 0, canvas.height)),
                   short_of(-last_sample(p.x, -1, canvas.width - 1)),
@@ -125,8 +124,8 @@ class SamplesAt {
     Bounds bounds_{};
 };
 
-/// An edge's line through the canvas; the two triangles at an edge get the same numbers but for their sign,
-/// so that no sample between them is missed.
+/// The line of an edge through the canvas. The two triangles at an edge get the same numbers with opposite
+/// signs, so that no sample between them is missed.
 struct EdgeLine {
     double x = 0, y = 0, dx = 0, dy = 0, sign = 1;
 
@@ -197,9 +196,9 @@ inline std::pair<int, int> row_between(const CanvasTriangle& t, double py, const
             static_cast<int>(std::max(std::floor(high), box.left - 1.0))};
 }
 
-/// Calls visit(x, y, depth) for the samples of the triangle in that box, which samples_around gave. Where a
-/// back and a front are at one place the front is seen: backs lie a thousandth of a sample behind. front: the
-/// outer side is seen.
+/// Calls visit(x, y, depth) for the samples of the triangle in that box, which samples_around gave. If a back
+/// and a front coincide, the front is visible, because backs are drawn a thousandth of a sample deeper.
+/// front: the outer side is visible.
 template <class Visit>
 void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, Visit&& visit) {
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;

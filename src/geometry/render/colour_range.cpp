@@ -33,7 +33,7 @@ std::vector<double> finite_values(const Scene& scene, const std::string& attribu
     return values;
 }
 
-/// Those that are seen; none where there are more than a legend has room for.
+/// The visible identifiers; empty if there are more than a legend has room for.
 std::vector<std::uint64_t> few_identifiers(const Scene& scene, const std::string& attribute,
                                            const std::function<bool(const Part&)>& shows) {
     constexpr std::size_t most = 24;

@@ -10,18 +10,17 @@ namespace facetmill {
 /// Which numbers get the first and the last colour; those beyond get the same as these.
 struct ColourRange {
     enum class Kind {
-        automatic,  ///< all, or the percentiles where less than half of the span holds what lies between
-                    ///< these
+        automatic,  ///< all, or the percentiles if these cover less than half of the span
         percentile, ///< from the 1st to the 99th percentile
         all,        ///< the smallest and the largest
         given,
     };
     Kind kind = Kind::automatic;
     double min = 0, max = 0; ///< of Kind::given
-    bool diverging = false;  ///< in colours that tell the two sides of the middle apart; unless it is given,
-                             ///< the range is as wide on either side of 0
-    double lost = 0; ///< of Kind::automatic: numbers are right to this part of the largest; those that
-                     ///< differ by less have one colour
+    bool diverging = false;  ///< uses different colours below and above the middle; unless it is given, the
+                             ///< range is symmetric about 0
+    double lost = 0; ///< of Kind::automatic: the rounding error relative to the largest number; smaller
+                     ///< differences get the same colour
 };
 
 struct ValueRange {

@@ -9,7 +9,7 @@ namespace facetmill {
 /// Colours that are told apart; the number of an identifier chooses one.
 Colour distinct_colour(std::uint64_t number);
 
-/// Of numbers that are missing: pink, which no scale has, and inner sides have not.
+/// For missing numbers: pink, which differs from all scales and from inner sides.
 inline constexpr Colour missing_colour{0.79f, 0.10f, 0.51f};
 
 /// The map "viridis" (S. van der Walt and N. Smith, 2015), whose steps look equal, for 0 to 1, by M. Zucker's

@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// Of the parts that are shown, in world space: of many every n-th.
+/// Points of the visible parts in world space; every n-th if there are many.
 std::vector<Vec3> some_points(const Scene& scene, const PictureSettings& settings) {
     constexpr std::size_t enough = 200000;
     std::vector<Vec3> points;
@@ -22,7 +22,7 @@ std::vector<Vec3> some_points(const Scene& scene, const PictureSettings& setting
     for (const Part& part : scene.parts) {
         if (settings.shows && !settings.shows(part)) continue;
         const Mesh& mesh = part.mesh;
-        const bool faces = mesh.face_count() > 0; // vertices beside faces are not drawn
+        const bool faces = mesh.face_count() > 0; // isolated vertices of a mesh with faces are not drawn
         for (std::size_t i = 0; i < (faces ? mesh.corner_count() : mesh.vertex_count()); ++i)
             if (at++ % step == 0) add(part, faces ? mesh.point(static_cast<Index>(i)) : mesh.positions[i]);
     }
@@ -63,7 +63,8 @@ std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& setting
     const Box box = middle_box(points);
     const double size = box.diagonal(), pixels = size * fitting_scale(scene, settings);
     if (!(size > 0) || !(pixels < small * std::max(settings.width, settings.height))) return {};
-    // Half of the shorter side, so that what is beside it is seen, too; no more than pictures are magnified.
+    // Half of the shorter side, so that the surroundings are visible, too; at most the largest zoom of
+    // pictures.
     const double zoom = std::clamp(std::min(settings.width, settings.height) / (2 * pixels), 1.0, 10000.0);
     return Crowd{box.centre(), pixels, std::floor(zoom)};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The parts of a scene on their way to a canvas: their triangles, where these are seen, and what is known at
-// a place of one.
+// The parts of a scene prepared for a canvas: their triangles, the canvas positions of these, and the
+// attributes at a point of a triangle.
 
 #include "geometry/render/painter.hpp"
 #include "geometry/render/view.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-/// The edges of polygons, so that those that triangles have inside are not drawn.
+/// The edges of polygons; edges between triangles of the same polygon are not drawn.
 class RealEdges {
   public:
     explicit RealEdges(const Mesh& mesh);
@@ -41,7 +41,7 @@ class PartDrawing {
     const Vec3& corner(Index face, Index k) const { return points_[mesh_->vertex(3 * face + k)]; }
     /// Whether the outer side of the triangle is seen.
     bool front(const std::array<Vec3, 3>& corners) const { return (twice_area(corners) > 0) != mirrored_; }
-    /// Where on the face the place of the canvas is, in perspective too.
+    /// The position on the face for a position on the canvas, correct in perspective too.
     FacePlace place(const View& view, const CanvasTriangle& t, Index face, double x, double y) const;
     FacePlace vertex_place(Index vertex) const;
 
@@ -79,7 +79,7 @@ class SceneDrawing {
                  const ValueRange& range);
 
     const std::vector<PartDrawing>& parts() const { return parts_; }
-    /// The part that a number belongs to.
+    /// The part that has a number.
     const PartDrawing& part_of(std::uint32_t number) const;
     std::size_t faces() const { return faces_; } ///< of the parts, polygons counted once
 

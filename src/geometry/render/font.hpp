@@ -17,8 +17,8 @@ inline std::size_t character_length(std::string_view text, std::size_t i) {
 }
 
 /// Writes the text with its upper left corner at (x, y), each pixel of a letter a square of `scale` pixels;
-/// what does not fit is cut off. UTF-8: each character beyond ASCII is a box, and so is each byte that is
-/// none.
+/// text that does not fit is cut off. UTF-8: each character beyond ASCII is a box, and so is each invalid
+/// byte.
 void write_text(Picture& picture, int x, int y, int scale, std::string_view text,
                 const std::array<std::uint8_t, 3>& colour);
 

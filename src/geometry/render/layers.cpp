@@ -5,7 +5,7 @@ namespace facetmill {
 Layers::Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
                const SceneDrawing& drawing, const Shader& shader, LastFacings& last)
     : first_(first_row), last_(last_row), width_(canvas.width / Canvas::samples) {
-    // What lies deep is dropped as soon as there is much, so that memory does not grow with the depth.
+    // Deep layers are dropped as soon as there are many, so that memory does not grow with the depth.
     constexpr std::size_t enough = bytes / sizeof(Layer);
     std::size_t limit = enough;
     for (const std::uint32_t number : numbers) {

@@ -1,5 +1,5 @@
 #pragma once
-// Materials that blend, over what is solid.
+// Blending materials over the opaque surfaces.
 
 #include "geometry/render/shader.hpp"
 
@@ -9,8 +9,8 @@ namespace facetmill {
 class Layers {
   public:
     static constexpr std::size_t most = 16; ///< over one sample: the nearest ones
-    /// Bytes before what lies deep is dropped. Where that is not enough to keep what is seen, twice of what
-    /// is: of a band at most `most` layers for each sample.
+    /// Deep layers are dropped above this number of bytes. If the visible layers (at most `most` for each
+    /// sample of a band) need more, the limit is twice their size.
     static constexpr std::size_t bytes = std::size_t{64} << 20;
 
     /// numbers: of the triangles in the band that blend. last: see Shader::colour.

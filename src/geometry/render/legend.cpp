@@ -14,13 +14,13 @@ namespace {
 using Ink = std::array<std::uint8_t, 3>;
 
 constexpr int letters_wide = 17; ///< of the legend
-constexpr int bar_letters = 3;   ///< of these, the colours and the ticks beside them
+constexpr int bar_letters = 3;   ///< in letters: the width of the colours and the ticks
 
 int letter_scale(const PictureSettings& s) {
     return std::clamp(std::min(s.width / 500, s.height / 300), 1, 8);
 }
 
-/// Dark on what is light or transparent.
+/// Dark on a light or transparent ground.
 Ink ink_for(const PictureSettings& s) {
     if (!s.ground) return {64, 64, 64};
     const auto& g = *s.ground;
@@ -41,7 +41,7 @@ void fill(Picture& p, int x0, int y0, int x1, int y1, const std::array<std::uint
 }
 
 std::string shortened(const std::string& text) {
-    std::size_t count = 0, cut = 0; // characters; the bytes of those that stay before the dots
+    std::size_t count = 0, cut = 0; // characters; the bytes kept before the dots
     for (std::size_t i = 0; i < text.size(); i += character_length(text, i)) {
         if (count == letters_wide - 2) cut = i;
         ++count;
@@ -151,7 +151,7 @@ std::vector<std::string> number_texts(const std::vector<double>& numbers, std::s
 }
 
 namespace {
-/// The colour of each identifier, beside it.
+/// The colour of each identifier, next to its number.
 Picture with_identifiers(const Picture& picture, const PictureSettings& settings, const ValueRange& range) {
     Picture out = widened(picture, settings);
     const int scale = letter_scale(settings), line = line_height(settings);

@@ -1,5 +1,5 @@
 #pragma once
-// The scale of colours beside a picture, with its numbers.
+// The scale of colours next to a picture, with its numbers.
 
 #include "geometry/render/colour_scale.hpp"
 

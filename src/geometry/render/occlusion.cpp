@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t looks_around = 16, pattern = 4;
 
-/// Of the nearest sample of each pixel: where it lies along the canvas' axes.
+/// The position of the nearest sample of each pixel, along the canvas' axes.
 struct Places {
     int width = 0, height = 0; ///< pixels
     std::vector<std::array<float, 3>> place;
@@ -50,7 +50,7 @@ std::array<Spiral, pattern * pattern> spirals(double radius) {
     // How far each turn of the pattern is, such that neighbours differ much.
     static constexpr std::array<int, pattern * pattern> order{0, 8,  2, 10, 12, 4, 14, 6,
                                                               3, 11, 1, 9,  15, 7, 13, 5};
-    constexpr double turns = 7; // no divisor of the number of places
+    constexpr double turns = 7; // does not divide the number of positions
     std::array<Spiral, pattern * pattern> all{};
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t k = 0; k < looks_around; ++k) {
@@ -63,13 +63,13 @@ std::array<Spiral, pattern * pattern> spirals(double radius) {
     return all;
 }
 
-/// How much is hidden from p by what lies at q.
+/// The share of p's sky that q hides.
 float hidden_by(const std::array<float, 3>& p, const std::array<float, 3>& normal,
                 const std::array<float, 3>& q, float radius) {
     const std::array<float, 3> v{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
     const float vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], rr = radius * radius;
     const float above = v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2];
-    // Two samples of slack, since depths are those of samples and not of their pixels' middles.
+    // Two samples of slack, because depths belong to samples and not to the middles of pixels.
     const float slack = 1.0f + 0.02f * radius;
     if (above <= slack || vv >= rr) return 0;
     const float f = 1 - vv / rr;
@@ -93,12 +93,12 @@ float open_at(const Places& places, const Spiral& spiral, std::size_t pixel,
 
 /// Which pixels a mean is taken of, and for which.
 struct Smoothing {
-    int every = 1;      ///< those of every so many columns and rows
+    int every = 1;      ///< only one in so many columns and rows
     int reach = 2;      ///< so far to the left and above, and not quite so far to the right and below
-    bool of_all = true; ///< for all pixels; else for those of that grid alone
+    bool of_all = true; ///< for all pixels; else only for the pixels of that grid
 };
 
-/// The mean around each pixel, of those that lie as deep; where there is none, what the pixel itself sees.
+/// The mean over the pixels of similar depth around each pixel; the pixel's own value if none are known.
 template <class OpenAt>
 std::vector<float> smoothed(const Places& places, const std::vector<float>& open, float radius,
                             const Smoothing& s, OpenAt&& open_at) {

@@ -1,5 +1,5 @@
 #pragma once
-// The colours of what a picture shows, before shading.
+// The unshaded colours of the elements in a picture.
 
 #include "geometry/render/canvas.hpp"
 
@@ -8,8 +8,8 @@ namespace facetmill {
 /// The grey of surfaces without a colour of their own.
 inline constexpr Colour plain_grey{0.72f, 0.74f, 0.78f};
 
-/// A place on a face: its corners' wedges and their weights, which sum to one. For a vertex on its own, of
-/// which the wedge is known or none, the face is none.
+/// A position on a face: the wedges of its corners and their weights, which sum to one. For a single vertex,
+/// whose wedge may be unknown (none), the face is none.
 struct FacePlace {
     Index face = none;
     std::array<Index, 3> wedges{none, none, none};
@@ -23,7 +23,7 @@ inline Index element_at(const Attribute& a, const Mesh& mesh, const FacePlace& p
     return mesh.vertex_of_wedge(place.wedges[k]);
 }
 
-/// The first N components of an attribute, mixed by a place's weights.
+/// The first N components of an attribute, interpolated with the weights of a face position.
 template <std::size_t N>
 std::array<float, N> mixed(const Attribute& a, const Mesh& mesh, const FacePlace& place) {
     std::array<float, N> sum{};
@@ -79,8 +79,8 @@ class Painter {
 
     const Mesh& mesh_;
     const std::vector<std::uint32_t>* primitive_of_face_ = nullptr; ///< null: all are of the first
-    const Attribute* colours_ = nullptr;                            ///< those of the mesh, when they count
-    const Attribute* values_ = nullptr;                             ///< the attribute to show instead
+    const Attribute* colours_ = nullptr; ///< the colours of the mesh, if they are used
+    const Attribute* values_ = nullptr;  ///< the attribute to show instead
     ValueRange range_;
     bool by_normal_ = false;
     std::vector<PrimitivePaint> primitives_;

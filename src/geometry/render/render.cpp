@@ -143,8 +143,8 @@ class PictureDrawing {
             1);
     }
 
-    /// Draws the small ones of some triangles and returns the large ones. What is read of a triangle is asked
-    /// for some triangles ahead: it may lie anywhere in memory.
+    /// Draws the small triangles among some and returns the large ones. Data of later triangles is
+    /// prefetched, because it may be anywhere in memory.
     Faces draw_small(const PartDrawing& part, const std::vector<SamplesAt>& at, std::size_t begin,
                      std::size_t end) {
         struct Asked {
@@ -229,8 +229,8 @@ class PictureDrawing {
         }
     }
 
-    /// Which part of the line from a to b is on the canvas, as shares of it (Liang, Barsky, "A new concept
-    /// and method for line clipping", 1984); none, or not finite: nothing.
+    /// The part of the line from a to b on the canvas, as shares of the line (Liang, Barsky, "A new concept
+    /// and method for line clipping", 1984). Nothing if the line misses the canvas or is not finite.
     std::optional<std::pair<double, double>> part_within(const Vec3& a, const Vec3& b) const {
         if (!is_finite(a) || !is_finite(b)) return {};
         double from = 0, to = 1;
@@ -286,7 +286,7 @@ class PictureDrawing {
         return sum;
     }
 
-    /// What covers each sample of a pixel; one shade for each face among them.
+    /// The solid surface at each sample of a pixel; one shade for each face among them.
     std::array<Texel, Canvas::samples * Canvas::samples> solid_samples(int x, int y, float open,
                                                                        LastFacings& last) const {
         constexpr int n = Canvas::samples;
@@ -379,7 +379,7 @@ ValueRange painted_range(const Scene& scene, const PictureSettings& settings) {
     return value_range(scene, settings.attribute, settings.range, settings.shows);
 }
 
-/// The settings for what the legend leaves of the picture.
+/// The settings for the part of the picture that the legend leaves free.
 PictureSettings beside_legend(const PictureSettings& settings, const ValueRange& range) {
     PictureSettings own = settings;
     own.width -= legend_width(settings, range);

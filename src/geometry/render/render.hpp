@@ -1,7 +1,6 @@
 #pragma once
-// A picture of a scene, for people who would rather look: each face shaded by the angle between its normal
-// and the light, after P. Bourke, "Facets, planes, normals, rendering" (1992), with the textures of its
-// material.
+// A picture of a scene: each face is shaded by the angle between its normal and the light, after P. Bourke,
+// "Facets, planes, normals, rendering" (1992), with the textures of its material.
 
 #include "geometry/render/colour_range.hpp"
 #include "geometry/render/texture.hpp"
@@ -13,10 +12,10 @@
 
 namespace facetmill {
 
-/// Where a picture is taken from. Up is the scene's. In a scene that does not say it, up is the one of y and
-/// z on whose end the scene stands flat, or else the longer one. The front is towards +z where y points up
-/// (glTF), and towards -y where z does; an open surface of a scene that does not say it is seen from the side
-/// that its faces look to.
+/// The direction of view. Up is the scene's. If the scene does not define it, up is y or z: the axis along
+/// which the scene has a flat base, or else the longer one. The front is towards +z if y points up (glTF),
+/// and towards -y if z does. An open surface in a scene without a defined up axis is seen from the side that
+/// its faces look to.
 enum class Viewpoint {
     corner, ///< from the front, somewhat from above and from the right
     front,
@@ -40,7 +39,7 @@ enum class ShadingNormals {
     smooth,    ///< the mesh's own, else new ones that change at feature edges of 40 degrees only
 };
 
-/// What faces are painted with.
+/// The source of the colours of faces.
 enum class Paint {
     material, ///< the base colour of the material times its texture and the colours of the mesh, as in glTF
     part,     ///< a colour for each part
@@ -50,7 +49,7 @@ enum class Paint {
 
 enum class EdgeLines { few, all, no }; ///< few: of parts in scenes of at most PictureSettings::few faces
 
-/// What a picture of one scene sees, to see another in the same way, in parallel projection.
+/// The camera of a picture, to view another scene in the same way, in parallel projection.
 struct Camera {
     Vec3 up, front;
     Box seen; ///< of the scene, along the right, the up and the viewing direction of the picture
@@ -65,7 +64,7 @@ struct PictureSettings {
     double perspective = 0;       ///< the angle of view over the scene, radians, below pi; 0: parallel
     double zoom = 1;              ///< at least 1; the middle of the picture is magnified
     double max_scale = HUGE_VAL;  ///< pixels per unit before zoom, for pictures of one scale
-    std::optional<Vec3> at;       ///< the place in the middle, in world space, when zoom is not 1
+    std::optional<Vec3> at;       ///< the point in the middle, in world space, if zoom is not 1
     Shading shading = Shading::sides;
     ShadingNormals normals = ShadingNormals::automatic;
     bool occlusion = true;         ///< corners and folds are darker
@@ -75,7 +74,7 @@ struct PictureSettings {
     std::string attribute; ///< instead of paint, where a mesh has it: its first component, identifiers
                            ///< (Role::index) in colours of their own, numbers on a scale
     ColourRange range{};   ///< of that scale
-    bool legend = false;   ///< the scale with its numbers is drawn beside the scene, where it fits
+    bool legend = false;   ///< draw the scale with its numbers to the right of the scene, if it fits
     std::string unit{};    ///< after the name of the attribute in the legend
     EdgeLines edges = EdgeLines::few;
     std::size_t few = 6000;
@@ -96,14 +95,18 @@ struct Picture {
     bool has_attribute = false; ///< some part has it
 };
 
-/// The scene in world space, as large as fits into 92 % of the picture. Parts without faces show their
-/// vertices and lines. Points that are not finite are left out, and an empty scene gives an empty picture.
-/// Polygons are drawn as triangulated() cuts them, their own edges only. Each pixel has four samples of what
-/// is seen, and one shade for each face among them. Materials that blend lie over each other by depth, the
-/// sixteen nearest at each sample. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D.
-/// Luebke, "Scalable Ambient Obscurance", 2012). The same bytes for any number of threads and any processor.
-/// Memory: 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle which blends
-/// touches, and its layers (Layers). Throws limit (E-MEMORY) when it is not there.
+/// The scene in world space, fitted into 92 % of the picture.
+/// - Parts without faces show their vertices and lines. Points that are not finite are left out. An empty
+/// scene gives an empty picture.
+/// - Polygons are drawn as triangulated() cuts them, with their own edges only.
+/// - Each pixel has four samples of the visible surface, and one shade for each face among them.
+/// - Materials that blend are composited by depth, the sixteen nearest at each sample.
+/// - Occlusion is estimated from the depths around each pixel (M. McGuire, M. Mara, D. Luebke, "Scalable
+/// Ambient Obscurance", 2012).
+///
+/// The same bytes for any number of threads and any processor. Memory: 64 bytes a pixel, 24 a vertex, the
+/// layers (Layers), and 4 bytes for each blending triangle and band of 16 pixel rows. Throws limit (E-MEMORY)
+/// if memory is short.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// The camera of picture_of, which sees all of the scene; empty where the scene is. With settings.camera: in
@@ -113,11 +116,11 @@ Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 /// Picture::scale without the picture, before zoom: beside the legend, where there is one.
 double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
-/// Where most of a scene is that is hardly seen, because something lies far off.
+/// The position of most of a scene that is hardly visible because a few elements are far off.
 struct Crowd {
     Vec3 middle;       ///< in world space
     double pixels = 0; ///< how large it is in the picture
-    double zoom = 1;   ///< what would show it around the middle
+    double zoom = 1;   ///< the zoom that would show it around the middle
 };
 
 /// "most of the scene is 3 pixels wide in the picture, because something lies far off"

@@ -66,7 +66,7 @@ Texel Shader::base_colour(const Spot& spot, bool inside) const {
     return colour;
 }
 
-/// Where u and v grow on the surface, perpendicular to the normal.
+/// The directions in which u and v grow on the surface, perpendicular to the normal.
 std::optional<std::pair<Vec3, Vec3>> Shader::tangents(const Spot& spot, const Vec3& normal) const {
     const Texture& texture = spot.look->normal_texture;
     if (const auto own = texture.set == 0 ? spot.part.tangent(view_, spot.at) : std::nullopt) {
@@ -130,7 +130,7 @@ double Shader::in_light(const Vec3& normal, bool right_side) const {
     return std::max(0.0, amount);
 }
 
-/// How much of its colour a place shows in the light, that of the surroundings included.
+/// The share of its colour that a point shows in the light, including ambient light.
 double Shader::lit(const Spot& spot, const Vec3& normal) const {
     double around = ambient;
     if (spot.look && spot.look->occlusion_texture)
@@ -148,7 +148,8 @@ Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     return colour;
 }
 
-/// As colour, of a face without textures, colours or normals of its own: the same at all its places.
+/// The same as colour, for a face without textures, colours or normals of its own, which has one colour
+/// everywhere.
 Texel Shader::plain(const Texel& paint, const LastFacings::Facing& facing, bool double_sided,
                     float open) const {
     const bool right_side = facing.front || double_sided;

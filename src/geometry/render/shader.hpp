@@ -1,5 +1,5 @@
 #pragma once
-// What colour a place of the canvas has.
+// The shaded colours of points of the canvas.
 
 #include "geometry/render/drawing.hpp"
 
@@ -21,14 +21,14 @@ class LastFacings {
     std::vector<Facing> all_ = std::vector<Facing>(1024);
 };
 
-/// Shades places of triangles and vertices that stand on a canvas.
+/// Shades points of triangles and vertices drawn on a canvas.
 class Shader {
   public:
     Shader(const SceneDrawing& drawing, const View& view, const PictureSettings& settings)
         : drawing_(drawing), view_(view), settings_(settings) {}
 
-    /// The colour, linear, and alpha (1 unless the material blends) of what has that number, at (x, y) of the
-    /// canvas. open: how much of the sky is seen from there, 0 to 1. last: of this drawing alone.
+    /// The colour, linear, and alpha (1 unless the material blends) of the element with that number, at (x,
+    /// y) of the canvas. open: the visible share of the sky, 0 to 1. last: a cache for this drawing alone.
     Texel colour(std::uint32_t number, double x, double y, float open, LastFacings& last) const;
 
     /// Whether a material with holes has none at (x, y).
@@ -38,7 +38,7 @@ class Shader {
     Vec3 facing_normal(const std::array<Vec3, 3>& corners) const;
 
   private:
-    struct Spot; // a place and what is needed of it again and again
+    struct Spot; // a point and its values that are needed repeatedly
 
     Texel base_colour(const Spot& spot, bool inside) const;
     Texel textured(const Spot& spot, const Texture& texture) const;

@@ -75,7 +75,7 @@ Level halved(const Level& large, bool srgb) {
     return small;
 }
 
-/// The pixel that a coordinate in pixels falls on, inside of [0, size).
+/// The pixel at a coordinate in pixels, inside of [0, size).
 int wrapped(double x, int size, TextureWrap wrap) {
     if (wrap == TextureWrap::clamp) return static_cast<int>(std::clamp<double>(x, 0, size - 1));
     const double period = wrap == TextureWrap::mirror ? 2.0 * size : size;

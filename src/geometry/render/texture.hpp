@@ -36,9 +36,9 @@ enum class TextureWrap { repeat, clamp, mirror };
 /// Red, green, blue and alpha; colours linear.
 using Texel = std::array<float, 4>;
 
-/// Of lines and single points without a colour of their own: as far from white as from black, so that they
-/// are seen on any ground (4.2 to 1, where 3 to 1 is asked of graphics; W3C, "Web Content Accessibility
-/// Guidelines 2.1", 2018).
+/// For lines and single points without a colour of their own. It is as far from white as from black, so that
+/// it is visible on any ground. (Its contrast is 4.2 to 1; graphics need 3 to 1: W3C, "Web Content
+/// Accessibility Guidelines 2.1", 2018.)
 inline constexpr Texel loose_colour{0.16f, 0.20f, 0.28f, 1};
 
 /// How far the coordinates move from one pixel of the picture to the next, right and down.
@@ -56,9 +56,9 @@ struct Texture {
     std::array<double, 6> transform{1, 0, 0, 0, 1, 0};
 
     explicit operator bool() const { return image != nullptr; }
-    /// The mean over the footprint at (u, v), before the transform: from the two mip levels that fit the
-    /// footprint's shorter side, bilinear in each, at up to eight places along its longer side (after P.
-    /// Heckbert, "Survey of Texture Mapping", 1986). What is not finite counts as 0.
+    /// The mean over the footprint at (u, v), before the transform. It uses the two mip levels that fit the
+    /// footprint's shorter side, bilinear in each. It takes up to eight samples along the longer side (after
+    /// P. Heckbert, "Survey of Texture Mapping", 1986). Coordinates that are not finite count as 0.
     Texel sampled(double u, double v, const TextureFootprint& footprint) const;
 };
 

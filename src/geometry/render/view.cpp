@@ -17,15 +17,14 @@ bool is_shown(const Part& part, const PictureSettings& settings) {
     return !settings.shows || settings.shows(part);
 }
 
-/// [vertices] whether a vertex is seen: of faces, where the mesh has any. Isolated vertices beside them are
-/// not drawn.
+/// [vertices] whether a vertex is drawn. If the mesh has faces, isolated vertices are not.
 std::vector<std::uint8_t> drawn_vertices(const Mesh& mesh) {
     std::vector<std::uint8_t> drawn(mesh.vertex_count(), mesh.face_count() == 0);
     for (Index c = 0; c < mesh.corner_count(); ++c) drawn[mesh.vertex(c)] = 1;
     return drawn;
 }
 
-/// drawn_vertices of the parts of a scene, each found when it is first asked for.
+/// drawn_vertices of the parts of a scene, each computed at first use.
 class DrawnVertices {
   public:
     const std::vector<std::uint8_t>& of(const Part& part) {
@@ -38,7 +37,7 @@ class DrawnVertices {
     std::map<const Part*, std::vector<std::uint8_t>> drawn_;
 };
 
-/// The box of what is seen, of points as `seen_at` gives them.
+/// The box of the visible points as `seen_at` gives them.
 template <class SeenAt>
 Box seen_box(const Scene& scene, const PictureSettings& settings, DrawnVertices& all_drawn,
              SeenAt&& seen_at) {
@@ -78,10 +77,10 @@ Vec3 area_vector(const Part& part, Index face) {
     return sum;
 }
 
-/// What tells which way a scene stands.
+/// Measurements that determine the up and front axes of a scene.
 struct Stance {
     double y_base = 0, z_base = 0; ///< area at the lower end of y and z that looks straight down
-    Vec3 net;                      ///< the sum of the area vectors: zero for what is closed
+    Vec3 net;                      ///< the sum of the area vectors: zero for closed surfaces
     double area = 0;
 };
 
@@ -109,7 +108,7 @@ void add_face(const Part& part, Index face, const Box& box, Stance& stance) {
     if (-vector.z > straight * area && p.z - box.min.z < thin * size.z) stance.z_base += area;
 }
 
-/// Of a part of many faces one in so many is looked at, as it asks for shares of the surface.
+/// In a part with many faces only one in so many is measured, because only shares of the surface matter.
 constexpr std::size_t many_faces = 200000;
 
 Stance stance_of(const Scene& scene, const PictureSettings& settings, const Box& box) {
@@ -146,7 +145,8 @@ UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings, Dra
     // large.
     const bool stands_on_y = stance.y_base > 0.03 * stance.area && stance.y_base > 2 * stance.z_base;
     const bool stands_on_z = stance.z_base > 0.03 * stance.area && stance.z_base > 2 * stance.y_base;
-    // What is longest along x, as vehicles are, tells nothing by its other sides: y is up in most such files.
+    // If the scene is longest along x, like a vehicle, its other sides give no hint: y is up in most such
+    // files.
     const bool longest_z = extent.z >= extent.y && extent.z >= extent.x;
     UpAndFront out = stands_on_z || (longest_z && !stands_on_y) ? z_up : y_up;
     if (dot(stance.net, out.front) < -0.1 * stance.area) out.front = -out.front;
@@ -201,7 +201,7 @@ Box as_seen(const Box& box) {
     return {{box.min.x, -box.max.y, box.min.z}, {box.max.x, -box.min.y, box.max.z}};
 }
 
-/// Magnifies what is around the place in the middle.
+/// Magnifies the region around the middle point.
 void zoom_in(View& view, const PictureSettings& settings, int width, int height) {
     if (settings.zoom == 1) return;
     const Vec3 canvas_middle{width / 2.0, height / 2.0, 0};

@@ -5,20 +5,20 @@
 
 namespace facetmill {
 
-/// World to samples: x right, y down, z towards the viewer, 0 in the middle of what is seen. In perspective z
-/// is chosen so that planes stay planes: it grows with the inverse of the distance.
+/// World to samples: x right, y down, z towards the viewer, 0 in the middle of the visible scene. In
+/// perspective, z grows with the inverse of the distance, so that planes stay planes.
 struct View {
     Vec3 right, up, towards;
-    bool has_extent = false; ///< else what is seen is a point, or nothing, and the scale says nothing
+    bool has_extent = false; ///< else the visible scene is a point or empty, and the scale is arbitrary
     double scale = 0, x = 0, y = 0, z = 0; ///< the scene's middle goes to the canvas' middle
-    /// In perspective: the viewer's place along the axes in the world's units, how far it is from the scene's
+    /// In perspective: the viewer's position along the axes in world units, the distance to the scene's
     /// middle in samples, and where the ray straight ahead meets the canvas.
     std::optional<Vec3> eye;
     double distance = 0, ahead_x = 0, ahead_y = 0;
 
     Vec3 of(const Vec3& p) const;
-    /// Where a point of the canvas lies before perspective: x right, y down, z towards the viewer, in samples
-    /// at the depth of the scene's middle. In parallel projection the point itself.
+    /// The position of a canvas point before perspective: x right, y down, z towards the viewer, in samples
+    /// at the depth of the scene's middle. In parallel projection it is the point itself.
     Vec3 place(const Vec3& seen) const;
     /// The inverse of the distance from the viewer, up to a factor: what weights are multiplied with between
     /// points of the canvas.
