@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "cache", "cells", "stage", "stages", "pipeline", "docs", "batch", "cli"]
+LAYERS = ["base", "platform", "parallel", "options", "mesh", "geometry", "io", "report", "diff", "cache", "cells", "stage", "stages", "pipeline", "docs", "batch", "cli"]
 
 # A layer that must not include another although that stands below it.
 FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "batch": {"stages"}, "cli": {"stages"}}
@@ -21,7 +21,7 @@ FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "batch": {"stages"}, "c
 ROOMED = ("geometry", "io", "stages")
 
 # What is precompiled is included everywhere in its target, so it may include what the lowest layer there may.
-PRECOMPILED = {"precompiled.hpp": "base", "precompiled_program.hpp": "stage"}
+PRECOMPILED = {"precompiled.hpp": "parallel", "precompiled_program.hpp": "stage"}
 
 # What others may include of a room besides the header that is named after it, and why. A folder's name stands for all
 # headers in it: such a room is a box of tools, and docs/architecture.md names it as one.
@@ -34,7 +34,8 @@ PUBLIC = {
     "geometry/edit": "changes of a mesh: tools, used one by one",
     "geometry/cut": "what clip and crop have in common",
     "geometry/triangulate": "triangles of faces, for files, pictures and algorithms: tools, used one by one",
-    "geometry/clean/combine.hpp": "Boolean operations, by the machinery of the union",
+    "geometry/boolean": "unions and Boolean operations, whose steps clean shares",
+    "geometry/clean/steps.hpp": "repairs that unions end with",
     "geometry/deviation/deviation_fields.hpp": "the declared fields of a deviation, which reports show",
     "geometry/inspect/connectivity.hpp": "components of a mesh",
     "geometry/inspect/evidence.hpp": "where a property fails",
@@ -46,15 +47,17 @@ PUBLIC = {
     "geometry/render/colour_scale.hpp": "the colours of scales, for legends of pages",
     "geometry/render/srgb.hpp": "the curve of sRGB, for images that io makes smaller",
     "geometry/render/texture.hpp": "textures that io decodes",
+    "io/outputs": "files that are written all or none",
+    "io/images": "pictures and textures: tools, used one by one",
     "io/drawing/drawing_fields.hpp": "the declared fields of a drawing, which reports show",
-    "io/gltf/accessor.hpp": "where numbers stand in buffers, for cells, which read them piece by piece",
-    "io/gltf/container.hpp": "the chunks of a GLB and JSON with its places, for cells and tilesets",
-    "io/gltf/nodes.hpp": "where meshes stand, for cells",
-    "io/gltf/byte_kinds.hpp": "what the bytes of a file are spent on",
-    "io/gltf/looks.hpp": "materials as pictures draw them",
-    "io/gltf/pose.hpp": "scenes as pictures show them",
-    "io/gltf/textures.hpp": "the images of documents, for textures",
-    "io/gltf/tidy.hpp": "documents without what nothing uses, for optimize and tangents",
+    "io/gltf/document/accessor.hpp": "where numbers stand in buffers, for cells, which read them piece by piece",
+    "io/gltf/document/container.hpp": "the chunks of a GLB and JSON with its places, for cells and tilesets",
+    "io/gltf/document/nodes.hpp": "where meshes stand, for cells",
+    "io/gltf/contents/byte_kinds.hpp": "what the bytes of a file are spent on",
+    "io/gltf/contents/resolved_materials.hpp": "materials as pictures draw them",
+    "io/gltf/read/skinned_pose.hpp": "scenes as pictures show them",
+    "io/gltf/contents/textures.hpp": "the images of documents, for textures",
+    "io/gltf/optimize/document_optimizer.hpp": "documents without what nothing uses, for optimize and tangents",
     "io/tileset/tiles.hpp": "the files of a tileset, for cells, which write them one by one",
 }
 
@@ -67,15 +70,15 @@ LIBRARIES = {
     "meshoptimizer.h": ["src/io/gltf/"],
     "CGAL": ["src/geometry/cgal/"],
     "boost": ["src/geometry/cgal/"],
-    "gmpxx.h": ["src/base/exact_integer.hpp"],
+    "gmpxx.h": ["src/base/math/exact_integer.hpp"],
     "OpenMesh": ["src/geometry/openmesh/"],
-    "nettle": ["src/base/"],
+    "nettle": ["src/base/", "src/platform/"],
     "zlib.h": ["src/io/"],
     "zstd.h": ["src/io/packing.cpp"],
     "expat.h": ["src/io/threemf/xml.cpp"],
-    "png.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
-    "jpeglib.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
-    "webp": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
+    "png.h": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
+    "jpeglib.h": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
+    "webp": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
 }
 
 # Libraries that are met anywhere, and folders of the system's headers.
@@ -167,7 +170,7 @@ class Types:
 
 
 def layer_of(name):
-    """Of src/base/vec.hpp: base."""
+    """Of src/base/math/vec.hpp: base."""
     parts = name.split("/")
     return PRECOMPILED.get(parts[1]) if len(parts) == 2 else parts[1]
 

@@ -8,10 +8,10 @@ import unittest
 import check_layers
 
 FILES = {
-    "src/precompiled.hpp": '#include "base/vec.hpp"\n#include <vector>\n',
+    "src/precompiled.hpp": '#include "base/math/vec.hpp"\n#include <vector>\n',
     "src/precompiled_program.hpp": '#include "stage/stage.hpp"\n',
-    "src/base/vec.hpp": "namespace facetmill { struct Vec { int x; }; }\n",
-    "src/mesh/mesh.hpp": '#include "base/vec.hpp"\nnamespace facetmill {\nstruct Mesh {\n    Vec at;\n};\n}\n',
+    "src/base/math/vec.hpp": "namespace facetmill { struct Vec { int x; }; }\n",
+    "src/mesh/mesh.hpp": '#include "base/math/vec.hpp"\nnamespace facetmill {\nstruct Mesh {\n    Vec at;\n};\n}\n',
     "src/geometry/clip/clip.hpp": '#include "mesh/mesh.hpp"\nnamespace facetmill {\nMesh clip(const Mesh&);\n}\n',
     "src/geometry/clip/walls.hpp": "namespace facetmill {\ntemplate <class T>\nclass Walls {\n};\nstruct Mesh2 {};\n}\n",
     "src/geometry/clip/clip.cpp": '#include "geometry/clip/clip.hpp"\n#include "geometry/clip/walls.hpp"\n',
@@ -24,7 +24,7 @@ FILES = {
     "src/stages/clip/run.cpp": '#include "geometry/clip/clip.hpp"\n#include "stage/stage.hpp"\n',
     "src/stages/clip/clip.hpp": "// nothing\n",
     "src/pipeline/plan.cpp": '#include "stage/stage.hpp"\n',
-    "tests/base/vec_test.cpp": "",
+    "tests/base/math/vec_test.cpp": "",
     "tests/mesh/mesh_test.cpp": "",
     "tests/geometry/clip/clip_test.cpp": '#include "geometry/clip/walls.hpp"\n',
     "tests/geometry/clip/walls_thin_test.cpp": "",
@@ -75,7 +75,7 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(self.problems(), [])
 
     def test_layers(self):
-        self.adds("src/base/vec.hpp", '#include "mesh/mesh.hpp"\n', "mesh/ stands above it")
+        self.adds("src/base/math/vec.hpp", '#include "mesh/mesh.hpp"\n', "mesh/ stands above it")
         self.adds("src/mesh/mesh.hpp", '  #  include <stage/stage.hpp>\n', "stage/ stands above it")
         self.adds("src/mesh/part.inl", '#include "stage/stage.hpp"\n', "stage/ stands above it")
         self.adds("src/mesh/part.ipp", '#include "stage/stage.hpp"\n', "stage/ stands above it")
@@ -121,7 +121,7 @@ class CheckLayers(unittest.TestCase):
                      "struct facetmill::Mesh2;\n",
                      "namespace facetmill {\nvoid f(const struct Mesh2& of);\n}\n"):
             self.adds("src/geometry/crop/crop.hpp", text, said)
-        self.adds("src/base/vec.hpp", "namespace facetmill { struct Mesh; }\n", said)
+        self.adds("src/base/math/vec.hpp", "namespace facetmill { struct Mesh; }\n", said)
         self.assertEqual(self.problems(files={  # of another namespace, within a type, in a comment or a literal, at home
             "src/geometry/clip/more.hpp": "namespace facetmill { struct Mesh2; }\n",
             "src/geometry/crop/more.hpp": "namespace other { struct Mesh2; }\nnamespace facetmill {\n"

@@ -8,7 +8,7 @@
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/simplify/simplify.hpp"
 #include "io/codec.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 // Probes of a large mesh: closest points, inside or outside, segments, and the tree that finds them; beside
 // CGAL.
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/probe/probe.hpp"
 #include "support/cgal_surface.hpp"

@@ -1,7 +1,7 @@
 #define CGAL_LINKED_WITH_TBB
 #include "support/cgal_surface.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_tree.h>

@@ -1,6 +1,6 @@
 #include "base/error.hpp"
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ std::string sha256(std::span<const std::byte> bytes) {
     const bool tells = bytes.size() > piece; // it takes long
     Sha256 sum;
     for (std::size_t at = 0; at < bytes.size(); at += piece) {
-        if (tells) Share::tell(static_cast<double>(at) / static_cast<double>(bytes.size()));
+        if (tells) ProgressScope::report(static_cast<double>(at) / static_cast<double>(bytes.size()));
         sum.add(bytes.subspan(at, std::min(piece, bytes.size() - at)));
     }
     return sum.digest();

@@ -1,6 +1,6 @@
 #include "base/json.hpp"
 
-#include "base/quick_json.hpp"
+#include "base/fast_json.hpp"
 
 template class nlohmann::basic_json<nlohmann::ordered_map>;
 template class std::vector<facetmill::Json>;
@@ -8,7 +8,7 @@ template class std::vector<facetmill::Json>;
 namespace facetmill {
 
 Json parse_json(std::string_view text, Broken broken) {
-    if (auto read = quick_json(text)) return *std::move(read);
+    if (auto read = fast_json(text)) return *std::move(read);
     const char *const begin = text.data(), *const end = begin + text.size();
     // Of a broken text nothing is made: the library would take the square of the number of members first.
     const bool whole = Json::accept(begin, end);

@@ -1,7 +1,7 @@
 // What the assets of a batch are.
 
-#include "base/glob.hpp"
-#include "base/words.hpp"
+#include "base/text/glob.hpp"
+#include "base/text/words.hpp"
 #include "batch/batch.hpp"
 #include "batch/table.hpp"
 #include "io/bytes.hpp"

@@ -2,7 +2,7 @@
 // Many assets through one pipeline in one process: what the assets are, a run of its own for each, with all
 // of them on shared threads, what an earlier batch has done already, and one summary.
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 #include "pipeline/run.hpp"
 
 #include <map>
@@ -129,8 +129,8 @@ Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, E
 /// What jobs that run at a time may take: what was asked for, else (0) three quarters of what is there.
 std::uint64_t memory_for_jobs(std::uint64_t asked);
 
-/// The graver of two exit codes: 70, 2, 4, 7, 5, 6, 3, 1, 0.
-int graver(int a, int b);
+/// The worse_exit_code of two exit codes: 70, 2, 4, 7, 5, 6, 3, 1, 0.
+int worse_exit_code(int a, int b);
 
 /// The assets in the order of a summary: the gravest failures first, then those that were not run, then
 /// warnings.

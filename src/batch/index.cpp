@@ -1,8 +1,8 @@
 // What a batch did, as a page and as Markdown.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/short_names.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/short_names.hpp"
 #include "batch/words.hpp"
 #include "report/form.hpp"
 #include "report/html_parts.hpp"

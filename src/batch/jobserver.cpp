@@ -1,6 +1,6 @@
 #include "batch/jobserver.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 
 #include <cerrno>
 #include <fcntl.h>

@@ -3,7 +3,7 @@
 #include "base/hash.hpp"
 #include "base/json.hpp"
 #include "io/bytes.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 
 #include <algorithm>
 #include <cerrno>

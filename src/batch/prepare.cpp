@@ -1,14 +1,14 @@
 // Everything about a batch that is known before it runs: plans, files, memory.
 
-#include "base/build_id.hpp"
 #include "base/hash.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "batch/batch.hpp"
 #include "batch/journal.hpp"
-#include "io/output_files.hpp"
+#include "io/outputs/output_files.hpp"
 #include "io/packing.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/rehearsal.hpp"
+#include "platform/build_id.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

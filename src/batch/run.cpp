@@ -1,11 +1,8 @@
 // A batch from its planned assets to its summary.
 
-#include "base/cores.hpp"
 #include "base/hash.hpp"
-#include "base/memory.hpp"
-#include "base/parallel.hpp"
+#include "base/out_of_memory.hpp"
 #include "base/stopwatch.hpp"
-#include "base/want_of_memory.hpp"
 #include "batch/batch.hpp"
 #include "batch/interrupts.hpp"
 #include "batch/jobserver.hpp"
@@ -13,7 +10,10 @@
 #include "batch/pool.hpp"
 #include "batch/reach.hpp"
 #include "io/bytes.hpp"
-#include "io/output_files.hpp"
+#include "io/outputs/output_files.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
+#include "platform/cores.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -290,7 +290,7 @@ class BatchRun {
     void warn(std::optional<Diagnostic> warning) {
         if (!warning || is_allowed(*warning, settings_.allowed)) return;
         if (auto error = pipeline::strict_failure(*warning, settings_.strict)) {
-            summary_.exit_code = graver(summary_.exit_code, static_cast<int>(ErrorKind::check));
+            summary_.exit_code = worse_exit_code(summary_.exit_code, static_cast<int>(ErrorKind::check));
             summary_.errors.push_back(std::move(*error));
         } else {
             summary_.warnings.push_back(std::move(*warning));
@@ -302,7 +302,7 @@ class BatchRun {
         if (done) warn(journal_.add(std::move(*done)));
         summary_.outcomes[index] = std::move(out);
         started_[index] = false;
-        summary_.exit_code = graver(summary_.exit_code, summary_.outcomes[index].exit_code);
+        summary_.exit_code = worse_exit_code(summary_.exit_code, summary_.outcomes[index].exit_code);
         summary_.seconds = watch_.seconds();
         if (listener_.on_finished)
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);

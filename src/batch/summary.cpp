@@ -1,9 +1,9 @@
 // What a batch did, as text and JUnit.
 
-#include "base/markup.hpp"
-#include "base/once_each.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/ordered_set.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "batch/batch.hpp"
 #include "batch/words.hpp"
 
@@ -44,7 +44,7 @@ enum class BatchForm { report, terminal };
 
 /// The ids of its errors, each once: "E-STRICT, E-EMPTY".
 std::string ids_of(const std::vector<Diagnostic>& errors) {
-    OnceEach<std::string> ids;
+    OrderedSet<std::string> ids;
     for (const auto& error : errors) ids.add(error.id);
     return fmt::format("{}", fmt::join(ids.all(), ", "));
 }
@@ -86,7 +86,7 @@ std::string totals(const Summary& summary, BatchForm form) {
 
 } // namespace
 
-int graver(int a, int b) { return gravity(a) < gravity(b) ? b : a; }
+int worse_exit_code(int a, int b) { return gravity(a) < gravity(b) ? b : a; }
 
 std::vector<std::size_t> worst_first(const Summary& summary) {
     std::vector<std::size_t> order(summary.assets.size());

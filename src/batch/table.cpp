@@ -1,7 +1,7 @@
 #include "batch/table.hpp"
 
 #include "base/error.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 

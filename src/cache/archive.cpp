@@ -1,6 +1,6 @@
 #include "cache/archive.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 
 #include <algorithm>
 

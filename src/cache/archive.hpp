@@ -3,7 +3,7 @@
 // ways. Counts that are read are compared with the bytes that are left before anything is made of them.
 
 #include "base/json.hpp"
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "io/bytes.hpp"
 #include "mesh/attribute.hpp"
 

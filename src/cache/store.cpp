@@ -1,10 +1,10 @@
 #include "cache/store.hpp"
 
 #include "base/hash.hpp"
-#include "base/nearest_there.hpp"
-#include "base/readable_numbers.hpp"
-#include "io/clean_up.hpp"
-#include "io/output_files.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "io/outputs/clean_up.hpp"
+#include "io/outputs/output_files.hpp"
+#include "platform/nearest_existing.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -355,14 +355,14 @@ void Store::took(std::size_t bytes, double seconds) {
 
 std::uint64_t Store::limit(std::uint64_t bytes) const {
     if (settings_.max_share >= 1) return settings_.max_bytes;
-    const auto space = free_space(nearest_there(settings_.folder));
+    const auto space = free_space(nearest_existing(settings_.folder));
     if (!space) return settings_.max_bytes;
     const double share = settings_.max_share * static_cast<double>(*space + bytes);
     return std::min(settings_.max_bytes, static_cast<std::uint64_t>(share));
 }
 
 std::string Store::hindrance() const {
-    const fs::path there = nearest_there(settings_.folder);
+    const fs::path there = nearest_existing(settings_.folder);
     return ::access(there.c_str(), W_OK | X_OK) == 0
                ? ""
                : fmt::format("'{}': {}", there.string(), std::strerror(errno));

@@ -1,9 +1,9 @@
 #include "cli/arguments.hpp"
 
 #include "base/error.hpp"
-#include "base/numbers.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

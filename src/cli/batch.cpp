@@ -1,11 +1,11 @@
 // facetmill batch: one pipeline over many assets, in one process.
 
-#include "base/memory.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
-#include "cli/few_of_a_kind.hpp"
-#include "io/outputs.hpp"
+#include "cli/warning_limiter.hpp"
+#include "io/outputs/outputs.hpp"
+#include "parallel/memory.hpp"
 #include "report/form.hpp"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ class BatchBar {
 
 /// What is told of an asset when it has ended, all at once.
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Console& console) {
-    FewOfAKind few(console);
+    WarningLimiter few(console);
     if (!out.kept)
         for (const auto& warning : out.warnings) few.tell(warning);
     for (const auto& error : out.errors) few.tell(error);
@@ -108,7 +108,7 @@ void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Cons
                    {"seconds", out.seconds}});
 }
 
-void write_summary(const batch::Summary& summary, const PipelineOptions& options, const Places& places,
+void write_summary(const batch::Summary& summary, const PipelineOptions& options, const Folders& places,
                    const Console& console) {
     const auto write = [&](const std::string& path, const std::string& text) {
         io::write_now(places.output(path), std::as_bytes(std::span(text)));
@@ -119,7 +119,7 @@ void write_summary(const batch::Summary& summary, const PipelineOptions& options
 }
 
 /// Tells the summary and writes it.
-void tell_summary(const batch::Summary& summary, const PipelineOptions& options, const Places& places,
+void tell_summary(const batch::Summary& summary, const PipelineOptions& options, const Folders& places,
                   const Console& console) {
     for (const auto& warning : summary.warnings) console.diagnostic(warning);
     for (const auto& error : summary.errors) console.diagnostic(error);
@@ -132,7 +132,7 @@ void tell_summary(const batch::Summary& summary, const PipelineOptions& options,
     write_summary(summary, options, places, console);
 }
 
-batch::Listener listener_for(const PipelineOptions& options, const Places& places, const Console& console,
+batch::Listener listener_for(const PipelineOptions& options, const Folders& places, const Console& console,
                              const std::shared_ptr<BatchBar>& bar) {
     batch::Listener listener;
     listener.on_finished = [&console, bar](const batch::Asset& asset, const batch::Outcome& out,
@@ -160,7 +160,7 @@ batch::Listener listener_for(const PipelineOptions& options, const Places& place
 }
 
 /// What the batch is to do, but for how an asset is planned.
-batch::Settings batch_settings(const BatchOptions& options, const CommandLine& line, const Places& places) {
+batch::Settings batch_settings(const BatchOptions& options, const CommandLine& line, const Folders& places) {
     batch::Settings settings;
     settings.jobs = options.common.threads;
     settings.memory = memory_bytes(options.memory, line);

@@ -1,7 +1,7 @@
 // facetmill cache: what is in the cache of results, and how it gets smaller.
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "cache/place.hpp"
 #include "cache/store.hpp"
 #include "cli/command.hpp"

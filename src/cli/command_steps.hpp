@@ -24,7 +24,7 @@ class CommandSteps {
   private:
     int number_ = 0, count_;
     std::unique_ptr<Progress> progress_;
-    Share share_;
+    ProgressScope share_;
 };
 
 } // namespace facetmill::cli

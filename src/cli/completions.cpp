@@ -1,7 +1,7 @@
 // facetmill completions: what a shell offers while a command is typed, from the declarations.
 
 #include "base/message_ids.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "cli/command.hpp"
 #include "cli/completion_scripts.hpp"
 #include "cli/topics.hpp"

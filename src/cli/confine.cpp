@@ -1,10 +1,10 @@
 #include "cli/confine.hpp"
 
-#include "base/glob.hpp"
+#include "base/text/glob.hpp"
 #include "cli/arguments.hpp"
-#include "io/early_folders.hpp"
-#include "io/ktx_workers.hpp"
-#include "io/output_files.hpp"
+#include "io/images/ktx_workers.hpp"
+#include "io/outputs/early_folders.hpp"
+#include "io/outputs/output_files.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ void allow_output(AllowedFiles& allowed, const fs::path& output) {
 namespace {
 
 /// What is known only at run time: a text with an expression that has no value yet.
-void allow_deferred(AllowedFiles& allowed, const Value& value, const Places& places) {
+void allow_deferred(AllowedFiles& allowed, const Value& value, const Folders& places) {
     for (const auto& item : value.items) allow_deferred(allowed, item, places);
     for (const auto& entry : value.entries) allow_deferred(allowed, entry.value, places);
     if (!value.is_scalar() || !value.deferred) return;
@@ -64,7 +64,7 @@ void allow_deferred(AllowedFiles& allowed, const Value& value, const Places& pla
     allow_output(allowed, places.output(known));
 }
 
-void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Places& places) {
+void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Folders& places) {
     for (const auto& step : steps) {
         if (step.stage && step.stage->files) {
             allow_deferred(allowed, step.given, places);

@@ -1,10 +1,10 @@
 #pragma once
-// The sandbox of a run: what of its plan says which files it needs. See base/sandbox.hpp.
+// The sandbox of a run: what of its plan says which files it needs. See platform/sandbox.hpp.
 
-#include "base/sandbox.hpp"
 #include "cli/console.hpp"
 #include "io/codec.hpp"
 #include "pipeline/plan.hpp"
+#include "platform/sandbox.hpp"
 
 namespace facetmill::cli {
 

@@ -1,7 +1,7 @@
 #include "cli/console.hpp"
 
-#include "base/readable_numbers.hpp"
 #include "base/stopwatch.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "cli/command.hpp"
 #include "cli/pipe_hints.hpp"
 
@@ -158,7 +158,7 @@ std::string in_seconds(double seconds) {
 
 } // namespace
 
-std::string how_far(double seconds, const Told& last) {
+std::string how_far(double seconds, const PrintedMessage& last) {
     constexpr double long_enough = 1; // what is over sooner needs no number
     if (seconds < long_enough) return {};
     if (last.share <= 0 || last.share > 1 || last.seconds <= 0) return ", " + in_seconds(seconds);

@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "base/markup.hpp"
 #include "base/progress.hpp"
+#include "base/text/markup.hpp"
 
 #include <memory>
 #include <string>
@@ -19,13 +19,13 @@ void print(std::string_view text);
 void show(std::string_view text);
 
 /// The share of a stage that was done when it was told last (0: it was not), seconds after the stage began.
-struct Told {
+struct PrintedMessage {
     double share = 0, seconds = 0;
 };
 
 /// Behind the name of a stage that has run for some seconds: " 42 %, about 12 s left", ", 12 s" where no
 /// share was told; nothing in its first second.
-std::string how_far(double seconds, const Told& last);
+std::string how_far(double seconds, const PrintedMessage& last);
 
 /// What goes to standard error.
 class Console {

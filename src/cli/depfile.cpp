@@ -1,7 +1,7 @@
 #include "cli/depfile.hpp"
 
-#include "base/once_each.hpp"
-#include "io/outputs.hpp"
+#include "base/ordered_set.hpp"
+#include "io/outputs/outputs.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -50,7 +50,7 @@ class Paths {
     const std::vector<std::string>& all() const { return once_.all(); }
 
   private:
-    OnceEach<std::string> once_;
+    OrderedSet<std::string> once_;
 };
 
 /// The folder whose time changes when the file appears.

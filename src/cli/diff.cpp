@@ -1,11 +1,11 @@
 // facetmill diff: two mesh files side by side, or two folders of them.
 
-#include "base/markup.hpp"
-#include "base/parallel.hpp"
+#include "base/text/markup.hpp"
 #include "cli/command.hpp"
 #include "cli/command_steps.hpp"
 #include "cli/diff_files.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
+#include "parallel/parallel.hpp"
 #include "stage/options/convention.hpp"
 
 #include <filesystem>

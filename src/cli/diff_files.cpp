@@ -86,7 +86,7 @@ ComparedFiles compared_files(const DiffOptions& options, const std::string& name
     report::Comparison notes;
     ComparedFiles out;
     Scene &a = out.a, &b = out.b;
-    ShareOfSteps steps({2, 2, options.settings.deviation.certify ? 50.0 : 20.0});
+    ProgressSteps steps({2, 2, options.settings.deviation.certify ? 50.0 : 20.0});
     a = read(name_a, true, options, notes, console);
     steps.next();
     b = read(name_b, false, options, notes, console);

@@ -5,7 +5,7 @@
 #include "cli/diff_files.hpp"
 #include "diff/folders.hpp"
 #include "io/codec.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "report/scene_picture.hpp"
 
 #include <algorithm>
@@ -117,7 +117,7 @@ int diff_of_folders(const DiffOptions& options, const CommandLine& line, const C
     for (const auto& paths : pairs) {
         steps.next(paths.path());
         all.pairs.push_back(diff.pair_of(paths));
-        code = batch::graver(code, all.pairs.back().exit_code);
+        code = batch::worse_exit_code(code, all.pairs.back().exit_code);
     }
     steps.done();
     if (options.json)

@@ -1,7 +1,7 @@
 // facetmill docs: the manual, from the executable alone.
 
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "cli/command.hpp"
 #include "cli/topics.hpp"
 #include "docs/man_markdown.hpp"

@@ -1,8 +1,8 @@
 #include "cli/exhaustion.hpp"
 
 #include "base/error.hpp"
-#include "base/want_of_memory.hpp"
-#include "io/clean_up.hpp"
+#include "base/out_of_memory.hpp"
+#include "io/outputs/clean_up.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -37,7 +37,7 @@ std::terminate_handler usual_end = nullptr;
     try {
         if (const auto why = std::current_exception()) std::rethrow_exception(why);
     } catch (const std::exception& e) {
-        if (is_want_of_memory(e) || is_want_of_threads(e)) end_for_memory();
+        if (is_out_of_memory(e) || is_want_of_threads(e)) end_for_memory();
     } catch (...) {
     }
     if (usual_end) usual_end();

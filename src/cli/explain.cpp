@@ -1,6 +1,6 @@
 // facetmill explain: what the id of an error or warning means, and what to do.
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "cli/command.hpp"
 #include "docs/messages.hpp"
 

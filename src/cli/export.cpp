@@ -1,9 +1,9 @@
 // facetmill export: the runs of many assets as a workflow of Ninja, Make or Snakemake.
 
-#include "base/cores.hpp"
-#include "cells/kept_partition.hpp"
+#include "cells/partition/kept_partition.hpp"
 #include "cli/assets.hpp"
 #include "cli/workflow.hpp"
+#include "platform/cores.hpp"
 
 #include <fmt/format.h>
 

@@ -1,18 +1,18 @@
 // facetmill info: the properties of mesh files.
 
-#include "base/markup.hpp"
-#include "base/parallel.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "cli/command.hpp"
 #include "cli/command_steps.hpp"
 #include "cli/confine.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
-#include "io/gltf/looks.hpp"
-#include "io/gltf/pose.hpp"
-#include "io/outputs.hpp"
-#include "io/png.hpp"
+#include "io/gltf/contents/resolved_materials.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
+#include "io/images/png.hpp"
+#include "io/outputs/outputs.hpp"
+#include "parallel/parallel.hpp"
 #include "report/contents.hpp"
 #include "report/render.hpp"
 
@@ -190,8 +190,8 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
     settings.height = 600;
     settings.point = 3; // as the stage does
     std::vector<Diagnostic> warnings;
-    io::LookReader reader;
-    settings.looks = reader.looks(scene, warnings);
+    io::MaterialResolver reader;
+    settings.materials = reader.materials(scene, warnings);
     for (const auto& warning : warnings) console.diagnostic(warning);
     const auto posed = io::posed(scene);
     const Scene& seen = posed ? *posed : scene;
@@ -208,7 +208,7 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
 
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
                  std::vector<Picture>& pictures) {
-    ShareOfSteps steps({3, options.picture.empty() ? 0.0 : 6.0, options.self_intersections ? 24.0 : 6.0, 2});
+    ProgressSteps steps({3, options.picture.empty() ? 0.0 : 6.0, options.self_intersections ? 24.0 : 6.0, 2});
     const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
     io::ReadLog log;
     FileInfo info;

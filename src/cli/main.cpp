@@ -1,11 +1,11 @@
 // The only place that catches exceptions, and the exit codes.
 
 #include "base/error.hpp"
-#include "base/storage.hpp"
-#include "base/want_of_memory.hpp"
+#include "base/out_of_memory.hpp"
 #include "cli/command.hpp"
 #include "cli/exhaustion.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 

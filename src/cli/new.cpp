@@ -1,9 +1,9 @@
 // facetmill new: a pipeline to begin with.
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "cli/command.hpp"
 #include "docs/ready.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

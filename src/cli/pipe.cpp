@@ -1,10 +1,10 @@
 // facetmill pipe: a pipeline as a one-liner.
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 #include "cli/pipe_syntax.hpp"
 #include "cli/pipeline_options.hpp"
 #include "docs/stages.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/rebase.hpp"
 #include "stage/stage.hpp"

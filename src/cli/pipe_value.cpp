@@ -1,6 +1,6 @@
 #include "cli/pipe_value.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "options/lists.hpp"
 #include "pipeline/document.hpp"
 

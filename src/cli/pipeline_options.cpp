@@ -1,20 +1,20 @@
 #include "cli/pipeline_options.hpp"
 
+#include "base/fast_json.hpp"
 #include "base/lazy.hpp"
-#include "base/markup.hpp"
-#include "base/memory.hpp"
+#include "base/math/numbers.hpp"
 #include "base/message_ids.hpp"
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
-#include "base/quick_json.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "cli/depfile.hpp"
-#include "cli/few_of_a_kind.hpp"
+#include "cli/warning_limiter.hpp"
 #include "docs/ready.hpp"
-#include "io/output_files.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/output_files.hpp"
+#include "io/outputs/outputs.hpp"
 #include "options/byte_count.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
@@ -308,7 +308,7 @@ pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings setti
 namespace {
 
 /// The record with its outputs and reports as they are found from the working directory.
-report::RunRecord located(report::RunRecord record, const Places& places) {
+report::RunRecord located(report::RunRecord record, const Folders& places) {
     for (auto& file : record.outputs) file.path = places.output(file.path).string();
     for (auto& report : record.reports) report = places.output(report).string();
     return record;
@@ -403,7 +403,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     settings.on_kept_cells = [&](const std::string& what) { console.say(what); };
     settings.check_invariants = options.check_invariants;
     const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::inputs_of_steps(plan); });
-    FewOfAKind few(console);
+    WarningLimiter few(console);
     const auto tell = [&](const Diagnostic& d) { few.tell(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
     settings.on_stage = [&](const report::StageRecord& stage) {
@@ -446,7 +446,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
                       options.restat ? std::optional(started) : std::nullopt);
-    for (auto& stage : record.stages) discard(stage.result); // of many parts, it is large
+    for (auto& stage : record.stages) destroy(stage.result); // of many parts, it is large
     return record.exit_code;
 }
 

@@ -1,6 +1,6 @@
 // facetmill run: the pipelines in order, all planned before the first one starts.
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "cli/pipeline_options.hpp"
 #include "cli/watch.hpp"
 

@@ -1,6 +1,6 @@
 #include "cli/stage_commands.hpp"
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 #include "io/codec.hpp"
 #include "options/other_names.hpp"
 

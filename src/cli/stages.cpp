@@ -1,7 +1,7 @@
 // facetmill stages: the stages and their options, from the registry.
 
 #include "docs/stages.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "cli/command.hpp"
 #include "stage/other_names.hpp"
 

@@ -1,7 +1,7 @@
 #include "cli/watch.hpp"
 
-#include "base/glob.hpp"
-#include "io/output_files.hpp"
+#include "base/text/glob.hpp"
+#include "io/outputs/output_files.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,10 +1,10 @@
 #include "cli/workflow.hpp"
 
 #include "base/json.hpp"
-#include "base/markup.hpp"
-#include "base/once_each.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/ordered_set.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "cli/depfile.hpp"
 #include "docs/versions.hpp"
 
@@ -123,7 +123,7 @@ void check_jobs(const std::vector<Job>& jobs, CommandOf command) {
 void check_names(const std::vector<Job>& jobs, const char* engine, std::string_view odd, const char* hint) {
     for (const auto paths : {&Job::inputs, &Job::outputs}) {
         Problems problems;
-        OnceEach<std::string> refused;
+        OrderedSet<std::string> refused;
         for (const auto& job : jobs)
             for (const auto& path : job.*paths)
                 if (path.find_first_of(odd) != path.npos) refused.add(path);
@@ -175,7 +175,7 @@ std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
         }
         Job &shard = shards.back(), &job = jobs[i];
         shard.runs.push_back(std::move(job.runs.front()));
-        OnceEach<std::string> inputs;
+        OrderedSet<std::string> inputs;
         for (const auto* paths : {&shard.inputs, &job.inputs})
             for (const auto& path : *paths) inputs.add(path);
         shard.inputs = inputs.all();

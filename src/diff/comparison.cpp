@@ -11,7 +11,7 @@ namespace facetmill::report {
 namespace {
 
 void compare_properties(const Comparing& with) {
-    ShareOfSteps steps({1, 1});
+    ProgressSteps steps({1, 1});
     const Properties a = inspect(with.a);
     steps.next();
     const Properties b = inspect(with.b);
@@ -53,7 +53,7 @@ std::string differs_in(const Comparison& comparison) {
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings) {
     Comparison result;
     const Comparing with{a, b, settings, result};
-    ShareOfSteps steps({2, settings.ignored.contains("geometry") ? 0.0 : 12.0, 2});
+    ProgressSteps steps({2, settings.ignored.contains("geometry") ? 0.0 : 12.0, 2});
     compare_properties(with);
     steps.next();
     if (!settings.ignored.contains("geometry")) compare_geometry(with);

@@ -1,9 +1,9 @@
 #include "diff/folders.hpp"
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/short_names.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/short_names.hpp"
+#include "base/text/words.hpp"
 #include "diff/overview.hpp"
 #include "io/codec.hpp"
 #include "report/html_parts.hpp"

@@ -1,6 +1,6 @@
 #include "diff/lines.hpp"
 
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "diff/line_shape.hpp"
 #include "diff/sides.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"

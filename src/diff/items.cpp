@@ -1,7 +1,7 @@
 #include "diff/items.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "io/gltf/gltf.hpp"
 
 #include <algorithm>

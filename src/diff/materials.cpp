@@ -132,7 +132,7 @@ void compare_places(const Comparing& with) {
     DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
     settings.samples = settings.samples / all.size() + 1;
     settings.certify = false;
-    ShareOfSteps steps(std::vector<double>(all.size(), 1));
+    ProgressSteps steps(std::vector<double>(all.size(), 1));
     for (const Index material : all) {
         const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
         with.add(

@@ -1,8 +1,8 @@
 #include "diff/overview.hpp"
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"
 #include "report/markdown_parts.hpp"

@@ -1,9 +1,9 @@
 #include "diff/pictures.hpp"
 
-#include "base/short_names.hpp"
+#include "base/text/short_names.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "io/gltf/looks.hpp"
-#include "io/gltf/pose.hpp"
+#include "io/gltf/contents/resolved_materials.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
 #include "report/deviation_view.hpp"
 #include "report/scene_picture.hpp"
 #include "report/viewer.hpp"
@@ -13,8 +13,8 @@ namespace facetmill::report {
 namespace {
 
 std::string png_of(const Scene& scene, PictureSettings settings,
-                   const std::shared_ptr<const MaterialLooks>& looks) {
-    settings.looks = looks;
+                   const std::shared_ptr<const ResolvedMaterials>& materials) {
+    settings.materials = materials;
     return page_text(picture_of(scene, settings));
 }
 
@@ -43,8 +43,8 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     camera.seen.add(camera_of(seen_b, settings).seen);
     settings.camera = camera;
     ComparisonPictures out;
-    const auto looks_a = io::LookReader().looks(a, out.not_drawn);
-    const auto looks_b = io::LookReader().looks(b, out.not_drawn);
+    const auto looks_a = io::MaterialResolver().materials(a, out.not_drawn);
+    const auto looks_b = io::MaterialResolver().materials(b, out.not_drawn);
     out.a = png_of(seen_a, settings, looks_a);
     out.b = png_of(seen_b, settings, looks_b);
     const Surface surface_a = surface_or_points_of(seen_a, filled_surface),

@@ -17,7 +17,7 @@ struct Component {
     std::string part;
     Index face = none; ///< its first
     double area = 0, volume = 0;
-    Vec3 looks, middle; ///< sums of area vectors, and of the faces' middles by area
+    Vec3 materials, middle; ///< sums of area vectors, and of the faces' middles by area
 };
 
 void add_part(const Part& part, std::vector<Component>& components) {
@@ -38,7 +38,7 @@ void add_part(const Part& part, std::vector<Component>& components) {
         }
         const Vec3 area = area_vector(mesh, f, t) * sign;
         component.area += length(area);
-        component.looks += area;
+        component.materials += area;
         const Vec3 corners = corner_sum_at(mesh, f, place);
         component.middle += corners * (length(area) / mesh.face_size(f));
     }
@@ -52,11 +52,11 @@ std::vector<Component> components_of(const Scene& scene) {
 
 /// Volumes decide for what is closed, where the area vectors cancel; for open surfaces the sums of these.
 bool turned(const Component& a, const Component& b) {
-    const auto open = [](const Component& p) { return length(p.looks) > 1e-6 * p.area; };
+    const auto open = [](const Component& p) { return length(p.materials) > 1e-6 * p.area; };
     const auto solid = [](const Component& p) {
         return std::abs(p.volume) > 1e-12 * p.area * std::sqrt(p.area);
     };
-    if (open(a) || open(b)) return open(a) && open(b) && dot(a.looks, b.looks) < 0;
+    if (open(a) || open(b)) return open(a) && open(b) && dot(a.materials, b.materials) < 0;
     return solid(a) && solid(b) && (a.volume < 0) != (b.volume < 0);
 }
 
@@ -71,7 +71,7 @@ Component whole(const std::vector<Component>& components) {
     for (const Component& p : components) {
         sum.area += p.area;
         sum.volume += p.volume;
-        sum.looks += p.looks;
+        sum.materials += p.materials;
     }
     return sum;
 }

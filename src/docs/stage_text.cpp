@@ -1,4 +1,4 @@
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
 #include "stage/common_keys.hpp"

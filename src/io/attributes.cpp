@@ -1,8 +1,8 @@
 #include "io/attributes.hpp"
 
-#include "base/parallel.hpp"
-#include "base/unique_names.hpp"
-#include "base/words.hpp"
+#include "base/text/unique_names.hpp"
+#include "base/text/words.hpp"
+#include "parallel/parallel.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "io/bytes.hpp"
 
-#include "base/memory.hpp"
-#include "base/sandbox.hpp"
-#include "base/storage.hpp"
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/storage.hpp"
+#include "platform/sandbox.hpp"
 
 #include <algorithm>
 #include <cerrno>

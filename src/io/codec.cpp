@@ -1,10 +1,8 @@
 #include "io/codec.hpp"
 
-#include "base/memory.hpp"
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
 #include "io/not_finite.hpp"
@@ -14,6 +12,8 @@
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -249,7 +249,7 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     constexpr double memory_per_byte = 4; // as measured on large meshes: 3 to 5 in all formats
     require_memory(memory_per_byte * static_cast<double>(input.bytes().size()),
                    fmt::format("reading '{}'", input.name()), "split it, or use a machine with more memory");
-    ShareOfSteps steps({8, 1});
+    ProgressSteps steps({8, 1});
     Scene scene = codec.read(input, settings, log);
     steps.next();
     warn_of_override(input, codec, scene, settings, log);

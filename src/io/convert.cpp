@@ -1,6 +1,6 @@
 #include "io/convert.hpp"
 
-#include "base/unique_names.hpp"
+#include "base/text/unique_names.hpp"
 
 #include <utility>
 

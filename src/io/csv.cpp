@@ -1,8 +1,8 @@
 #include "io/csv.hpp"
 
-#include "base/numbers.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "io/flatten.hpp"
 
 #include "base/json.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "mesh/primitives_in_use.hpp"
 
 #include <algorithm>

@@ -84,14 +84,14 @@ void append(Bytes& bytes, std::string_view text);
 
 } // namespace facetmill::io
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill::io {
 template <class Write>
 void append_text(Bytes& bytes, std::size_t n, Write&& write) {
     constexpr std::size_t chunk = 16384;
     std::vector<std::string> texts((n + chunk - 1) / chunk);
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_chunks(
         n, [&](std::size_t begin, std::size_t end) { write(begin, end, texts[begin / chunk]); }, chunk);
     for (const auto& t : texts) append(bytes, t);

@@ -1,8 +1,8 @@
 #include "io/material_document.hpp"
 
 #include "base/hash.hpp"
-#include "base/once_each.hpp"
-#include "io/image_files.hpp"
+#include "base/ordered_set.hpp"
+#include "io/images/image_files.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -80,7 +80,7 @@ void add_textures(const Json& json, std::vector<std::size_t>& textures) {
 std::vector<std::size_t> images_of_materials(const Json& document) {
     std::vector<std::size_t> textures;
     for (const auto& material : document.at("materials")) add_textures(material, textures);
-    OnceEach<std::size_t> images;
+    OrderedSet<std::size_t> images;
     for (const std::size_t texture : textures)
         images.add(document.at("textures").at(texture).at("source").get<std::size_t>());
     return images.all();

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -121,7 +121,7 @@ Bytes unpack_all(Span bytes, Unpacker& unpacker, std::size_t most, const std::st
     std::size_t size = 0;
     for (Span in = bytes;;) {
         if (size == out.size()) out.resize(std::min(std::max<std::size_t>(size * 2, 1 << 16), limit + 1));
-        Share::tell(1 - static_cast<double>(in.size()) / static_cast<double>(bytes.size()));
+        ProgressScope::report(1 - static_cast<double>(in.size()) / static_cast<double>(bytes.size()));
         auto room = std::span(out).subspan(size);
         const auto state = unpacker.step(in, room);
         size = out.size() - room.size();

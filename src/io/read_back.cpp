@@ -1,16 +1,16 @@
 #include "io/read_back.hpp"
 
-#include "base/parallel.hpp"
+#include "base/math/random.hpp"
 #include "base/progress.hpp"
-#include "base/random.hpp"
-#include "base/storage.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/float32_ulp.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 #include <array>
@@ -453,7 +453,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
                     fmt::format("'{}' does not hold what was written: {}", file.name(), message),
                     "this is a bug in facetmill or a fault of the disk; existing outputs are unchanged");
     };
-    ShareOfSteps steps({4, 1, 5});
+    ProgressSteps steps({4, 1, 5});
     ReadLog log;
     ReadSettings how;
     how.decoded = written.decoded.get();

@@ -1,7 +1,7 @@
 #include "io/stated.hpp"
 
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/flatten.hpp"
 
 #include <fmt/format.h>

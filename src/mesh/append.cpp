@@ -1,6 +1,6 @@
-#include "base/parallel.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/wedges.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <limits>

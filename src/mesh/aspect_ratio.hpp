@@ -1,7 +1,7 @@
 #pragma once
 // How far a triangle is from one of equal sides.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "mesh/attribute.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

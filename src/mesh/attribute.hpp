@@ -17,7 +17,7 @@ enum class Domain { vertex, wedge, face };
 
 /// What the numbers mean, which decides how they are mixed.
 enum class Role {
-    generic,      ///< mixed linearly (integers: rounded; see Lineage)
+    generic,      ///< mixed linearly (integers: rounded; see Provenance)
     normal,       ///< unit vector, 3 components; mixed, then renormalised
     tangent,      ///< unit vector and a sign, 4 components; the sign is that of the first parent
     uv,           ///< 2 components

@@ -2,9 +2,9 @@
 // Items of the faces of a mesh, gathered by vertex: what edge tables and everything around a vertex are built
 // from.
 
-#include "base/parallel.hpp"
-#include "base/storage.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 #include <bit>

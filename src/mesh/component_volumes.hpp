@@ -1,8 +1,8 @@
 #pragma once
 // On which side of each component of a surface its inside is.
 
-#include "base/parallel.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

@@ -1,6 +1,6 @@
 #include "mesh/cut_memory.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "mesh/equal_meshes.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 
 #include <bit>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 // For loops over faces in order, most of whose time is waiting for the points of corners.
 
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
 #include "mesh/mesh.hpp"
 
 namespace facetmill {

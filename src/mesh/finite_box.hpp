@@ -1,8 +1,8 @@
 #pragma once
 // The box around points some of which may not be finite.
 
-#include "base/parallel.hpp"
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

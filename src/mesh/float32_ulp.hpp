@@ -1,7 +1,7 @@
 #pragma once
 // How far apart 32-bit floats are where a mesh is.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 #include <cmath>

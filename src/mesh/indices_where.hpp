@@ -1,8 +1,8 @@
 #pragma once
 // The numbers of what is wanted of many, by all threads.
 
-#include "base/parallel.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

@@ -1,6 +1,6 @@
 #include "mesh/invariants.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "mesh/mesh.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/wedges.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

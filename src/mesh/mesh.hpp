@@ -11,7 +11,7 @@
 // wedges. Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable; see
 // mesh/topology.hpp for what can be derived and mesh/invariants.hpp for what always holds.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "mesh/attribute_changes.hpp"
 
 #include <algorithm>

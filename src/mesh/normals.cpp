@@ -1,6 +1,6 @@
-#include "base/parallel.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

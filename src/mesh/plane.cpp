@@ -1,8 +1,8 @@
 #include "mesh/plane.hpp"
 
 #include "base/error.hpp"
-#include "base/exact_integer.hpp"
-#include "base/exact_sum.hpp"
+#include "base/math/exact_integer.hpp"
+#include "base/math/exact_sum.hpp"
 
 namespace facetmill {
 

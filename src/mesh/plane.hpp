@@ -1,7 +1,7 @@
 #pragma once
 // Planes, and on which side of them a point is: exactly.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 namespace facetmill {
 

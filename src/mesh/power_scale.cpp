@@ -1,7 +1,7 @@
 #include "mesh/power_scale.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/placement.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

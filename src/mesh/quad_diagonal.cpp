@@ -1,7 +1,7 @@
 // Which way quads are cut.
 #include "mesh/quad_diagonal.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,6 +1,6 @@
 #include "mesh/scene.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

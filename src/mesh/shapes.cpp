@@ -1,6 +1,6 @@
 #include "mesh/shapes.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "mesh/topology.hpp"
 
 #include <initializer_list>

@@ -1,9 +1,9 @@
 #include "mesh/surface.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "mesh/finite_box.hpp"
 #include "mesh/placement.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // Affine maps: their inverse, and how much they lengthen, for lengths in the world that are used in a part's
 // own space.
 
-#include "base/portable_math.hpp"
-#include "base/vec.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/vec.hpp"
 
 #include <optional>
 

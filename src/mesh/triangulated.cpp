@@ -1,8 +1,8 @@
 // Polygons into triangles, without new points.
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
-#include "base/storage.hpp"
+#include "base/math/predicates.hpp"
 #include "mesh/quad_diagonal.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // Vertices and wedges that go: the unused, and those at the same place.
 #include "mesh/weld.hpp"
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "mesh/lineage.hpp"
-#include "mesh/places.hpp"
+#include "mesh/position_hash.hpp"
+#include "mesh/provenance.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -209,7 +209,7 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
         constexpr std::uint32_t buckets = 1u << bucket_bits;
         const auto bucket_of = [](const HashedVertex& item) { return item.hash & (buckets - 1); };
         radix_sort(items, bucket_of, bucket_bits);
-        Share::loop_tells();
+        ProgressScope::report_next_loop();
         parallel_for(
             buckets,
             [&](std::size_t b) {

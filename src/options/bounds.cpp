@@ -1,6 +1,6 @@
 // Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
-#include "base/numbers.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
 #include "options/byte_count.hpp"
 #include "options/types.hpp"
 

@@ -1,7 +1,7 @@
 #include "options/byte_count.hpp"
 
-#include "base/numbers.hpp"
-#include "base/spelling.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/spelling.hpp"
 #include "options/types.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "options/declaration.hpp"
 
-#include "base/numbers.hpp"
-#include "base/plain_number.hpp"
-#include "base/spelling.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/plain_number.hpp"
+#include "base/text/spelling.hpp"
 #include "options/mark_at.hpp"
 #include "options/other_names.hpp"
 

@@ -1,7 +1,7 @@
 #include "options/fields.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

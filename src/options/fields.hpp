@@ -16,7 +16,7 @@
 
 #include "base/function.hpp"
 #include "base/json.hpp"
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "options/declaration.hpp"
 
 #include <array>
@@ -32,7 +32,7 @@ struct Fields;
 
 namespace fields {
 /// What a phrase on the terminal can say.
-using Told = std::variant<std::uint64_t, std::int64_t, double, std::string>;
+using Printable = std::variant<std::uint64_t, std::int64_t, double, std::string>;
 /// Looks at the object in a record, or at each item of the list; false: the record has none.
 using Each = Function<bool(const void* record, const std::function<void(const void*)>& look)>;
 } // namespace fields
@@ -60,7 +60,7 @@ struct Field {
     /// Adds the field to the object.
     Function<void(const Field&, const void* record, Json& object)> put;
     /// Its value; none: it is empty, or no number and no text.
-    Function<std::optional<facetmill::fields::Told>(const void* record)> value;
+    Function<std::optional<facetmill::fields::Printable>(const void* record)> value;
     /// Its value, as the terminal tells it; none: nothing is said of it.
     Function<std::optional<std::string>(const void* record)> phrase;
     /// Of a count: how many.
@@ -258,7 +258,7 @@ void put_value(const Field& field, const T& value, const ToJson& json, Json& obj
 
 /// What a phrase on the terminal can say of the value; none when it is empty, or no number and no text.
 template <class T>
-std::optional<Told> told_value(const T& value) {
+std::optional<Printable> told_value(const T& value) {
     if constexpr (is_optional<T>)
         return value ? told_value(*value) : std::nullopt;
     else if constexpr (std::unsigned_integral<T>)

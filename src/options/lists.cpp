@@ -1,6 +1,6 @@
 #include "options/lists.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 
 #include <algorithm>
 

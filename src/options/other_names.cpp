@@ -1,6 +1,6 @@
 #include "options/other_names.hpp"
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

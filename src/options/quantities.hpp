@@ -2,7 +2,7 @@
 // The typed quantities that options take. Each knows its spelling; lengths wait for a scene to become
 // numbers.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 #include "options/types.hpp"
 
-#include "base/numbers.hpp"
-#include "base/portable_math.hpp"
-#include "base/spelling.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/text/spelling.hpp"
 #include "options/lists.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // OptionType for it: the YAML parser, the one-liner, help, man page and schema follow.
 
 #include "base/json.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "options/quantities.hpp"
 #include "options/value.hpp"
 

@@ -1,6 +1,6 @@
 #include "options/value.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 
 #include <charconv>
 #include <fmt/format.h>

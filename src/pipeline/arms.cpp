@@ -1,5 +1,5 @@
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "pipeline/planner.hpp"
 
 #include <fmt/format.h>

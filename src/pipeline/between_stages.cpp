@@ -1,7 +1,7 @@
 #include "pipeline/between_stages.hpp"
 
 #include "base/error.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "mesh/invariants.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ void check_invariants(const Step& step, const Scene& scene) {
                     fmt::format("'{}' left a scene that breaks an invariant: {}", step.name, broken.front()));
 }
 
-void check_left(const Step& step, const Flow::Left& left, const Scene& scene) {
+void check_left(const Step& step, const SceneState::Left& left, const Scene& scene) {
     const auto same = [](const PartSurface& a, const PartSurface& b) {
         return a.name == b.name && a.faces == b.faces && same_bits(a.area, b.area);
     };

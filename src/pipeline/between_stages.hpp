@@ -1,7 +1,7 @@
 #pragma once
 // What is asked of a scene before a stage works on it and after it has.
 
-#include "pipeline/flow.hpp"
+#include "pipeline/scene_state.hpp"
 #include "stage/context.hpp"
 
 namespace facetmill::pipeline {
@@ -17,6 +17,6 @@ void require_finite(const Scene& scene);
 /// Throws bug, E-INVARIANT, where the stage broke an invariant of scenes.
 void check_invariants(const Step& step, const Scene& scene);
 /// The same where the scene is no longer what the stage before the step left, as far as that is known.
-void check_left(const Step& step, const Flow::Left& left, const Scene& scene);
+void check_left(const Step& step, const SceneState::Left& left, const Scene& scene);
 
 } // namespace facetmill::pipeline

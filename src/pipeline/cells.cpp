@@ -1,8 +1,8 @@
 #include "pipeline/cells.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "cells/face_source.hpp"
-#include "cells/hierarchy.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "cells/hierarchy/hierarchy.hpp"
+#include "cells/sources/face_source.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Which of a plan's first steps work on cells, because the mesh is larger than the memory that is given.
 
-#include "cells/cell_job.hpp"
+#include "cells/partition/cell_job.hpp"
 #include "pipeline/plan.hpp"
 
 namespace facetmill::pipeline {
@@ -28,7 +28,7 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings);
 /// stage before that makes cells anew.
 void require_jobs(const Plan& plan, const CellPlan& cells);
 
-/// A run in cells as jobs: see cells/cell_job.hpp.
+/// A run in cells as jobs: see cells/partition/cell_job.hpp.
 struct CellJobs {
     std::size_t count = 0;                              ///< of those that simplify
     std::vector<std::filesystem::path> inputs, outputs; ///< of the run

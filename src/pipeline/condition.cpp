@@ -1,5 +1,5 @@
-#include "base/numbers.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/words.hpp"
 #include "pipeline/condition_hints.hpp"
 #include "pipeline/planner.hpp"
 

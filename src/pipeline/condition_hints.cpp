@@ -1,7 +1,7 @@
 #include "pipeline/condition_hints.hpp"
 
-#include "base/numbers.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "options/other_names.hpp"
 

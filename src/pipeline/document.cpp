@@ -1,6 +1,6 @@
 #include "pipeline/document.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "pipeline/yaml_faults.hpp"
 
 #include <fmt/format.h>

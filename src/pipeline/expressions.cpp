@@ -1,6 +1,6 @@
 #include "pipeline/expressions.hpp"
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "io/packing.hpp"
 
 #include <algorithm>

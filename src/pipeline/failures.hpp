@@ -3,7 +3,7 @@
 // --strict turns into failures.
 
 #include "base/error.hpp"
-#include "base/want_of_memory.hpp"
+#include "base/out_of_memory.hpp"
 #include "pipeline/run.hpp"
 
 #include <fmt/format.h>

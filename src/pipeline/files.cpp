@@ -1,9 +1,9 @@
-#include "base/glob.hpp"
-#include "base/once_each.hpp"
-#include "base/spelling.hpp"
+#include "base/ordered_set.hpp"
+#include "base/text/glob.hpp"
+#include "base/text/spelling.hpp"
 #include "io/codec.hpp"
 #include "io/other_formats.hpp"
-#include "io/output_files.hpp"
+#include "io/outputs/output_files.hpp"
 #include "pipeline/placeholders.hpp"
 #include "pipeline/plan.hpp"
 
@@ -28,7 +28,7 @@ const Mark* find_text(const Value& value, const std::string& text) {
     return nullptr;
 }
 
-void add_files(const Step& step, const Places& places, std::vector<PlannedFile>& files) {
+void add_files(const Step& step, const Folders& places, std::vector<PlannedFile>& files) {
     if (!step.stage || !step.stage->files || !step.options) return;
     const StageFiles named = step.stage->files(step.options.get());
     const auto where = [&](const PathText& path) {
@@ -71,8 +71,8 @@ std::string nearest_file(const fs::path& path) {
     return did_you_mean(path.filename().string(), names, foreign);
 }
 
-OnceEach<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {
-    OnceEach<fs::path> paths;
+OrderedSet<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {
+    OrderedSet<fs::path> paths;
     for (const auto& file : planned_files(plan.steps, plan.places))
         if (file.written == written) paths.add(file.path);
     for (const auto& path : more) paths.add(path);
@@ -81,7 +81,7 @@ OnceEach<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs
 
 } // namespace
 
-std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places) {
+std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places) {
     std::vector<PlannedFile> files;
     for (const auto& step : steps) {
         if (step.when && step.when->known == false) continue;
@@ -96,8 +96,8 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
     return files;
 }
 
-std::vector<fs::path> asset_roots_of(const Steps& steps, const Places& places) {
-    OnceEach<fs::path> folders;
+std::vector<fs::path> asset_roots_of(const Steps& steps, const Folders& places) {
+    OrderedSet<fs::path> folders;
     for (const auto& folder : places.asset_roots) folders.add(folder);
     for (const auto& step : steps) {
         if (step.stage && step.stage->files && step.options)
@@ -302,7 +302,7 @@ std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {
 }
 
 std::vector<fs::path> planned_patterns(const Plan& plan) {
-    OnceEach<fs::path> patterns;
+    OrderedSet<fs::path> patterns;
     for (const auto& file : planned_files(plan.steps, plan.places))
         if (!file.pattern.empty()) patterns.add(file.pattern);
     return patterns.all();

@@ -1,5 +1,5 @@
-#include "io/gltf/textures.hpp"
-#include "io/image_files.hpp"
+#include "io/gltf/contents/textures.hpp"
+#include "io/images/image_files.hpp"
 #include "io/packing.hpp"
 #include "pipeline/plan.hpp"
 #include "stage/options/plane.hpp"
@@ -99,7 +99,7 @@ class Refusals {
 
 class Walk {
   public:
-    explicit Walk(const Places& places) : places_(places) {}
+    explicit Walk(const Folders& places) : places_(places) {}
     Headers headers;
 
     /// `unit` is that of the scene which enters; none: not known.
@@ -253,7 +253,7 @@ class Walk {
             "give the unit of the file (load: {unit: mm}), or use a bare number or a percentage", where));
     }
 
-    const Places& places_;
+    const Folders& places_;
     std::vector<Loaded> loaded_;
     std::set<std::string> known_; ///< paths of headers.inputs
     bool any_loaded_ = false, images_changed_ = false;

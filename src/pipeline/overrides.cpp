@@ -1,4 +1,4 @@
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "options/lists.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/planner.hpp"

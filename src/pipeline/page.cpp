@@ -3,7 +3,7 @@
 #include "cache/state.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "io/gltf/pose.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
 #include "pipeline/page_failures.hpp"
 #include "report/check_text.hpp"
 #include "report/deviation_view.hpp"
@@ -103,11 +103,11 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
     const std::pair size{vertices_in(scene), scene.face_count()};
     std::string digest = size == pictured_size_ ? cache::digest_of(scene) : std::string();
     if (!digest.empty() && digest == pictured_) return;
-    looks_.looks(scene, record_.not_drawn); // each texture is told once, and then read already
+    materials_.materials(scene, record_.not_drawn); // each texture is told once, and then read already
     PictureSettings settings = sized_for_page(1);
     const auto posed = io::posed(scene);
     settings.camera = camera_for(posed ? *posed : scene);
-    std::string shown = report::scene_picture(scene, settings, looks_);
+    std::string shown = report::scene_picture(scene, settings, materials_);
     pictured_size_ = size;
     pictured_ = std::move(digest);
     if (shown == last_picture_) return;

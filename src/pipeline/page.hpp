@@ -3,7 +3,7 @@
 
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/face_tree.hpp"
-#include "io/gltf/looks.hpp"
+#include "io/gltf/contents/resolved_materials.hpp"
 #include "pipeline/plan.hpp"
 #include "report/record.hpp"
 
@@ -50,7 +50,7 @@ class Page {
     void set_reference(std::shared_ptr<Reference> reference) { loaded_ = std::move(reference); }
 
     /// Reads textures once for all that is shown.
-    io::LookReader& looks() { return looks_; }
+    io::MaterialResolver& materials() { return materials_; }
 
     /// Of the latest picture, and of which up axis its scene is; null before the first.
     const Camera* camera() const { return camera_.seen.empty() ? nullptr : &camera_; }
@@ -94,9 +94,9 @@ class Page {
     std::optional<std::pair<std::size_t, std::size_t>> pictured_size_;
     std::string pictured_;
     Camera camera_;
-    UpAxis camera_up_{};   ///< of the scene that it is of
-    int cameras_ = 0;      ///< so far
-    io::LookReader looks_; ///< textures of the pictures, decoded once
+    UpAxis camera_up_{};             ///< of the scene that it is of
+    int cameras_ = 0;                ///< so far
+    io::MaterialResolver materials_; ///< textures of the pictures, decoded once
     std::size_t bytes_ = 0, measured_stages_ = 0, failures_shown_ = 0;
 };
 

@@ -24,9 +24,9 @@ std::size_t count_outputs(const Steps& steps) {
 
 PageView::PageView(const Steps& steps, Page& page) : viewed_(1 + count_outputs(steps)), page_(page) {}
 
-std::shared_ptr<const MaterialLooks> PageView::looks(const Scene& scene) {
+std::shared_ptr<const ResolvedMaterials> PageView::materials(const Scene& scene) {
     std::vector<Diagnostic> ignored; // a texture that cannot be drawn is no fault of the run
-    return page_.looks().looks(scene, ignored);
+    return page_.materials().materials(scene, ignored);
 }
 
 void PageView::before(const Step& step, const Scene& scene) {
@@ -34,7 +34,7 @@ void PageView::before(const Step& step, const Scene& scene) {
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     if (page_.camera()) viewed_.stand_as(*page_.camera(), page_.camera_up());
-    viewed_.add_before(scene, "as loaded", looks(scene));
+    viewed_.add_before(scene, "as loaded", materials(scene));
 }
 
 void PageView::add(const Scene& scene, const std::string& name) {
@@ -42,7 +42,7 @@ void PageView::add(const Scene& scene, const std::string& name) {
     const bool compared = from && page_.differs(name) && from->faces > 0 && from->faces <= most_to_compare;
     report::ViewedFrom seen_from;
     if (compared) seen_from = {&from->shown->tree(), from->name, from->last_cap};
-    viewed_.add_after(scene, name, looks(scene), seen_from);
+    viewed_.add_after(scene, name, materials(scene), seen_from);
     any_after_ = true;
 }
 

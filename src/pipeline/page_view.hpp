@@ -27,7 +27,7 @@ class PageView {
 
   private:
     void add(const Scene& scene, const std::string& name);
-    std::shared_ptr<const MaterialLooks> looks(const Scene& scene);
+    std::shared_ptr<const ResolvedMaterials> materials(const Scene& scene);
 
     report::ViewedScenes viewed_;
     Page& page_;

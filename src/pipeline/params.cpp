@@ -1,7 +1,7 @@
 #include "pipeline/params.hpp"
 
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 

@@ -1,9 +1,9 @@
 #include "pipeline/plan.hpp"
 
+#include "base/math/numbers.hpp"
 #include "base/message_ids.hpp"
-#include "base/numbers.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
@@ -116,7 +116,7 @@ void check_requires(const Value& document, Problems& problems) {
             fmt::format("the pipeline requires facetmill {}, this is {}", range->text, FACETMILL_VERSION));
 }
 
-/// The files of `report` and --report, as Places::output understands them; also added to files.
+/// The files of `report` and --report, as Folders::output understands them; also added to files.
 std::vector<std::string> read_reports(const Value* report, const Scope& scope, const PlanSettings& settings,
                                       std::vector<PlannedFile>& files, Problems& problems) {
     std::vector<std::string> reports;

@@ -73,7 +73,7 @@ struct PlanSettings {
     std::map<std::string, std::filesystem::path> defined_in;
     std::vector<std::pair<std::string, std::string>> sets; ///< --set stage.option=value
     bool update_baselines = false; ///< --update-baseline: stages with a baseline write it
-    Places places;
+    Folders places;
     std::filesystem::path working_directory; ///< what -D paths are relative to
     std::vector<std::string> extra_reports;  ///< --report
     std::vector<std::string> allowed;        ///< --allow: ids of warnings
@@ -91,7 +91,7 @@ struct Plan {
     Steps steps;
     std::vector<std::string> reports;
     std::vector<PlannedFile> others; ///< what is read and written besides by steps: reports, the pipeline ...
-    Places places;
+    Folders places;
     bool files_collide = false; ///< a file would be read and written, or used twice (check_collisions)
     std::vector<Diagnostic> warnings;
     std::vector<std::string> allowed; ///< ids of warnings that are neither told nor made to fail
@@ -120,9 +120,9 @@ Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problem
 
 /// The files of these steps in their order, as far as they are known (globs expanded); without those of a
 /// step that will be skipped.
-std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places);
+std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places);
 /// The folders below which what these steps load may name files, besides its own.
-std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Places& places);
+std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Folders& places);
 /// Adds E-DUPLICATE-OUTPUT and E-OVERWRITE: two writes to one path (also by case), an output
 /// that is an input, and E-DUPLICATE-INPUT: two readings of standard input.
 /// Whether there is none.

@@ -1,7 +1,7 @@
 #pragma once
 // Inside planning: from items of `stages` to steps. plan.hpp is what others include.
 
-#include "base/unique_names.hpp"
+#include "base/text/unique_names.hpp"
 #include "pipeline/expressions.hpp"
 #include "pipeline/plan.hpp"
 

@@ -1,6 +1,6 @@
 #include "pipeline/rehearsal.hpp"
 
-#include "io/output_files.hpp"
+#include "io/outputs/output_files.hpp"
 #include "pipeline/run.hpp"
 
 #include <algorithm>

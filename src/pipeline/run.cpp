@@ -1,19 +1,19 @@
 #include "pipeline/run.hpp"
 
-#include "base/memory.hpp"
-#include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "io/early_folders.hpp"
+#include "io/outputs/early_folders.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 #include "pipeline/between_stages.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
 #include "pipeline/page.hpp"
 #include "pipeline/page_view.hpp"
-#include "pipeline/reuse.hpp"
+#include "pipeline/stage_cache.hpp"
 #include "report/contents.hpp"
 #include "report/render.hpp"
 #include "report/scene_picture.hpp"
@@ -110,12 +110,12 @@ class Runner {
         for (const auto& error : headers.errors) failures_.add(error);
         if (settings_.cells.job) return run_job(watch);
         if (!settings_.commit.names_only) try_outputs(headers);
-        Flow flow;
+        SceneState flow;
         const bool small = !failures_.any() && run_on_cells(flow);
         if (small && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
             (takes_pictures_ || !plan_.reports.empty()) && fetch({}, "the inspection at the end", flow))
             failures_.guarded({}, "the inspection at the end", [&] {
-                const Share share = beside_stages("inspection at the end");
+                const ProgressScope share = beside_stages("inspection at the end");
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
                 if (takes_pictures_ || measures_) page_.at_end(flow.scene);
                 if (takes_pictures_) view_.at_end(flow.scene);
@@ -143,7 +143,7 @@ class Runner {
     }
 
     /// Makes the scene of the flow be there. False after a failure.
-    bool fetch(const Mark& where, const std::string& what, Flow& flow) {
+    bool fetch(const Mark& where, const std::string& what, SceneState& flow) {
         return flow.is_here() || failures_.guarded(where, what, [&] { reuse_.fetch(flow); });
     }
 
@@ -161,7 +161,7 @@ class Runner {
 
     /// Runs the first steps where they are to work on cells; the scene is in memory afterwards. False after a
     /// failure, and when all steps were done on cells.
-    bool run_on_cells(Flow& flow) {
+    bool run_on_cells(SceneState& flow) {
         if (!failures_.guarded({}, "the plan", [&] { on_cells_ = planned_cells(); })) return false;
         if (on_cells_.steps == 0) return true;
         if (keeps_loaded_ && !failures_.guarded({}, "the plan", [] { refuse_reference(); })) return false;
@@ -188,14 +188,14 @@ class Runner {
 
     /// A part of a run that several processes do: without outputs and reports.
     report::RunRecord run_job(const Stopwatch& watch) {
-        Flow ignored;
+        SceneState ignored;
         if (!failures_.any()) run_on_cells(ignored);
         record_cost(watch);
         if (settings_.progress) settings_.progress->done();
         return std::move(record());
     }
 
-    void open_kept(cells::Means& means) const {
+    void open_kept(cells::CellResources& means) const {
         if (settings_.cells.kept.empty()) return;
         const bool beside = means.job && !means.job->makes_cells();
         means.kept = std::make_shared<cells::CellFolder>(
@@ -234,7 +234,7 @@ class Runner {
         stage.before = brief_of_cells(cells);
         trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::always});
         const Stopwatch watch;
-        const Share share(settings_.progress);
+        const ProgressScope share(settings_.progress);
         const std::size_t checked = record().checks.size();
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
@@ -266,7 +266,7 @@ class Runner {
 
     /// Runs the steps on the scene. False when the chain ended early; the scene is then worth nothing.
     /// needed: whether the scene is looked at afterwards. first: the steps before it are done.
-    bool run_steps(const Steps& steps, Flow& flow, bool needed, std::size_t first = 0) {
+    bool run_steps(const Steps& steps, SceneState& flow, bool needed, std::size_t first = 0) {
         bool holds = true; // no check has failed so far
         for (const auto& step : std::span(steps).subspan(first)) {
             const bool judges = step.kind == Step::Kind::stage && step.stage->checks;
@@ -345,7 +345,7 @@ class Runner {
         record().stages.push_back(std::move(stage));
     }
 
-    bool run_stage(const Step& step, Flow& flow) {
+    bool run_stage(const Step& step, SceneState& flow) {
         auto stage = new_record(step);
         if (takes_pictures_ && fetch(step.where, "a picture", flow))
             failures_.guarded({}, "the 3D view", [&] { view_.before(step, flow.scene); });
@@ -359,7 +359,7 @@ class Runner {
         stage.peak_memory = peak_memory();
         if (done && takes_pictures_ && fetch(step.where, "a picture", flow))
             failures_.guarded({}, "a picture", [&] {
-                const Share share = beside_stages(fmt::format("picture after {}", step.name));
+                const ProgressScope share = beside_stages(fmt::format("picture after {}", step.name));
                 page_.after(step, flow.scene, stage, outputs);
                 show_failures(step, flow.scene, checks);
             });
@@ -373,19 +373,20 @@ class Runner {
     }
 
     /// For Markdown: how far what the stage wrote is off, and what its checks found.
-    void measure_stage(const Step& step, Flow& flow, std::size_t first_output, std::size_t first_check) {
+    void measure_stage(const Step& step, SceneState& flow, std::size_t first_output,
+                       std::size_t first_check) {
         const bool measured = page_.is_measured(step, first_output);
         const bool judged = record().checks.size() > first_check;
         if (!(measured || judged) || !fetch(step.where, "the deviation", flow)) return;
         failures_.guarded({}, "the deviation", [&] {
-            const Share share = beside_stages(fmt::format("deviation after {}", step.name));
+            const ProgressScope share = beside_stages(fmt::format("deviation after {}", step.name));
             if (measured) page_.measure(step, flow.scene, first_output);
             if (judged) show_failures(step, flow.scene, first_check);
         });
     }
 
     /// Runs the stage on the scene, and remembers what it did.
-    bool perform_stage(const Step& step, Flow& flow, report::StageRecord& stage) {
+    bool perform_stage(const Step& step, SceneState& flow, report::StageRecord& stage) {
         if (!fetch(step.where, fmt::format("'{}'", step.name), flow)) return false;
         Scene& scene = flow.scene;
         auto left = std::exchange(flow.left, std::nullopt);
@@ -394,7 +395,7 @@ class Runner {
         auto surfaces = left ? std::move(left->surfaces) : std::nullopt;
         const auto before = reuse_.before(step, flow, state_);
         const Stopwatch watch;
-        const Share share(settings_.progress);
+        const ProgressScope share(settings_.progress);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, stage.before->bounds, step.where);
             if (!step.only.patterns.empty() && !step.stage->loads)
@@ -415,9 +416,9 @@ class Runner {
     }
 
     /// Until its end, work that is not of a stage tells its share.
-    Share beside_stages(const std::string& what) const {
+    ProgressScope beside_stages(const std::string& what) const {
         if (settings_.progress) settings_.progress->beside_stages(what);
-        return Share(settings_.progress);
+        return ProgressScope(settings_.progress);
     }
 
     /// The surface that a contract on the deviation compares with.
@@ -433,7 +434,7 @@ class Runner {
         report::StageRecord none; // a branch has no record of its own
         none.name = step.name;
         const bool recorded = step.kind == Step::Kind::stage && !record().stages.empty();
-        const Share share = beside_stages(fmt::format("ensure of {}", step.name));
+        const ProgressScope share = beside_stages(fmt::format("ensure of {}", step.name));
         report::StageRecord& stage = recorded ? record().stages.back() : none;
         const auto& assertions = step.ensure->assertions;
         if (!assertions.all.empty())
@@ -446,7 +447,7 @@ class Runner {
 
     // --- branches
 
-    bool run_arms(const Step& step, Flow& flow, bool needed) {
+    bool run_arms(const Step& step, SceneState& flow, bool needed) {
         if (step.arms_of_parts) return run_part_arms(step, flow);
         std::vector<NamedScene> results;
         bool all_done = true;
@@ -454,7 +455,7 @@ class Runner {
             return false;
         for (const auto& arm : step.arms) {
             const bool moved = &arm == &step.arms.back() && (step.join || !needed);
-            Flow inside;
+            SceneState inside;
             if (!failures_.guarded(step.where, step.name, [&] {
                     if (moved)
                         inside = std::move(flow);
@@ -477,7 +478,7 @@ class Runner {
     }
 
     /// What joins is one where its documents are the same objects, which those of the cache need not be.
-    bool run_arm(const Step& step, const Arm& arm, Flow& inside) {
+    bool run_arm(const Step& step, const Arm& arm, SceneState& inside) {
         inside.without_cache |= step.join && (!inside.scene.documents.empty() || loads(*arm.steps));
         const auto reference = page_.reference();
         const bool done =
@@ -486,7 +487,7 @@ class Runner {
         return done;
     }
 
-    bool run_part_arms(const Step& step, Flow& flow) {
+    bool run_part_arms(const Step& step, SceneState& flow) {
         Scene& scene = flow.scene;
         std::vector<std::string> names;
         std::vector<std::size_t> parts;
@@ -507,7 +508,7 @@ class Runner {
         bool all_done = true;
         for (const auto& arm : arms) {
             const std::size_t p = parts[arm.part.value_or(0)];
-            Flow inside;
+            SceneState inside;
             inside.without_cache = flow.without_cache;
             inside.scene.materials = scene.materials;
             inside.scene.documents = scene.documents;
@@ -583,7 +584,7 @@ class Runner {
     void write_reports() {
         if (settings_.on_view) settings_.on_view(view_.json());
         for (const auto& path : plan_.reports) {
-            const Share share = beside_stages(path);
+            const ProgressScope share = beside_stages(path);
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
                 failures_.guarded({}, "the report", [&] {
                     write_report(plan_, path, record(), settings_.commit, view_.json());
@@ -608,7 +609,7 @@ class Runner {
     RunState state_;
     Failures failures_{state_.record, settings_, plan_.allowed};
     Trace trace_;
-    Reuse reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
+    StageCache reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
     std::set<fs::path> unwritable_; ///< folders
     CellPlan on_cells_;
     io::EarlyFolders output_folder_;

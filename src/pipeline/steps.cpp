@@ -1,4 +1,4 @@
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "pipeline/placeholders.hpp"
 #include "pipeline/planner.hpp"
 #include "stage/common_keys.hpp"

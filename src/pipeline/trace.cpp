@@ -1,8 +1,8 @@
 #include "pipeline/trace.hpp"
 
-#include "base/build_id.hpp"
 #include "cache/state.hpp"
 #include "pipeline/plan.hpp"
+#include "platform/build_id.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

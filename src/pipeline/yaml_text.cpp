@@ -1,6 +1,6 @@
 #include "pipeline/yaml_text.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "io/codec.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "report/check_text.hpp"
 
-#include "base/numbers.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 
 #include <algorithm>
 #include <cmath>

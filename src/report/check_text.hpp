@@ -1,7 +1,7 @@
 #pragma once
 // How a run and its checks went, in words, as the renderers share them.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "report/record.hpp"
 
 namespace facetmill::report {

@@ -1,6 +1,6 @@
 #include "report/deviation_view.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
 #include "report/scene_picture.hpp"
 

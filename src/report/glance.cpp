@@ -1,6 +1,6 @@
 #include "report/glance.hpp"
 
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The page of a run: its sections, in order.
 
-#include "base/markup.hpp"
-#include "base/short_names.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/short_names.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"

@@ -1,7 +1,7 @@
 // Checks on a page: what was expected and found, where it fails, and how to go on.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"

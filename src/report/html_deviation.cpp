@@ -1,7 +1,7 @@
 // How far a scene is from an earlier one, on a page.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "geometry/render/colour_scale.hpp"
 #include "geometry/render/srgb.hpp"
 #include "report/html_parts.hpp"

@@ -1,8 +1,8 @@
 // Inputs and outputs on a page: bytes and what they are spent on, digests, what reading back found.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "report/glance.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"

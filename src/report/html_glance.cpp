@@ -1,8 +1,8 @@
 // What people ask first of a run, on its page.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "report/check_text.hpp"
 #include "report/glance.hpp"
 #include "report/html_parts.hpp"

@@ -1,7 +1,7 @@
 // What was written, on a page: its shape beside that of the input, and how far it is from it.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"
 #include "report/svg.hpp"

@@ -1,6 +1,6 @@
 #include "report/html_parts.hpp"
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "report/html_stages.hpp"
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"
@@ -33,10 +33,10 @@ bool is_list_of_objects(const Json& value) {
            std::any_of(value.begin(), value.end(), [](const Json& item) { return item.is_object(); });
 }
 
-using Told = std::vector<std::pair<std::string, std::string>>;
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// What an object holds, by name; objects inside it as a.b.
-void flatten(const Json& object, const std::string& before, Told& out) {
+void flatten(const Json& object, const std::string& before, NamedTexts& out) {
     for (const auto& [name, value] : object.items()) {
         if (value.is_object())
             flatten(value, before + name + ".", out);
@@ -45,8 +45,8 @@ void flatten(const Json& object, const std::string& before, Told& out) {
     }
 }
 
-Told flattened(const Json& object) {
-    Told out;
+NamedTexts flattened(const Json& object) {
+    NamedTexts out;
     if (object.is_object()) flatten(object, "", out);
     return out;
 }
@@ -56,7 +56,7 @@ std::string list_table(const std::string& title, const Json& list) {
     if (list.size() == 1) return subtable(title, heads({"name", "value"}), value_rows(list.front()));
     constexpr std::size_t most = 50;
     std::vector<std::string> names;
-    std::vector<Told> rows;
+    std::vector<NamedTexts> rows;
     for (const Json& item : list) {
         if (rows.size() == most) break;
         rows.push_back(flattened(item));
@@ -65,7 +65,7 @@ std::string list_table(const std::string& title, const Json& list) {
     }
     std::string header, body;
     for (const auto& name : names) header += fmt::format("<th>{}</th>", escaped(name));
-    for (const Told& row : rows) {
+    for (const NamedTexts& row : rows) {
         body += "<tr>";
         for (const auto& name : names) {
             const auto at =

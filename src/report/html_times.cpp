@@ -1,7 +1,7 @@
 // Times and memory on a page, and where its numbers come from: the pipeline and its command.
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"
 

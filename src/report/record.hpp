@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "base/vec.hpp"
-#include "io/gltf/byte_kinds.hpp"
+#include "base/math/vec.hpp"
+#include "io/gltf/contents/byte_kinds.hpp"
 #include "mesh/attribute_changes.hpp"
 #include "report/views.hpp"
 

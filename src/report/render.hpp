@@ -1,7 +1,7 @@
 #pragma once
 // Renderers of a run's record.
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "report/record.hpp"
 

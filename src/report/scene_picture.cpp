@@ -1,7 +1,7 @@
 #include "report/scene_picture.hpp"
 
-#include "io/gltf/pose.hpp"
-#include "io/png.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
+#include "io/images/png.hpp"
 
 namespace facetmill::report {
 
@@ -14,9 +14,9 @@ PictureSettings page_settings() {
 
 std::string page_text(const Picture& picture) { return io::base64(io::png(picture, io::PngEffort::fast)); }
 
-std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks) {
+std::string scene_picture(const Scene& scene, PictureSettings settings, io::MaterialResolver& materials) {
     std::vector<Diagnostic> ignored;
-    settings.looks = looks.looks(scene, ignored);
+    settings.materials = materials.materials(scene, ignored);
     const auto posed = io::posed(scene);
     return page_text(picture_of(posed ? *posed : scene, settings));
 }
@@ -26,9 +26,9 @@ std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn
     small.width = 160;
     small.height = 120;
     small.point = 2;
-    io::LookReader looks;
-    looks.looks(scene, not_drawn); // once for each texture
-    return scene_picture(scene, small, looks);
+    io::MaterialResolver materials;
+    materials.materials(scene, not_drawn); // once for each texture
+    return scene_picture(scene, small, materials);
 }
 
 } // namespace facetmill::report

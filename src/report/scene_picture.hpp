@@ -2,7 +2,7 @@
 // Pictures of scenes inside pages.
 
 #include "geometry/render/render.hpp"
-#include "io/gltf/looks.hpp"
+#include "io/gltf/contents/resolved_materials.hpp"
 
 #include <string>
 
@@ -15,8 +15,8 @@ PictureSettings page_settings();
 std::string page_text(const Picture& picture);
 
 /// With the textures of its materials, a PNG in base64. A texture that cannot be drawn is left out without a
-/// word, which is for who calls (io::LookReader).
-std::string scene_picture(const Scene& scene, PictureSettings settings, io::LookReader& looks);
+/// word, which is for who calls (io::MaterialResolver).
+std::string scene_picture(const Scene& scene, PictureSettings settings, io::MaterialResolver& materials);
 
 /// One of many in an index. Textures that it does without are added to not_drawn.
 std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn);

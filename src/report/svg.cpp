@@ -1,6 +1,6 @@
 #include "report/svg.hpp"
 
-#include "base/markup.hpp"
+#include "base/text/markup.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

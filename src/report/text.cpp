@@ -1,6 +1,6 @@
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "report/check_text.hpp"
 #include "report/render.hpp"
 

@@ -1,12 +1,12 @@
 #include "report/viewer.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/preview/preview.hpp"
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/signed_distances.hpp"
-#include "io/encode_image.hpp"
-#include "io/gltf/pose.hpp"
-#include "io/png.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
+#include "io/images/encode_image.hpp"
+#include "io/images/png.hpp"
 #include "report/deviation_view.hpp"
 #include "report/viewer_data.hpp"
 #include "report/viewer_script.hpp"
@@ -106,20 +106,21 @@ void ViewedScenes::stand_as(const Camera& camera, UpAxis up) {
 }
 
 void ViewedScenes::add_before(const Scene& scene, const std::string& name,
-                              const std::shared_ptr<const MaterialLooks>& looks) {
-    auto json = packed(scene, name, looks, {});
+                              const std::shared_ptr<const ResolvedMaterials>& materials) {
+    auto json = packed(scene, name, materials, {});
     if (!json) return;
     (*json)["before"] = true;
     scenes_.push_back(std::move(*json));
 }
 
 void ViewedScenes::add_after(const Scene& scene, const std::string& name,
-                             const std::shared_ptr<const MaterialLooks>& looks, const ViewedFrom& from) {
+                             const std::shared_ptr<const ResolvedMaterials>& materials,
+                             const ViewedFrom& from) {
     if (bytes_ > most_bytes * 3 / 4 || scenes_.size() > most_scenes) {
         ++left_out_;
         return;
     }
-    auto json = packed(scene, name, looks, from);
+    auto json = packed(scene, name, materials, from);
     if (!json) return;
     (*json)["before"] = false;
     (*json)["reference"] = from.name;
@@ -135,11 +136,11 @@ void ViewedScenes::add_after(const Scene& scene, const std::string& name,
 }
 
 std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& name,
-                                         const std::shared_ptr<const MaterialLooks>& looks,
+                                         const std::shared_ptr<const ResolvedMaterials>& materials,
                                          const ViewedFrom& from) {
     const auto posed = io::posed(given);
     const Scene& scene = posed ? *posed : given;
-    const Preview preview = preview_of(scene, {faces_, looks, from.last_cap});
+    const Preview preview = preview_of(scene, {faces_, materials, from.last_cap});
     if (preview.mesh.vertex_count() == 0) return {};
     Distances distances;
     if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
@@ -162,15 +163,15 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     }
     const bool textures = preview.mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
     for (const PackedGroup& g : mesh.groups)
-        json["groups"].push_back(group(scene, g.paint, g.faces, textures, looks.get()));
+        json["groups"].push_back(group(scene, g.paint, g.faces, textures, materials.get()));
     bytes_ += json["data"].get_ref<const std::string&>().size();
     return json;
 }
 
 Json ViewedScenes::group(const Scene& scene, const PreviewPaint& paint, std::size_t count, bool textures,
-                         const MaterialLooks* looks) {
+                         const ResolvedMaterials* materials) {
     const Index material = paint.material;
-    const MaterialLook* look = looks && material < looks->size() ? &(*looks)[material] : nullptr;
+    const MaterialLook* look = materials && material < materials->size() ? &(*materials)[material] : nullptr;
     const double grey[3] = {0.72, 0.74, 0.78}; // as in pictures
     Json base = Json::array();
     for (std::size_t c = 0; c < 4; ++c)

@@ -32,19 +32,20 @@ class ViewedScenes {
     void stand_as(const Camera& camera, UpAxis up);
     /// The scene that the others are compared with, first of all.
     void add_before(const Scene& scene, const std::string& name,
-                    const std::shared_ptr<const MaterialLooks>& looks);
+                    const std::shared_ptr<const ResolvedMaterials>& materials);
     /// A scene after it; one that looks as the last, at the same place, only adds its name to that, as it
     /// does where nothing has changed. from: coloured by the signed distances of its vertices from this, too.
     void add_after(const Scene& scene, const std::string& name,
-                   const std::shared_ptr<const MaterialLooks>& looks, const ViewedFrom& from = {});
+                   const std::shared_ptr<const ResolvedMaterials>& materials, const ViewedFrom& from = {});
     /// What viewer_section() takes; null where there is nothing to be seen.
     Json json() const;
 
   private:
     std::optional<Json> packed(const Scene& scene, const std::string& name,
-                               const std::shared_ptr<const MaterialLooks>& looks, const ViewedFrom& from);
+                               const std::shared_ptr<const ResolvedMaterials>& materials,
+                               const ViewedFrom& from);
     Json group(const Scene& scene, const PreviewPaint& paint, std::size_t count, bool textures,
-               const MaterialLooks* looks);
+               const ResolvedMaterials* materials);
     Json texture(const Texture& texture, bool with_alpha);
 
     std::size_t faces_;           ///< of each scene

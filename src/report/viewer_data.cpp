@@ -1,7 +1,7 @@
 #include "report/viewer_data.hpp"
 
+#include "io/images/png.hpp"
 #include "io/packing.hpp"
-#include "io/png.hpp"
 
 #include <algorithm>
 #include <numeric>

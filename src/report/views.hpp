@@ -1,7 +1,7 @@
 #pragma once
 // What only pages show of a run: numbers beside pictures, as plain data.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "geometry/measure/shape_histograms.hpp"
 
 #include <cstdint>

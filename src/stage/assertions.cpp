@@ -1,8 +1,8 @@
 #include "stage/assertions.hpp"
 
-#include "base/numbers.hpp"
-#include "base/plain_number.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/plain_number.hpp"
+#include "base/text/words.hpp"
 #include "report/render.hpp"
 #include "stage/context.hpp"
 

@@ -1,5 +1,5 @@
 // Assertions from what people write, of stage/assertions.hpp.
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "options/lists.hpp"
 #include "options/other_names.hpp"
 #include "stage/assertions.hpp"

@@ -1,7 +1,7 @@
 #include "stage/bind_pose.hpp"
 
-#include "base/words.hpp"
-#include "io/gltf/pose.hpp"
+#include "base/text/words.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,14 +2,14 @@
 // A scene that is larger than memory on its way through the first stages of a run: cells on disk, until a
 // stage has made it small, or to the end.
 
-#include "cells/partition.hpp"
+#include "cells/partition/partition.hpp"
 #include "mesh/scene.hpp"
 #include "stage/surface_loss.hpp"
 
 namespace facetmill {
 
 struct CellFlow {
-    cells::Means means;
+    cells::CellResources means;
     std::unique_ptr<cells::Partition> partition; ///< after a load; gone when there is a scene
     std::string part;                            ///< the name of the only part
     Transform transform;                         ///< from the cells' own space to the world

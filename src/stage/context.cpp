@@ -1,10 +1,10 @@
 #include "stage/context.hpp"
 
-#include "base/glob.hpp"
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "base/text/glob.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/primitives_in_use.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/format.h>
 
@@ -68,8 +68,8 @@ bool PartFilter::selects(const Part& part, const Scene& scene) const {
     return named || !any_positive;
 }
 
-fs::path Places::input(const std::string& text) const { return placed(input_base, text); }
-fs::path Places::output(const std::string& text) const { return placed(output_base, text); }
+fs::path Folders::input(const std::string& text) const { return placed(input_base, text); }
+fs::path Folders::output(const std::string& text) const { return placed(output_base, text); }
 
 Context::Context(RunState& run, report::StageRecord& record, const PartFilter& only, Box entering,
                  const Mark& where)
@@ -82,7 +82,7 @@ void Context::for_each_part(Scene& scene, const std::function<void(Part&)>& body
     for (auto& part : scene.parts) {
         if (!selects(part, scene)) continue;
         const double faces = static_cast<double>(1 + part.mesh.face_count());
-        const Share share(done / all, (done + faces) / all);
+        const ProgressScope share(done / all, (done + faces) / all);
         body(part);
         done += faces;
         part.changed = true;

@@ -1,7 +1,7 @@
 #pragma once
 // What a stage gets besides its options and the scene: lengths resolved, warnings, attribute changes, files.
 
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "mesh/scene.hpp"
 #include "mesh/surface.hpp"
 #include "options/fields.hpp"
@@ -24,7 +24,7 @@ struct PartFilter {
 };
 
 /// Where files are looked for and put.
-struct Places {
+struct Folders {
     std::filesystem::path input_base;  ///< what a pipeline file reads is relative to it
     std::filesystem::path output_base; ///< --output-dir
     /// --asset-root: folders below which what is loaded may name files, besides its own.
@@ -36,7 +36,7 @@ struct Places {
 
 /// State of a run that outlives its stages.
 struct RunState {
-    Places places;
+    Folders places;
     io::Outputs outputs;
     report::RunRecord record;
     double load_diagonal = 0; ///< world diagonal of the scene after the last load, for "% of load"
@@ -94,9 +94,9 @@ class Context {
     void output(const std::string& path, io::Span bytes);
 
     /// The result may be another the next time, from the same scene, options and inputs: it is not stored.
-    void tell_unrepeatable() { ++run_.unrepeatable; }
+    void mark_uncacheable() { ++run_.unrepeatable; }
 
-    const Places& places() const { return run_.places; }
+    const Folders& places() const { return run_.places; }
     RunState& run() { return run_; }
     const Mark& where() const { return where_; }
     const std::string& name() const { return record_.name; }

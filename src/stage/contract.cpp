@@ -1,8 +1,8 @@
 #include "stage/contract.hpp"
 
-#include "base/numbers.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "stage/crossing_faces.hpp"

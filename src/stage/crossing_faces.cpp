@@ -1,6 +1,6 @@
 #include "stage/crossing_faces.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "stage/context.hpp"
 

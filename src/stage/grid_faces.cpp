@@ -1,6 +1,6 @@
 #include "stage/grid_faces.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 
 namespace facetmill {

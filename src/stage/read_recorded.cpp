@@ -24,7 +24,7 @@ void record_input(Context& context, const std::string& path, io::Span bytes) {
 /// With the sum of what was read, which a file that was replaced since then no longer has.
 void record_neighbour(Context& context, const io::ReadFile& file) {
     if (!file.sha256.empty()) return record_input(context, file.path.string(), file.bytes, file.sha256);
-    context.tell_unrepeatable(); // what is read now need not be what the reader saw
+    context.mark_uncacheable(); // what is read now need not be what the reader saw
     record_input(context, file.path.string(), io::Input::open(file.path).stored());
 }
 
@@ -33,7 +33,7 @@ void record_neighbour(Context& context, const io::ReadFile& file) {
 std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
                                             const io::ReadSettings& settings, const io::Codec* codec,
                                             Context& context) {
-    ShareOfSteps steps({1, 2, 8});
+    ProgressSteps steps({1, 2, 8});
     const io::Input input = io::Input::open(path);
     steps.next();
     record_input(context, input.name(), input.stored());
@@ -44,7 +44,7 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_neighbour(context, file);
     for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
-    if (log.unrepeatable || !input.is_as_opened()) context.tell_unrepeatable();
+    if (log.unrepeatable || !input.is_as_opened()) context.mark_uncacheable();
     return {std::move(scene), std::move(log)};
 }
 

@@ -1,6 +1,6 @@
 #include "stage/stage.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "stage/known_surfaces.hpp"
 
 #include <algorithm>

@@ -79,7 +79,7 @@ struct StageInfo {
     Function<StageFiles(const void* options)> files = {}; ///< may be empty
     /// What the header of a file says that this stage would add to the scene; throws as its run. May be
     /// empty.
-    Function<io::FileHeader(const void* options, const std::filesystem::path&, const Places&)> header = {};
+    Function<io::FileHeader(const void* options, const std::filesystem::path&, const Folders&)> header = {};
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
     Function<void(const void* options, const Value& given, Problems&)> verify = {};
     /// What these options ask the stage to take of the surface. May be empty.
@@ -112,7 +112,7 @@ template <class Options>
 struct StageHooks {
     StageFiles (*files)(const Options&) = nullptr;
     void (*verify)(const Options&, const Value&, Problems&) = nullptr;
-    io::FileHeader (*header)(const Options&, const std::filesystem::path&, const Places&) = nullptr;
+    io::FileHeader (*header)(const Options&, const std::filesystem::path&, const Folders&) = nullptr;
     MayLose (*may_lose)(const Options&) = nullptr;
     CrossingFacePolicy (*crossing_faces)(const Options&) = nullptr;
     bool (*compares_with_load)(const Options&) = nullptr;

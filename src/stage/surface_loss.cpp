@@ -1,9 +1,9 @@
 #include "stage/surface_loss.hpp"
 
-#include "base/parallel.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 #include "stage/context.hpp"
 
 #include <algorithm>

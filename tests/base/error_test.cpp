@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
 #include "base/error.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 
 using namespace facetmill;
 

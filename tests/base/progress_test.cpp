@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "parallel/parallel.hpp"
 #include "support/heard.hpp"
 
 #include <thread>
@@ -10,76 +10,76 @@ using namespace facetmill;
 
 TEST_CASE("shares are told to whoever listens on this thread, parts within their part", "[base]") {
     test::Heard heard;
-    Share::tell(0.5);
+    ProgressScope::report(0.5);
     CHECK(heard.shares.empty());
     {
-        const Share whole(&heard);
-        Share::tell(0.5);
+        const ProgressScope whole(&heard);
+        ProgressScope::report(0.5);
         CHECK(heard.last() == 0.5);
         {
-            const Share second(0.5, 1);
-            Share::tell(0);
+            const ProgressScope second(0.5, 1);
+            ProgressScope::report(0);
             CHECK(heard.last() == 0.5);
-            const Share half_of_it(0, 0.5);
-            Share::tell(1);
+            const ProgressScope half_of_it(0, 0.5);
+            ProgressScope::report(1);
             CHECK(heard.last() == 0.75);
         }
-        std::thread([] { Share::tell(0.1); }).join();
+        std::thread([] { ProgressScope::report(0.1); }).join();
         CHECK(heard.last() == 0.75);
-        Share::tell(1);
+        ProgressScope::report(1);
         CHECK(heard.last() == 1);
-        Share::tell(0.25);
+        ProgressScope::report(0.25);
     }
-    Share::tell(0.5);
+    ProgressScope::report(0.5);
     CHECK(heard.last() == 0.25);
 }
 
 TEST_CASE("steps have parts of a share by their lengths, rounds half of what is left", "[base]") {
     test::Heard heard;
-    const Share whole(&heard);
+    const ProgressScope whole(&heard);
     {
-        ShareOfSteps steps({1, 2, 0, 1});
-        Share::tell(0.5);
+        ProgressSteps steps({1, 2, 0, 1});
+        ProgressScope::report(0.5);
         CHECK(heard.last() == 0.125);
         steps.next();
         CHECK(heard.last() == 0.25);
         {
-            ShareOfRounds rounds;
-            Share::tell(1);
+            ProgressRounds rounds;
+            ProgressScope::report(1);
             CHECK(heard.last() == 0.5);
             rounds.next();
-            Share::tell(1);
+            ProgressScope::report(1);
             CHECK(heard.last() == 0.625);
         }
         steps.next();
         steps.next();
-        Share::tell(0);
+        ProgressScope::report(0);
         CHECK(heard.last() == 0.75);
         steps.next();
         steps.next(); // there are no more
         CHECK(heard.last() == 1);
     }
     {
-        ShareOfSteps none({});
+        ProgressSteps none({});
         none.next();
-        Share::tell(0.5);
+        ProgressScope::report(0.5);
     }
     CHECK(heard.last() == 0.5);
 }
 
 TEST_CASE("a parallel loop tells how far it is when it was asked to", "[base]") {
     test::Heard heard;
-    const Share whole(&heard);
+    const ProgressScope whole(&heard);
     const auto loop = [] {
         parallel_for(
             100,
             [](std::size_t) {
                 parallel_for(
-                    10, [](std::size_t) { Share::tell(0.123); }, 1);
+                    10, [](std::size_t) { ProgressScope::report(0.123); }, 1);
             },
             1);
     };
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     loop();
     CHECK(heard.shares.size() >= 2);
     CHECK(heard.last() == 1);

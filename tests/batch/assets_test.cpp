@@ -115,12 +115,12 @@ TEST_CASE("a row of a table is an asset with params of its own", "[batch]") {
 }
 
 TEST_CASE("the most severe exit code", "[batch]") {
-    CHECK(batch::graver(0, 1) == 1);
-    CHECK(batch::graver(70, 2) == 70);
-    CHECK(batch::graver(1, 3) == 3);
-    CHECK(batch::graver(6, 3) == 6);
-    CHECK(batch::graver(4, 5) == 4);
-    CHECK(batch::graver(7, 4) == 4);
+    CHECK(batch::worse_exit_code(0, 1) == 1);
+    CHECK(batch::worse_exit_code(70, 2) == 70);
+    CHECK(batch::worse_exit_code(1, 3) == 3);
+    CHECK(batch::worse_exit_code(6, 3) == 6);
+    CHECK(batch::worse_exit_code(4, 5) == 4);
+    CHECK(batch::worse_exit_code(7, 4) == 4);
 }
 
 TEST_CASE("an empty table of params is refused by its name", "[batch]") {

@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "batch/pool.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <chrono>

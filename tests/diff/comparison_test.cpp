@@ -257,10 +257,10 @@ TEST_CASE("materials differ by their looks and by the faces they are on", "[repo
     };
     assign(a, {0, 0, 1, 1});
     CHECK_FALSE(report::compare(a, a).differs());
-    Scene looks = a, swapped = a, reordered = a;
-    looks.materials[0].base_colour[1] = 0.5;
-    looks.materials[1].double_sided = true;
-    CHECK(different(report::compare(a, looks)) == "materials: 0 base_colour, materials: 1 double_sided");
+    Scene materials = a, swapped = a, reordered = a;
+    materials.materials[0].base_colour[1] = 0.5;
+    materials.materials[1].double_sided = true;
+    CHECK(different(report::compare(a, materials)) == "materials: 0 base_colour, materials: 1 double_sided");
     assign(swapped, {1, 1, 0, 0});
     CHECK(different(report::compare(a, swapped)) == "materials: 0 faces, materials: 1 faces");
     assign(reordered, {1, 1, 0, 0});

@@ -1,10 +1,10 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "io/codec.hpp"
 #include "io/read_back.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/failure.hpp"
 #include "support/gltf.hpp"
 #include "support/meshes.hpp"
@@ -17,7 +17,7 @@ using namespace facetmill::test;
 
 namespace {
 
-Scene scene_of(Mesh mesh, std::string name = "part") {
+Scene named_scene(Mesh mesh, std::string name = "part") {
     Scene scene;
     Part& part = scene.parts.emplace_back();
     part.name = std::move(name);
@@ -59,7 +59,7 @@ const std::vector<io::WriteSettings> ply_settings{
 TEST_CASE("PLY holds polygons and shared vertices in every encoding", "[io]") {
     for (const auto& settings : ply_settings)
         for (const Mesh& mesh : {shapes::quad_cube(), shapes::cube(), shapes::fan3(), shapes::moebius(5)}) {
-            const Trip t = trip(scene_of(mesh), "ply", settings);
+            const Trip t = trip(named_scene(mesh), "ply", settings);
             const Mesh& back = t.scene.parts.at(0).mesh;
             CHECK(back.corners == mesh.corners);
             CHECK(back.face_offsets == mesh.face_offsets);
@@ -76,14 +76,15 @@ TEST_CASE("positions beyond float32 are refused by whatever would round them", "
     for (const char* format : {"ply", "obj", "off", "stl", "gltf", "glb"}) {
         INFO(format);
         const io::Codec& codec = *io::codec_named(format);
-        const std::string told = failure([&] { codec.write(scene_of(mesh), {.title = "mesh"}); });
+        const std::string told = failure([&] { codec.write(named_scene(mesh), {.title = "mesh"}); });
         CHECK(told.starts_with("stage [E-RANGE]"));
         CHECK(told.find("float32 cannot hold, up to 1e+39") != std::string::npos);
-        CHECK(
-            failure([&] { codec.write(scene_of(small), {.title = "mesh"}); }).starts_with("stage [E-RANGE]"));
+        CHECK(failure([&] {
+                  codec.write(named_scene(small), {.title = "mesh"});
+              }).starts_with("stage [E-RANGE]"));
         if (codec.can.full_precision)
             CHECK(failure([&] {
-                      codec.write(scene_of(mesh), {.double_positions = true, .title = "mesh"});
+                      codec.write(named_scene(mesh), {.double_positions = true, .title = "mesh"});
                   }) == "nothing");
     }
 }
@@ -92,7 +93,7 @@ TEST_CASE("PLY holds positions with all their digits on request", "[io]") {
     Mesh mesh = shapes::tetrahedron();
     mesh.positions[0] = {1.0 / 3, std::nextafter(2.0, 3.0), 1e-300};
     for (const bool ascii : {false, true}) {
-        const Trip t = trip(scene_of(mesh), "ply", {.ascii = ascii, .double_positions = true});
+        const Trip t = trip(named_scene(mesh), "ply", {.ascii = ascii, .double_positions = true});
         CHECK(t.scene.parts.at(0).mesh.positions == mesh.positions);
     }
 }
@@ -114,7 +115,7 @@ TEST_CASE("PLY holds attributes of every type and domain", "[io]") {
         {"group", Domain::face, Role::index, 1, false, std::vector<std::uint32_t>{0, 1, 2, UINT32_MAX}},
     };
     for (const auto& settings : ply_settings) {
-        const Trip t = trip(scene_of(mesh), "ply", settings);
+        const Trip t = trip(named_scene(mesh), "ply", settings);
         const auto& back = t.scene.parts.at(0).mesh.attributes;
         REQUIRE(back.size() == mesh.attributes.size());
         for (const auto& a : mesh.attributes) {
@@ -131,13 +132,13 @@ TEST_CASE("PLY holds attributes of every type and domain", "[io]") {
 
 TEST_CASE("PLY keeps a surface whole over texture seams, and splits it at others", "[io]") {
     Mesh mesh = shapes::uv_cube();
-    const Trip split = trip(scene_of(mesh), "ply");
+    const Trip split = trip(named_scene(mesh), "ply");
     CHECK(split.scene.parts.at(0).mesh.vertex_count() == mesh.wedge_count());
     CHECK(changes(split.written) == "vertex vertices recomputed: 8 vertices became 24: PLY has one set of "
                                     "attributes at a vertex, so seams split\n");
     mesh.drop("NORMAL", Domain::wedge);
     for (const auto& settings : ply_settings) {
-        const Trip whole = trip(scene_of(mesh), "ply", settings);
+        const Trip whole = trip(named_scene(mesh), "ply", settings);
         const Mesh& back = whole.scene.parts.at(0).mesh;
         CHECK(back.vertex_count() == 8);
         CHECK(changes(whole.written).empty());
@@ -160,27 +161,27 @@ TEST_CASE("PLY holds a face of many corners and a cloud of points", "[io]") {
     add_face(disc, rim);
     cloud.positions = disc.positions;
     for (const auto& settings : ply_settings) {
-        CHECK(trip(scene_of(disc), "ply", settings).scene.parts.at(0).mesh.corners == disc.corners);
-        CHECK(trip(scene_of(cloud), "ply", settings).scene.parts.at(0).mesh.vertex_count() == 300);
+        CHECK(trip(named_scene(disc), "ply", settings).scene.parts.at(0).mesh.corners == disc.corners);
+        CHECK(trip(named_scene(cloud), "ply", settings).scene.parts.at(0).mesh.vertex_count() == 300);
     }
 }
 
 TEST_CASE("STL holds triangles, welded again on reading", "[io]") {
     for (const bool ascii : {false, true}) {
-        const Trip t = trip(scene_of(shapes::icosphere(1)), "stl", {.ascii = ascii});
+        const Trip t = trip(named_scene(shapes::icosphere(1)), "stl", {.ascii = ascii});
         CHECK(t.scene.parts.at(0).mesh.vertex_count() == shapes::icosphere(1).vertex_count());
-        const Trip quads = trip(scene_of(shapes::quad_cube()), "stl", {.ascii = ascii});
+        const Trip quads = trip(named_scene(shapes::quad_cube()), "stl", {.ascii = ascii});
         CHECK(quads.scene.face_count() == 12);
         CHECK(changes(quads.written) == "face polygons recomputed: STL holds triangles: cut into them\n");
     }
-    CHECK(changes(trip(scene_of(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
+    CHECK(changes(trip(named_scene(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
           std::string::npos);
 }
 
 TEST_CASE("a binary STL of many triangles is welded the same by any number of threads", "[io]") {
     Mesh mesh = shapes::icosphere(5);
     for (Vec3& p : mesh.positions) p = {p.x, p.y, std::abs(p.z) < 0.01 ? -0.0 : p.z};
-    io::Written written = io::codec_named("stl")->write(scene_of(mesh), {});
+    io::Written written = io::codec_named("stl")->write(named_scene(mesh), {});
     io::Bytes& bytes = written.files.front().bytes;
     const std::size_t faces = mesh.face_count(), first_zero = [&] {
         std::size_t c = 0;
@@ -215,7 +216,7 @@ TEST_CASE("a binary STL of many triangles is welded the same by any number of th
 }
 
 TEST_CASE("parts are placed in the world, and are solids in STL text and objects in OBJ", "[io]") {
-    Scene scene = scene_of(shapes::cube(), "one");
+    Scene scene = named_scene(shapes::cube(), "one");
     scene.parts.push_back(scene.parts[0]);
     scene.parts[1].name = "the other";
     scene.parts[1].transform.m[0][3] = 5;
@@ -234,7 +235,7 @@ TEST_CASE("parts are placed in the world, and are solids in STL text and objects
 }
 
 TEST_CASE("OBJ holds seams, polygons, groups and materials", "[io]") {
-    Scene scene = scene_of(shapes::uv_cube());
+    Scene scene = named_scene(shapes::uv_cube());
     Mesh& mesh = scene.parts[0].mesh;
     scene.materials.resize(2);
     scene.materials[0].name = "red";
@@ -281,7 +282,7 @@ TEST_CASE("OBJ holds seams, polygons, groups and materials", "[io]") {
 }
 
 TEST_CASE("PLY and OFF tell that materials have colours, which they do not hold", "[io]") {
-    Scene scene = scene_of(shapes::cube());
+    Scene scene = named_scene(shapes::cube());
     scene.materials = {{.name = "white"}, {.name = "blue sky"}, {.name = "unused"}};
     scene.materials[1].base_colour[0] = scene.materials[2].base_colour[0] = 0.25;
     scene.parts[0].mesh.primitives = {{0, {}, {}}};
@@ -304,17 +305,17 @@ TEST_CASE("OFF holds polygons and colours", "[io]") {
         {"COLOR_0", Domain::face, Role::colour, 3, true, std::vector<std::uint8_t>(18, 200)});
     mesh.attributes.push_back(
         {"COLOR_0", Domain::wedge, Role::colour, 4, false, std::vector<float>(32, 0.5F)});
-    const Trip t = trip(scene_of(mesh), "off");
+    const Trip t = trip(named_scene(mesh), "off");
     const Mesh& back = t.scene.parts.at(0).mesh;
     CHECK(back.corners == mesh.corners);
     CHECK(back.find("COLOR_0", Domain::face)->data == mesh.attributes[0].data);
     CHECK(back.find("COLOR_0", Domain::wedge)->data == mesh.attributes[1].data);
-    CHECK(trip(scene_of(shapes::torus(8, 5)), "off").scene.parts.at(0).mesh.corners ==
+    CHECK(trip(named_scene(shapes::torus(8, 5)), "off").scene.parts.at(0).mesh.corners ==
           shapes::torus(8, 5).corners);
 }
 
 TEST_CASE("a file that does not hold what was written is found out", "[io]") {
-    const Scene scene = scene_of(shapes::cube());
+    const Scene scene = named_scene(shapes::cube());
     Scene moved = scene, fewer = scene;
     moved.parts[0].mesh.positions[3].x += 1e-3;
     fewer.parts[0].mesh.corners.resize(33);

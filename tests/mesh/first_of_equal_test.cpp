@@ -1,6 +1,6 @@
 #include "mesh/first_of_equal.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/invariants.hpp"
-#include "mesh/places.hpp"
+#include "mesh/position_hash.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 using namespace facetmill;
 

@@ -1,7 +1,7 @@
 #pragma once
 // Whether triangles meet inside one of them, by exact constructions: another way than the product's.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <array>
 

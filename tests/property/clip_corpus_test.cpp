@@ -1,5 +1,5 @@
 // The laws of clip over real and hard meshes, when FACETMILL_CORPUS names a folder of them.
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/clip/clip.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/section/section.hpp"

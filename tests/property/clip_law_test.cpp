@@ -1,7 +1,7 @@
 // Laws of clip: the two sides add up, closed stays closed, whatever the plane.
 #include "geometry/clip/clip.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

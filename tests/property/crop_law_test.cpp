@@ -1,7 +1,7 @@
 // The law of capped crops: closed stays closed, and the two sides add up. Over built meshes, and over real
 // and hard ones when FACETMILL_CORPUS names a folder of them.
-#include "base/portable_math.hpp"
-#include "base/random.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/random.hpp"
 #include "geometry/crop/crop.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/inspect/inspect.hpp"

@@ -2,12 +2,12 @@
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <numeric>
 

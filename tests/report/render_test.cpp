@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/markup.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/markup.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "mesh/shapes.hpp"
 #include "report/check_text.hpp"
 #include "report/render.hpp"

@@ -1,10 +1,10 @@
 #include "report/viewer.hpp"
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/clip/clip.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/surface.hpp"
+#include "parallel/parallel.hpp"
 #include "support/run_stage.hpp"
 
 using namespace facetmill;
@@ -118,12 +118,12 @@ TEST_CASE("a view tells how many triangles are shown, and stays small", "[report
 }
 
 TEST_CASE("a texture of several materials is in a view once, in a size that fits", "[report]") {
-    auto looks = std::make_shared<MaterialLooks>(3);
-    (*looks)[0].base_texture.image =
+    auto materials = std::make_shared<ResolvedMaterials>(3);
+    (*materials)[0].base_texture.image =
         texture_image(1024, 1024, std::vector<std::uint8_t>(4 << 20, 128), true, 4096);
-    (*looks)[2] = (*looks)[1] = (*looks)[0];
-    (*looks)[1].alpha = MaterialLook::Alpha::blend;
-    (*looks)[1].base = {1, 0, 0, 0.5f};
+    (*materials)[2] = (*materials)[1] = (*materials)[0];
+    (*materials)[1].alpha = MaterialLook::Alpha::blend;
+    (*materials)[1].base = {1, 0, 0, 0.5f};
     Scene scene = scene_of(shapes::uv_cube());
     scene.materials.resize(3);
     scene.materials[1].double_sided = true;
@@ -131,7 +131,7 @@ TEST_CASE("a texture of several materials is in a view once, in a size that fits
     scene.parts.resize(3, other);
     for (Index m = 0; m < 3; ++m) scene.parts[m].mesh.primitives = {{m, {}, {}}};
     ViewedScenes viewed(1);
-    viewed.add_after(scene, "a.glb", looks);
+    viewed.add_after(scene, "a.glb", materials);
     const Json json = viewed.json();
     REQUIRE(json["textures"].size() == 2); // with alpha and without
     CHECK(json["textures"][0]["src"].get<std::string>().starts_with("data:image/jpeg;base64,"));

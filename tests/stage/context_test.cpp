@@ -76,7 +76,7 @@ TEST_CASE("only selects by the materials of faces, lines and points, not of what
 }
 
 TEST_CASE("places: inputs beside the pipeline, outputs in the output directory", "[stage]") {
-    const Places places{"pipelines", "build/out"};
+    const Folders places{"pipelines", "build/out"};
     CHECK(places.input("scan.ply") == "pipelines/scan.ply");
     CHECK(places.input("../scan.ply") == "scan.ply");
     CHECK(places.input("/data/scan.ply") == "/data/scan.ply");

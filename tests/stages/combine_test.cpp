@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/memory.hpp"
 #include "geometry/cut/cap_paint.hpp"
+#include "parallel/memory.hpp"
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 #include "support/run_stage.hpp"

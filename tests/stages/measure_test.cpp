@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
 #include "io/codec.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"

@@ -4,9 +4,9 @@
 #include "support/run_stage.hpp"
 
 #include "geometry/render/srgb.hpp"
-#include "io/gltf/textures.hpp"
-#include "io/pixels.hpp"
-#include "io/png.hpp"
+#include "io/gltf/contents/textures.hpp"
+#include "io/images/pixels.hpp"
+#include "io/images/png.hpp"
 #include "mesh/separate_wedges.hpp"
 #include "mesh/shapes.hpp"
 

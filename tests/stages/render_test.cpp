@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "mesh/shapes.hpp"
 #include "support/failure.hpp"
 #include "support/run_stage.hpp"

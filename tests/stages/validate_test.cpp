@@ -5,7 +5,7 @@
 #include "support/temporary.hpp"
 
 #include "io/codec.hpp"
-#include "io/encode_image.hpp"
+#include "io/images/encode_image.hpp"
 #include "mesh/shapes.hpp"
 #include "report/contents.hpp"
 #include "support/run_stage.hpp"

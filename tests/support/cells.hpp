@@ -1,8 +1,8 @@
 #pragma once
 // Meshes in cells, put together again, and meshes that are hard for them.
 
-#include "cells/partition.hpp"
-#include "io/outputs.hpp"
+#include "cells/partition/partition.hpp"
+#include "io/outputs/outputs.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary.hpp"
 
@@ -26,7 +26,7 @@ inline std::unique_ptr<cells::Partition> cells_of(const TemporaryDirectory& fold
     const auto path = folder / "m.ply";
     io::write_now(path, io::codec_for(path)->write(scene, {.double_positions = true}).files.front().bytes);
     return std::make_unique<cells::Partition>(cells::open_faces({path}, {}, folder.path()),
-                                              cells::Means{folder.path(), cell_memory}, most);
+                                              cells::CellResources{folder.path(), cell_memory}, most);
 }
 
 /// Faces taken away, turned, repeated, and made to share edges and vertices.

@@ -1,7 +1,7 @@
 #pragma once
 // Choices of a random test, one after the other: the same for the same seed, on every machine.
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 
 #include <cstddef>
 #include <initializer_list>

@@ -6,7 +6,7 @@
 #include "cli/pipe_syntax.hpp"
 #include "io/csv.hpp"
 #include "io/footprint/footprint.hpp"
-#include "io/pixels.hpp"
+#include "io/images/pixels.hpp"
 #include "io/threemf/zip.hpp"
 #include "support/gltf.hpp"
 #include "support/mutations.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 // Random meshes for property tests: the same for the same seed, on every machine.
 
-#include "base/portable_math.hpp"
-#include "base/random.hpp"
-#include "mesh/lineage.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/random.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/shapes.hpp"
 
 #include <algorithm>

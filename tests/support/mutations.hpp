@@ -2,7 +2,7 @@
 // Damaged mesh files: small valid files cut, flipped, doubled and spliced, the same for the same seed.
 
 #include "base/error.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
 

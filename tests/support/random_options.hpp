@@ -2,7 +2,7 @@
 // Random options of any stage, drawn from its declaration: ranges, choices and groups as it has them, all
 // else from its JSON Schema. So a new stage, or a new option, is drawn without a change here.
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "docs/schema.hpp"
 #include "options/declaration.hpp"
 #include "support/draw.hpp"

@@ -4,9 +4,9 @@
 // read back.
 
 #include "base/hash.hpp"
-#include "base/parallel.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/parallel.hpp"
 #include "support/measure.hpp"
 #include "support/random_options.hpp"
 #include "support/random_scene.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // What tests ask of a surface, counted in the plainest way.
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 #include "support/measure.hpp"
 
 #include <map>

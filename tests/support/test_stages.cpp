@@ -151,7 +151,7 @@ const RegisterStage warn(make_stage<WarnOptions>(info("test-warn", "Warns"), dec
 struct UnrepeatableOptions {};
 void declare_unrepeatable(Declare<UnrepeatableOptions>&) {}
 Scene run_unrepeatable(Scene scene, const UnrepeatableOptions&, Context& context) {
-    context.tell_unrepeatable();
+    context.mark_uncacheable();
     return scene;
 }
 const RegisterStage unrepeatable(make_stage<UnrepeatableOptions>(

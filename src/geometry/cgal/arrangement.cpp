@@ -1,12 +1,12 @@
 #include "geometry/cgal/arrangement.hpp"
 
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/cgal/plane_cut.hpp"
 #include "geometry/cgal/region_fill.hpp"
 #include "geometry/intersect/plane_crossing.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -1,10 +1,10 @@
 #include "geometry/cgal/plane_cut.hpp"
 
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/cgal/region_fill.hpp"
 #include "geometry/intersect/plane_crossing.hpp"
 #include "geometry/polygon/certain_triangulation.hpp"
+#include "parallel/parallel.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>

@@ -1,11 +1,11 @@
 #pragma once
 // Triangles of one plane cut along segments and along each other. Only for the files in this folder.
 
-#include "base/predicates.hpp"
-#include "base/random.hpp"
+#include "base/math/predicates.hpp"
+#include "base/math/random.hpp"
 #include "geometry/cgal/arrangement.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/places.hpp"
+#include "mesh/position_hash.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "geometry/intersect/self_intersections.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/contacts.hpp"
@@ -8,6 +7,7 @@
 #include "geometry/intersect/plain_stars.hpp"
 #include "geometry/spatial/box_pairs.hpp"
 #include "mesh/surface.hpp"
+#include "parallel/parallel.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -348,7 +348,7 @@ MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& amon
 
 SelfIntersections find_self_intersections(Surface surface, std::size_t faces,
                                           const SelfIntersectionSettings& settings) {
-    ShareOfSteps steps({1, 3});
+    ProgressSteps steps({1, 3});
     SelfIntersectionSearch search(std::move(surface), faces);
     steps.next();
     return search.pairs(settings);

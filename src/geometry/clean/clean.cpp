@@ -1,7 +1,7 @@
 #include "geometry/clean/clean.hpp"
 
 #include "base/progress.hpp"
-#include "geometry/clean/solids.hpp"
+#include "geometry/boolean/solids.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/t_junctions.hpp"
 #include "mesh/face.hpp"
@@ -100,7 +100,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     };
     // What a patch runs into is united with it in the next round, or told there.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
-    ShareOfSteps steps({2, 2, 2, s.self_intersections != Untangle::off ? 20.0 : 0.0, 1});
+    ProgressSteps steps({2, 2, 2, s.self_intersections != Untangle::off ? 20.0 : 0.0, 1});
     if (s.single) did(round_to_single(work));
     if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
     if (s.weld == Nearness::near) did(weld_near(work, s.tolerance));
@@ -151,7 +151,7 @@ CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     work.budget = settings.budget;
     work.cloud = work.mesh.face_count() == 0;
     CleanResult result;
-    ShareOfRounds rounds;
+    ProgressRounds rounds;
     for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds, rounds.next())
         changed = one_round(work, settings);
     result.changes = changes_of(work.mesh, work.changes);

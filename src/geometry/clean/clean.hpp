@@ -1,7 +1,7 @@
 #pragma once
 // Repairs of broken meshes, step by step. What was sound is left alone.
 
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
 
 #include <optional>

@@ -1,5 +1,4 @@
 // Steps of clean that remove faces and vertices.
-#include "base/parallel.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
@@ -7,6 +6,7 @@
 #include "geometry/spatial/components_around.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>

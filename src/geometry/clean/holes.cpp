@@ -1,8 +1,8 @@
 // The step of clean that fills holes.
-#include "base/predicates.hpp"
-#include "base/words.hpp"
+#include "base/math/predicates.hpp"
+#include "base/text/words.hpp"
+#include "geometry/boolean/span_outline.hpp"
 #include "geometry/cgal/fair_patch.hpp"
-#include "geometry/clean/span_outline.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/triangulate/triangulate.hpp"

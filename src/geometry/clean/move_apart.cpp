@@ -1,7 +1,7 @@
 // The step of clean that moves vertices apart which are at one place and belong to different fans.
-#include "base/numbers.hpp"
-#include "base/predicates.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/predicates.hpp"
+#include "base/text/words.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/spatial/box_tree.hpp"

@@ -2,8 +2,8 @@
 // The steps of clean, one function each. Each changes the mesh in place, adds to the counts and tells by its
 // return value whether it changed anything.
 
+#include "geometry/boolean/loose_edges.hpp"
 #include "geometry/clean/clean.hpp"
-#include "geometry/clean/loose_edges.hpp"
 #include "geometry/edit/split_non_manifold.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/intersect/self_intersections.hpp"

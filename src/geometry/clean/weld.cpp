@@ -1,5 +1,5 @@
 // Steps of clean that merge vertices.
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/spatial/box_tree.hpp"

@@ -1,6 +1,6 @@
 #include "geometry/clip/assemble.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 
@@ -52,7 +52,7 @@ class Assembler {
         fill_faces();
         add_cap_faces();
         ClippedSide result;
-        result.changes = inherit_attributes(out_, from_, descent_);
+        result.changes = inherit_attributes(out_, from_, provenance_);
         if (!cap_.corners.empty()) {
             std::vector<Index> own;
             if (own_wedges_)
@@ -101,12 +101,12 @@ class Assembler {
 
     void place_vertices() {
         const auto& kept = vertices().kept;
-        descent_.vertices.copies = kept;
-        descent_.vertices.edges = cut_.vertices;
-        const Lineage& extra = cap_.extra.vertices;
-        descent_.vertices.mix_offsets = extra.mix_offsets;
-        descent_.vertices.mix_sources = extra.mix_sources;
-        descent_.vertices.mix_weights = extra.mix_weights;
+        provenance_.vertices.copies = kept;
+        provenance_.vertices.edges = cut_.vertices;
+        const Provenance& extra = cap_.extra.vertices;
+        provenance_.vertices.mix_offsets = extra.mix_offsets;
+        provenance_.vertices.mix_sources = extra.mix_sources;
+        provenance_.vertices.mix_weights = extra.mix_weights;
         out_.positions.resize(kept.size());
         parallel_for(kept.size(), [&](std::size_t i) { out_.positions[i] = from_.positions[kept[i]]; });
         out_.positions.insert(out_.positions.end(), cut_.points.begin(), cut_.points.end());
@@ -141,8 +141,8 @@ class Assembler {
     }
 
     void describe_wedges() {
-        Lineage& to = descent_.wedges;
-        const Lineage& extra = from_.has_seams() ? cap_.extra.wedges : cap_.extra.vertices;
+        Provenance& to = provenance_.wedges;
+        const Provenance& extra = from_.has_seams() ? cap_.extra.wedges : cap_.extra.vertices;
         to.copies = wedges_.kept;
         to.edges = cut_.wedges;
         to.mix_offsets = extra.mix_offsets;
@@ -174,7 +174,7 @@ class Assembler {
         for (std::size_t i = 0; i < cap_wedge_.size(); ++i)
             out_.wedge_vertex[cap_wedge_[i]] = new_vertex(cap_.vertices[i]);
     }
-    static void copy_mix(Lineage& to, const Lineage& from, Index i) {
+    static void copy_mix(Provenance& to, const Provenance& from, Index i) {
         for (Index k = from.mix_offsets[i]; k < from.mix_offsets[i + 1]; ++k) {
             to.mix_sources.push_back(from.mix_sources[k]);
             to.mix_weights.push_back(from.mix_weights[k]);
@@ -229,7 +229,7 @@ class Assembler {
         out_.corners.resize(counts.back().corners);
         if (faces * 3 != out_.corners.size() + cap_.corners.size() || !from_.all_triangles())
             out_.face_offsets.resize(faces + 1);
-        descent_.faces.resize(faces);
+        provenance_.faces.resize(faces);
         parallel_chunks(
             from_.face_count(),
             [&](std::size_t begin, std::size_t end) { fill_block(begin, end, counts[begin / block]); },
@@ -238,7 +238,7 @@ class Assembler {
     void fill_block(std::size_t begin, std::size_t end, Count at) {
         const auto add = [&](Index source, std::span<const Index> polygon) {
             for (const Index w : polygon) out_.corners[at.corners++] = new_wedge(w);
-            descent_.faces[at.faces++] = source;
+            provenance_.faces[at.faces++] = source;
             if (!out_.face_offsets.empty()) out_.face_offsets[at.faces] = static_cast<Index>(at.corners);
         };
         for_kept(
@@ -252,8 +252,8 @@ class Assembler {
                 std::lower_bound(cap_.vertices.begin(), cap_.vertices.end(), v) - cap_.vertices.begin());
             out_.corners.push_back(own_wedges_ ? cap_wedge_[i] : new_wedge(cap_.wedges[i]));
         }
-        for (std::size_t f = cap_face_; f < descent_.faces.size(); ++f) {
-            descent_.faces[f] = 0;
+        for (std::size_t f = cap_face_; f < provenance_.faces.size(); ++f) {
+            provenance_.faces[f] = 0;
             if (!out_.face_offsets.empty()) out_.face_offsets[f + 1] = out_.face_offsets[f] + 3;
         }
     }
@@ -274,7 +274,7 @@ class Assembler {
     const Pieces& pieces_;
     const Cap& cap_;
     Mesh out_;
-    Descent descent_;
+    MeshProvenance provenance_;
     Renumbering wedges_, vertices_; ///< vertices_ only with seams
     bool own_wedges_ = false;
     std::size_t cap_copies_ = 0, cap_edges_ = 0, cap_face_ = 0;

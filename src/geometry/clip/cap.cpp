@@ -1,8 +1,8 @@
 #include "geometry/clip/cap.hpp"
 
-#include "base/parallel.hpp"
-#include "base/sorted_once.hpp"
+#include "base/sort_unique.hpp"
 #include "geometry/cut/fill_disjoint.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -78,7 +78,7 @@ struct SectionGraph {
             vertices.push_back(e.low);
             vertices.push_back(e.high);
         }
-        sort_once(vertices);
+        sort_unique(vertices);
         root.resize(vertices.size());
         std::iota(root.begin(), root.end(), Index{0});
         balance.resize(vertices.size());
@@ -149,7 +149,7 @@ class Capper {
             local_.push_back(e.low);
             local_.push_back(e.high);
         }
-        sort_once(local_);
+        sort_unique(local_);
         for (const Index v : local_) {
             const Vec3& p = cut_.point(v);
             contours_.points.push_back({p[first_], p[second_]});
@@ -171,8 +171,8 @@ class Capper {
     }
 
     /// Appends to a mix what a wedge or vertex of the cut is made of.
-    static void add_sources(Lineage& mixes, Index id, std::size_t old,
-                            const std::vector<Lineage::Edge>& fresh, double weight) {
+    static void add_sources(Provenance& mixes, Index id, std::size_t old,
+                            const std::vector<Provenance::Edge>& fresh, double weight) {
         if (id < old) {
             mixes.mix_sources.push_back(id);
             mixes.mix_weights.push_back(weight);
@@ -185,7 +185,7 @@ class Capper {
 
     /// The vertices where contours cross.
     void add_points() {
-        Lineage& mixes = cap_.extra.vertices;
+        Provenance& mixes = cap_.extra.vertices;
         for (const auto& a : filling_.added) {
             const auto& e = section_.edges[a.edge];
             Vec3 p = mix(cut_.point(e.low), cut_.point(e.high), a.t);
@@ -272,7 +272,7 @@ class Capper {
     /// A wall wedge for every vertex of the cap: the lowest there.
     void find_cap_wedges() {
         cap_.vertices = cap_.corners;
-        sort_once(cap_.vertices);
+        sort_unique(cap_.vertices);
         cap_.wedges = cap_.vertices;
         if (!cut_.mesh->has_seams()) return;
         std::map<Index, Index> lowest;

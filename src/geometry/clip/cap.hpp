@@ -9,7 +9,7 @@ namespace facetmill {
 /// through each other's points.
 struct ExtraPoints {
     std::vector<Vec3> points;        ///< [extra vertices]
-    Lineage vertices, wedges;        ///< mixes only; wedges stays empty without seams
+    Provenance vertices, wedges;     ///< mixes only; wedges stays empty without seams
     std::vector<Index> wedge_vertex; ///< [extra wedges] -> vertex; empty without seams
 };
 

@@ -89,16 +89,16 @@ class Rest {
             if (taken_[f]) continue;
             for_polygon_edges(from_.face_wedges(f), [&](Index a, Index b) {
                 kept.mesh.corners.push_back(a);
-                if (!inserted_.empty()) insert(kept.mesh, kept.descent, a, b);
+                if (!inserted_.empty()) insert(kept.mesh, kept.provenance, a, b);
             });
             kept.end_face(f);
         }
-        inherit_attributes(kept.mesh, from_, kept.descent);
+        inherit_attributes(kept.mesh, from_, kept.provenance);
         return std::move(kept.mesh);
     }
 
     /// A vertex per point and, with seams, a wedge per pair of wedges.
-    void insert(Mesh& out, Descent& descent, Index a, Index b) {
+    void insert(Mesh& out, MeshProvenance& provenance, Index a, Index b) {
         const Index va = from_.vertex_of_wedge(a), vb = from_.vertex_of_wedge(b);
         const auto at = inserted_.find({std::min(va, vb), std::max(va, vb)});
         if (at == inserted_.end()) return;
@@ -111,7 +111,7 @@ class Rest {
             if (fresh) {
                 vertex->second = static_cast<Index>(out.positions.size());
                 out.positions.push_back(p);
-                descent.vertices.edges.push_back({at->first.first, at->first.second, t});
+                provenance.vertices.edges.push_back({at->first.first, at->first.second, t});
             }
             auto [wedge, made] = wedge_at_.try_emplace({std::min(a, b), std::max(a, b), vertex->second});
             if (made) {
@@ -119,7 +119,7 @@ class Rest {
                     out.has_seams() ? static_cast<Index>(out.wedge_vertex.size()) : vertex->second;
                 const Index first = va < vb ? a : b, second = va < vb ? b : a;
                 if (out.has_seams()) out.wedge_vertex.push_back(vertex->second);
-                if (out.has_seams() || fresh) descent.wedges.edges.push_back({first, second, t});
+                if (out.has_seams() || fresh) provenance.wedges.edges.push_back({first, second, t});
             }
             wedges.push_back(wedge->second);
         }
@@ -174,7 +174,7 @@ class Rest {
             out.corners.insert(out.corners.end(), wedges.rbegin(), wedges.rend());
             caps.end_face(f);
         }
-        inherit_attributes(out, front_, caps.descent);
+        inherit_attributes(out, front_, caps.provenance);
         drop_unused(out);
         turn(out);
         return std::move(caps.mesh);

@@ -2,7 +2,7 @@
 // Clips a mesh by planes, with caps.
 
 #include "mesh/cut_memory.hpp"
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 
 namespace facetmill {
 

@@ -1,13 +1,13 @@
 #include "geometry/crop/crop.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "geometry/crop/cut.hpp"
 #include "geometry/crop/outline_walls.hpp"
 #include "geometry/crop/trace.hpp"
 #include "geometry/crop/walls.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "geometry/cut/cut.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace facetmill {
 
 namespace {
 
-using polygon::Place;
+using polygon::PointLocation;
 
 class Cropper {
   public:
@@ -79,7 +79,7 @@ class Cropper {
                 const auto& e = footprint_.tree().edges()[segment];
                 off |= std::fabs(cross(e.b - e.a, p - e.a)) > rounding * length(e.b - e.a);
                 some.points.emplace_back(segment, mesh_.positions[v]);
-                if (places_[v] <= Place::inside) places_[v] = Place::on_edge;
+                if (places_[v] <= PointLocation::inside) places_[v] = PointLocation::on_edge;
                 return true;
             });
             some.off += off;
@@ -126,7 +126,8 @@ class Cropper {
     void keep_points() {
         std::vector<std::uint8_t> goes(mesh_.vertex_count());
         for (std::size_t v = 0; v < goes.size(); ++v)
-            goes[v] = !view_.kept(places_[v] == Place::outside ? Place::outside : Place::inside);
+            goes[v] = !view_.kept(places_[v] == PointLocation::outside ? PointLocation::outside
+                                                                       : PointLocation::inside);
         result_.mesh = mesh_;
         drop_unused(result_.mesh, goes);
         result_.changed = result_.mesh.vertex_count() < mesh_.vertex_count();
@@ -138,13 +139,13 @@ class Cropper {
     bool stays(Index f, std::vector<Vec2>& face) const {
         if (settings_.by == CropBy::centre) {
             view_.gather(mesh_, f, face);
-            const Place place = view_.place(mean_of_corners(face));
-            return view_.kept(place == Place::outside ? place : Place::inside);
+            const PointLocation place = view_.place(mean_of_corners(face));
+            return view_.kept(place == PointLocation::outside ? place : PointLocation::inside);
         }
         bool any = false, all = true; // corners on the outline are on either side
         for (const Index w : mesh_.face_wedges(f)) {
-            const Place place = places_[mesh_.vertex_of_wedge(w)];
-            const bool on = place > Place::inside;
+            const PointLocation place = places_[mesh_.vertex_of_wedge(w)];
+            const bool on = place > PointLocation::inside;
             any |= !on && view_.kept(place);
             all &= on || view_.kept(place);
         }
@@ -211,8 +212,8 @@ class Cropper {
     /// Of a face that no segment enters: any corner off the outline tells.
     bool stays_whole(Index f) const {
         for (const Index w : mesh_.face_wedges(f)) {
-            const Place place = places_[mesh_.vertex_of_wedge(w)];
-            if (place <= Place::inside) return view_.kept(place);
+            const PointLocation place = places_[mesh_.vertex_of_wedge(w)];
+            if (place <= PointLocation::inside) return view_.kept(place);
         }
         return view_.kept(view_.middle(mesh_, f));
     }
@@ -245,7 +246,7 @@ class Cropper {
     const Footprint& footprint_;
     const CropSettings& settings_;
     CropView view_;
-    std::vector<Place> places_;         ///< [vertices]
+    std::vector<PointLocation> places_; ///< [vertices]
     std::vector<OutlineMeeting> meets_; ///< [faces] with any segment
     CropResult result_;
 };

@@ -1,8 +1,8 @@
 #include "geometry/crop/cut.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/crop/segment_cutter.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -150,9 +150,9 @@ struct MadeInRegion {
 /// segment by the edges that they are on, as if all regions had been cut together. Returns the edges, in that
 /// order.
 template <class Segments, class Edges, class Old, class Numbers>
-std::vector<Lineage::Edge> number_made(std::vector<CutRegion>& regions, std::size_t segments, Index first,
-                                       const Segments& segments_of, const Edges& edges_of, const Old& old,
-                                       const Numbers& numbers_of) {
+std::vector<Provenance::Edge> number_made(std::vector<CutRegion>& regions, std::size_t segments, Index first,
+                                          const Segments& segments_of, const Edges& edges_of, const Old& old,
+                                          const Numbers& numbers_of) {
     std::vector<std::size_t> begins(segments + 1);
     for (CutRegion& region : regions) {
         for (const Index s : segments_of(region)) ++begins[s];
@@ -169,14 +169,14 @@ std::vector<Lineage::Edge> number_made(std::vector<CutRegion>& regions, std::siz
             const auto& known = old(region);
             return i < known.size() ? known[i] : numbers_of(region)[i - known.size()];
         };
-        const Lineage::Edge& e = edges_of(region)[m.number];
-        return Lineage::Edge{whole(e.a), whole(e.b), e.t};
+        const Provenance::Edge& e = edges_of(region)[m.number];
+        return Provenance::Edge{whole(e.a), whole(e.b), e.t};
     };
     const auto comes_before = [&](const MadeInRegion& x, const MadeInRegion& y) {
-        const Lineage::Edge e = in_whole(x), f = in_whole(y);
+        const Provenance::Edge e = in_whole(x), f = in_whole(y);
         return e.a != f.a ? e.a < f.a : e.b < f.b;
     };
-    std::vector<Lineage::Edge> edges;
+    std::vector<Provenance::Edge> edges;
     for (std::size_t s = 0; s < segments; ++s) {
         const auto begin = made.begin() + static_cast<std::ptrdiff_t>(begins[s]),
                    end = made.begin() + static_cast<std::ptrdiff_t>(begins[s + 1]);
@@ -243,13 +243,13 @@ class OutlineCutter {
 
     void make_mesh(const std::vector<Index>& region_of) {
         Mesh& out = result_.mesh;
-        Descent descent;
+        MeshProvenance provenance;
         out.face_offsets.push_back(0);
         std::vector<std::size_t> next(regions_.size()),
             face(regions_.size()); // piece, and face of the region
         const auto add = [&](Index f) {
             out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
-            descent.faces.push_back(f);
+            provenance.faces.push_back(f);
         };
         for (Index f = 0; f < mesh_.face_count(); ++f) {
             const Index r = region_of[f];
@@ -269,13 +269,13 @@ class OutlineCutter {
         }
         normalise_offsets(out);
         place_new(out);
-        origin_ = descent.faces;
-        descent.vertices.identity = descent.wedges.identity = true;
-        descent.vertices.chained = descent.wedges.chained = true;
-        descent.vertices.edges = std::move(vertices_);
-        descent.wedges.edges = std::move(wedges_);
-        descent.wedges_as_vertices = !mesh_.has_seams();
-        result_.changes = inherit_attributes(out, mesh_, descent);
+        origin_ = provenance.faces;
+        provenance.vertices.identity = provenance.wedges.identity = true;
+        provenance.vertices.chained = provenance.wedges.chained = true;
+        provenance.vertices.edges = std::move(vertices_);
+        provenance.wedges.edges = std::move(wedges_);
+        provenance.wedges_as_vertices = !mesh_.has_seams();
+        result_.changes = inherit_attributes(out, mesh_, provenance);
     }
     void place_new(Mesh& out) const {
         out.positions = mesh_.positions;
@@ -339,7 +339,7 @@ class OutlineCutter {
     SegmentPlanes segments_;
     std::vector<std::vector<std::uint32_t>> known_; ///< [vertices] entries of the memory; or empty
     std::vector<CutRegion> regions_;
-    std::vector<Lineage::Edge> vertices_, wedges_; ///< the new ones
+    std::vector<Provenance::Edge> vertices_, wedges_; ///< the new ones
     OutlineCut result_;
     std::vector<Index> origin_; ///< [faces of the result]
 };

@@ -289,7 +289,7 @@ class SegmentCutter {
     static bool has(const std::vector<Ends>& all, const Ends& ends) {
         return std::binary_search(all.begin(), all.end(), ends);
     }
-    static void sort_once(std::vector<Ends>& all) {
+    static void sort_unique(std::vector<Ends>& all) {
         std::sort(all.begin(), all.end());
         all.erase(std::unique(all.begin(), all.end()), all.end());
     }
@@ -333,12 +333,12 @@ class SegmentCutter {
                 cut_edges_.push_back(vertices_of(ends_of(a, b)));
                 if (!wedge_vertex_.empty()) cut_wedges_.push_back(ends_of(a, b));
             });
-        sort_once(cut_edges_);
+        sort_unique(cut_edges_);
         for (std::size_t i = to_cut; i < touched_.size() && !wedge_vertex_.empty(); ++i)
             for_crossed(s, touched_[i], [&](Index a, Index b) {
                 if (has(cut_edges_, vertices_of(ends_of(a, b)))) cut_wedges_.push_back(ends_of(a, b));
             });
-        sort_once(cut_wedges_);
+        sort_unique(cut_wedges_);
     }
     void make_points(Index s) {
         const CrossingPoints point(segments_.planes[s]);

@@ -31,7 +31,7 @@ struct EnteredFaces {
 struct CutFaces {
     Pieces pieces;                                      ///< of all faces, in order
     std::vector<Vec3> points;                           ///< [new vertices]
-    std::vector<Lineage::Edge> vertices, wedges;        ///< the new ones; without seams wedges is empty
+    std::vector<Provenance::Edge> vertices, wedges;     ///< the new ones; without seams wedges is empty
     std::vector<Index> wedge_vertex;                    ///< [new wedges]
     std::vector<Index> vertex_segments, wedge_segments; ///< [new ones]
     std::vector<std::pair<Index, Index>> on; ///< a new vertex, ascending, and a plane that it is on

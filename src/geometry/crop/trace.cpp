@@ -49,10 +49,10 @@ Mesh select_faces(const Mesh& mesh, std::span<const Index> faces) {
         if (!mesh.all_triangles()) out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
     }
     normalise_offsets(out);
-    Descent descent;
-    descent.vertices.identity = descent.wedges.identity = true;
-    descent.faces.assign(faces.begin(), faces.end());
-    inherit_attributes(out, mesh, descent);
+    MeshProvenance provenance;
+    provenance.vertices.identity = provenance.wedges.identity = true;
+    provenance.faces.assign(faces.begin(), faces.end());
+    inherit_attributes(out, mesh, provenance);
     drop_unused(out);
     return out;
 }

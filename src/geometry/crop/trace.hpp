@@ -1,7 +1,7 @@
 #pragma once
 // Tells which elements of two meshes were one before something was done to each of them.
 
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 
 namespace facetmill {
 

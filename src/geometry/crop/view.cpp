@@ -1,7 +1,7 @@
 #include "geometry/crop/view.hpp"
 
 #include "base/error.hpp"
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-using polygon::Place;
+using polygon::PointLocation;
 
 Inside::Inside(const Footprint& footprint, InsideBy by)
     : footprint_(footprint), by_(by), spans_(footprint.spans()) {
@@ -21,13 +21,13 @@ Inside::Inside(const Footprint& footprint, InsideBy by)
     for (const Vec2& p : spans_[0]) flat_.push_back({p.x, p.y, 0});
 }
 
-Place Inside::operator()(const Vec2& p) const {
-    const Place place = footprint_.locate(p); // on the outline, all rules would depend on rounding
-    if (by_ == InsideBy::crossings || place > Place::inside) return place;
+PointLocation Inside::operator()(const Vec2& p) const {
+    const PointLocation place = footprint_.locate(p); // on the outline, all rules would depend on rounding
+    if (by_ == InsideBy::crossings || place > PointLocation::inside) return place;
     if (by_ == InsideBy::half_planes) return polygon::locate_convex(p, spans_[0]);
     const bool inside = by_ == InsideBy::angles ? polygon::inside_by_angles(p, spans_)
                                                 : polygon::inside_by_angles({p.x, p.y, 0}, flat_);
-    return inside ? Place::inside : Place::outside;
+    return inside ? PointLocation::inside : PointLocation::outside;
 }
 
 void CropView::gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const {
@@ -35,7 +35,7 @@ void CropView::gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const 
     for (const Index w : mesh.face_wedges(f)) face.push_back(seen(mesh.positions[mesh.vertex_of_wedge(w)]));
 }
 
-Place CropView::middle(const Mesh& mesh, Index f, bool convex) const {
+PointLocation CropView::middle(const Mesh& mesh, Index f, bool convex) const {
     std::vector<Vec2> face;
     gather(mesh, f, face);
     const polygon::Ring ring = face;
@@ -54,7 +54,7 @@ Place CropView::middle(const Mesh& mesh, Index f, bool convex) const {
         if (most >= 0) return settle(inside_(sum * (1.0 / 3)), mesh, f);
     }
     const Vec2 mean = mean_of_corners(face);
-    return settle(is_on_outline(mesh, f, mean, face) ? Place::on_edge : inside_(mean), mesh, f);
+    return settle(is_on_outline(mesh, f, mean, face) ? PointLocation::on_edge : inside_(mean), mesh, f);
 }
 
 /// Exactly, all of it, and seen edge-on.
@@ -102,8 +102,8 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
               widest); // a corner of the outline in a face has three points on it and a mean that is not
 }
 
-Place CropView::settle(Place place, const Mesh& mesh, Index f) const {
-    if (place <= Place::inside) return place;
+PointLocation CropView::settle(PointLocation place, const Mesh& mesh, Index f) const {
+    if (place <= PointLocation::inside) return place;
     std::vector<Vec3> corners;
     for (const Index w : mesh.face_wedges(f))
         corners.push_back(settings_.to_world.point(mesh.positions[mesh.vertex_of_wedge(w)]));
@@ -124,7 +124,7 @@ Place CropView::settle(Place place, const Mesh& mesh, Index f) const {
             }
             return true;
         });
-    return inside ? Place::inside : Place::outside;
+    return inside ? PointLocation::inside : PointLocation::outside;
 }
 
 } // namespace facetmill

@@ -10,7 +10,7 @@ class Inside {
   public:
     /// Throws usage (E-FOOTPRINT) when the rule needs one convex ring and there is none such.
     Inside(const Footprint& footprint, InsideBy by);
-    polygon::Place operator()(const Vec2& p) const;
+    polygon::PointLocation operator()(const Vec2& p) const;
 
   private:
     const Footprint& footprint_;
@@ -37,9 +37,9 @@ class CropView {
     const Footprint& footprint() const { return footprint_; }
     const CropSettings& settings() const { return settings_; }
     Vec2 seen(const Vec3& p) const { return seen_along(settings_.axis, settings_.to_world.point(p)); }
-    polygon::Place place(const Vec2& p) const { return inside_(p); }
-    bool kept(polygon::Place place) const {
-        return (place == polygon::Place::inside) == (settings_.keep == polygon::Keep::inside);
+    polygon::PointLocation place(const Vec2& p) const { return inside_(p); }
+    bool kept(polygon::PointLocation place) const {
+        return (place == polygon::PointLocation::inside) == (settings_.keep == polygon::Keep::inside);
     }
 
     /// The corners of a face.
@@ -47,7 +47,7 @@ class CropView {
     /// The place of a point in the middle of a face: of a concave one in its largest triangle. A face along
     /// the outline, seen edge-on, bounds the side that it looks away from.
     /// convex: it is known to be, but for rounding.
-    polygon::Place middle(const Mesh& mesh, Index f, bool convex = false) const;
+    polygon::PointLocation middle(const Mesh& mesh, Index f, bool convex = false) const;
     /// Calls visit(segment, meeting) for the segments near a face until it returns false.
     template <class Visit>
     void meetings(const std::vector<Vec2>& face, Visit&& visit) const {
@@ -62,7 +62,7 @@ class CropView {
   private:
     bool is_on_segment(const std::vector<Vec2>& face) const;
     bool is_on_outline(const Mesh& mesh, Index f, const Vec2& mean, const std::vector<Vec2>& face) const;
-    polygon::Place settle(polygon::Place place, const Mesh& mesh, Index f) const;
+    polygon::PointLocation settle(polygon::PointLocation place, const Mesh& mesh, Index f) const;
 
     const Footprint& footprint_;
     const CropSettings& settings_;

@@ -1,13 +1,13 @@
 #include "geometry/crop/walls.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "geometry/crop/crop.hpp"
 #include "geometry/crop/wall_panel.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -33,9 +33,9 @@ class Appender {
     Mesh run(AttributeChanges& changes) {
         start();
         for (const WallPanel& panel : faces_.panels) add(panel);
-        descent_.faces.resize(out_.face_count()); // walls copy the first face's and are painted
-        for (Index f = 0; f < from_.face_count(); ++f) descent_.faces[f] = f;
-        changes = inherit_attributes(out_, from_, descent_);
+        provenance_.faces.resize(out_.face_count()); // walls copy the first face's and are painted
+        for (Index f = 0; f < from_.face_count(); ++f) provenance_.faces[f] = f;
+        changes = inherit_attributes(out_, from_, provenance_);
         for (std::size_t i = 0; i < ranges_.size(); ++i) paint(i);
         return std::move(out_);
     }
@@ -48,9 +48,9 @@ class Appender {
         out_.face_offsets = from_.face_offsets;
         if (own_ && out_.wedge_vertex.empty())
             for (Index v = 0; v < out_.vertex_count(); ++v) out_.wedge_vertex.push_back(v);
-        descent_.vertices.identity = true;
-        descent_.wedges.copies.resize(from_.wedge_count());
-        for (Index w = 0; w < from_.wedge_count(); ++w) descent_.wedges.copies[w] = w;
+        provenance_.vertices.identity = true;
+        provenance_.wedges.copies.resize(from_.wedge_count());
+        for (Index w = 0; w < from_.wedge_count(); ++w) provenance_.wedges.copies[w] = w;
         lowest_.assign(from_.vertex_count(), none);
         for (const Index w : from_.corners) {
             Index& at = lowest_[from_.vertex_of_wedge(w)];
@@ -74,9 +74,10 @@ class Appender {
         const auto points = static_cast<Index>(panel.points().size());
         const Index v = point < points ? panel.points()[point] : added_ + point - points;
         if (!own_) return lowest_[v];
-        const auto [at, fresh] = wedge_at_.try_emplace(v, static_cast<Index>(descent_.wedges.copies.size()));
+        const auto [at, fresh] =
+            wedge_at_.try_emplace(v, static_cast<Index>(provenance_.wedges.copies.size()));
         if (fresh) {
-            descent_.wedges.copies.push_back(lowest_[v]);
+            provenance_.wedges.copies.push_back(lowest_[v]);
             out_.wedge_vertex.push_back(v);
             own_wedges_.back().push_back(at->second);
         }
@@ -104,7 +105,7 @@ class Appender {
     bool own_;
     Index added_; ///< the vertex of the next panel's first added point
     Mesh out_;
-    Descent descent_;
+    MeshProvenance provenance_;
     std::vector<Index> lowest_; ///< [vertices] wedge
     std::map<Index, Index> wedge_at_;
     std::vector<FaceRange> ranges_;              ///< [panels]
@@ -206,7 +207,7 @@ class Closer {
     /// were cut along it once. Whether there were any.
     bool split_at_posts() {
         std::vector<Insertion> insertions;
-        std::vector<Lineage::Edge> added;
+        std::vector<Provenance::Edge> added;
         const double rounding = walls_.rounding();
         const WallsAtVertices around(edges_, mesh_.vertex_count());
         for (const WallEdge& e : edges_) {
@@ -217,8 +218,8 @@ class Closer {
                 const bool at_low = std::fabs(stand.at - a) < std::fabs(stand.at - b);
                 if (is_corner(around, e.wall, stand, at_low ? e.low : e.high, at_low ? a : b)) continue;
                 const auto vertex = static_cast<Index>(mesh_.vertex_count() + added.size());
-                added.push_back(a < b ? Lineage::Edge{e.low, e.high, (stand.at - a) / (b - a)}
-                                      : Lineage::Edge{e.high, e.low, (stand.at - b) / (a - b)});
+                added.push_back(a < b ? Provenance::Edge{e.low, e.high, (stand.at - a) / (b - a)}
+                                      : Provenance::Edge{e.high, e.low, (stand.at - b) / (a - b)});
                 insert(insertions, e, added.back(), vertex);
                 made(e.wall, added.back());
             }
@@ -239,15 +240,15 @@ class Closer {
                around.has(vertex, ends ? e.next : e.previous);
     }
     /// Puts a vertex on an edge of the boundary, at the place that at tells.
-    void insert(std::vector<Insertion>& insertions, const WallEdge& e, const Lineage::Edge& at,
+    void insert(std::vector<Insertion>& insertions, const WallEdge& e, const Provenance::Edge& at,
                 Index vertex) const {
         for (const Index c : table_.corners_of(e.edge))
             insertions.push_back({c, mesh_.vertex(c) == at.a ? at.t : 1 - at.t, vertex});
     }
-    void made(Index wall, const Lineage::Edge& at) {
+    void made(Index wall, const Provenance::Edge& at) {
         result_.made.emplace_back(wall, mix(mesh_.positions[at.a], mesh_.positions[at.b], at.t));
     }
-    void insert_all(std::vector<Insertion> insertions, const std::vector<Lineage::Edge>& added) {
+    void insert_all(std::vector<Insertion> insertions, const std::vector<Provenance::Edge>& added) {
         AttributeChanges changes;
         mesh_ = insert_on_edges(mesh_, std::move(insertions), added, &changes);
         merge_changes(result_.changes, changes);
@@ -336,7 +337,7 @@ class Closer {
     void insert_points() {
         first_added_ = static_cast<Index>(mesh_.vertex_count());
         std::vector<Insertion> insertions;
-        std::vector<Lineage::Edge> added;
+        std::vector<Provenance::Edge> added;
         std::size_t edge = 0; // of the panel's first
         for (const WallPanel& panel : panels_) {
             const auto points = static_cast<Index>(panel.points().size());
@@ -344,7 +345,7 @@ class Closer {
             added.resize(first + panel.filling().added.size());
             for (const auto& on : panel.on_edges()) {
                 const WallEdge& e = edges_[edge + on.edge];
-                const Lineage::Edge at{on.from, on.from == e.low ? e.high : e.low, on.t};
+                const Provenance::Edge at{on.from, on.from == e.low ? e.high : e.low, on.t};
                 if (on.point < points) {
                     insert(insertions, e, at, panel.points()[on.point]);
                     continue;

@@ -117,19 +117,19 @@ class Separation {
 
     /// Adds the faces that meet in the first round that looks at all to `found`.
     void run() {
-        ShareOfRounds rounds;
+        ProgressRounds rounds;
         for (bool is_first = true;; ++result_.rounds, rounds.next()) {
             std::vector<MeetingFaces> trouble;
             std::size_t box_pairs = 0;
             bool too_many = false;
-            ShareOfSteps of_sheets(std::vector<double>(tests_.size(), 1));
+            ProgressSteps of_sheets(std::vector<double>(tests_.size(), 1));
             for (TestSheet& test : tests_) {
                 const MeetingFaces& meeting = trouble.emplace_back(test.in_trouble(levels_));
                 box_pairs += meeting.box_pairs;
                 too_many |= meeting.too_many;
                 of_sheets.next();
             }
-            const Share silent(nullptr); // the search takes the time
+            const ProgressScope silent(nullptr); // the search takes the time
             result_.box_pairs += box_pairs;
             const Lowering how = patience_.next(box_pairs);
             FacesOfSheets again(tests_.size());
@@ -198,7 +198,7 @@ class Separation {
 void avoid(std::span<const CrumpleSheet> sheets, std::vector<TestSheet>& tests,
            std::vector<std::uint8_t>& levels, std::size_t max_pairs, AvoidResult& result) {
     FacesOfSheets found(tests.size());
-    ShareOfSteps steps({1, 3});
+    ProgressSteps steps({1, 3});
     slacken(tests, levels, max_stretch, found);
     const double stretch = first_stretch(sheets, tests, levels, max_pairs);
     std::vector<std::uint8_t> coarse(levels.size());
@@ -243,7 +243,7 @@ AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, 
     AvoidResult result;
     const CrumplePlaces places(sheets);
     std::vector<std::uint8_t> levels(places.count);
-    ShareOfSteps steps({1, 2});
+    ProgressSteps steps({1, 2});
     std::vector<TestSheet> tests = tests_of(sheets, places, max_pairs, max_open);
     for (const TestSheet& test : tests) result.exempt += test.exempt();
     steps.next();

@@ -1,12 +1,12 @@
 #include "geometry/crumple/crumple.hpp"
 
 #include "base/error.hpp"
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/random.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/relax/relax.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // Crumpling: every vertex is displaced once by a Gaussian amount, and faces that share it move with it.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "mesh/mesh.hpp"
 
 #include <array>
@@ -17,14 +17,14 @@ double gaussian(std::uint64_t key, double truncate);
 void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<double> all);
 
 /// Which positions are one place for the noise: those that are equal when rounded so.
-enum class PlaceRounding {
+enum class PositionRounding {
     float32, ///< to what most files hold
     far,     ///< to 40 significant bits, where float32 would make one place of many: far from the origin
 };
 
 /// The key of the noise at a world position: equal for positions of one place (-0 is 0).
 std::uint64_t noise_key(std::uint64_t seed, const Vec3& world,
-                        PlaceRounding rounding = PlaceRounding::float32);
+                        PositionRounding rounding = PositionRounding::float32);
 
 /// Noise that is alike at places that are near each other: normal numbers on the points of a lattice, mixed
 /// by smooth weights and scaled to deviation 1 everywhere (value noise); octaves of twice the frequency and
@@ -34,7 +34,7 @@ struct CorrelatedNoise {
     int octaves = 1;
     double roughness = 0.5; ///< amount of an octave beside the one before
     double truncate = 3;
-    PlaceRounding places = PlaceRounding::float32;
+    PositionRounding places = PositionRounding::float32;
 
     /// The amount at the place of a world position; clamped to the cut.
     double at(std::uint64_t seed, const Vec3& world) const;
@@ -59,7 +59,7 @@ struct CrumpleSettings {
     int octaves = 1;         ///< of correlated noise, 1 to 32
     double roughness = 0.5;  ///< of correlated noise: amount of each octave beside the one before, 0 to 1
     std::vector<double> mask = {}; ///< [vertices] 0 to 1: share of the move; empty: all of it
-    PlaceRounding places = PlaceRounding::float32;
+    PositionRounding places = PositionRounding::float32;
 };
 
 /// How the vertices of a mesh are to move, before any has.
@@ -84,11 +84,11 @@ struct CrumpleResult {
 /// made perpendicular to it, all else kept.
 ///
 /// The noise at a vertex is a pure function of the seed and of the world position, rounded (see
-/// PlaceRounding; -0 is 0). So vertices at one place move together, across seams, unwelded duplicates, parts
-/// and files, and neither the order of the vertices nor the number of threads matters. Boundary and mask are
-/// of places too: a boundary edge is one between two places with one face there, and a place moves by the
-/// least share of its vertices. With `direction: normal` the normal is that of all faces of this mesh that
-/// meet at the place. Amounts follow the normal distribution cut off at `truncate` (drawn again, never
+/// PositionRounding; -0 is 0). So vertices at one place move together, across seams, unwelded duplicates,
+/// parts and files, and neither the order of the vertices nor the number of threads matters. Boundary and
+/// mask are of places too: a boundary edge is one between two places with one face there, and a place moves
+/// by the least share of its vertices. With `direction: normal` the normal is that of all faces of this mesh
+/// that meet at the place. Amounts follow the normal distribution cut off at `truncate` (drawn again, never
 /// clamped, so nothing heaps up at the limit); with a frequency, vertices that are near each other move alike
 /// (see CorrelatedNoise). Throws usage (E-RANGE) for a setting out of range, stage (E-TRANSFORM) when
 /// to_world is singular, (E-RANGE) when a vertex would leave the numbers that float32 has. After P. Bourke,

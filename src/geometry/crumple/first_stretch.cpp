@@ -1,6 +1,6 @@
 #include "geometry/crumple/first_stretch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/split/split.hpp"
 
 #include <bit>

@@ -1,9 +1,9 @@
 #include "geometry/crumple/crumple.hpp"
 
-#include "base/inverse_normals.hpp"
-#include "base/numbers.hpp"
-#include "base/portable_math.hpp"
-#include "base/random.hpp"
+#include "base/math/inverse_normals.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/random.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -75,9 +75,9 @@ void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<d
         if (!(all[i] >= -truncate && all[i] <= truncate)) all[i] = gaussian(keys[i], truncate);
 }
 
-std::uint64_t noise_key(std::uint64_t seed, const Vec3& world, PlaceRounding rounding) {
+std::uint64_t noise_key(std::uint64_t seed, const Vec3& world, PositionRounding rounding) {
     std::uint64_t key = hashed(seed, 0x6372756d706c65);
-    if (rounding == PlaceRounding::far) {
+    if (rounding == PositionRounding::far) {
         for (std::size_t i = 0; i < 3; ++i)
             key = hashed(key, std::bit_cast<std::uint64_t>(as_far_place(world[i])));
         return key;
@@ -89,7 +89,7 @@ std::uint64_t noise_key(std::uint64_t seed, const Vec3& world, PlaceRounding rou
 double CorrelatedNoise::at(std::uint64_t seed, const Vec3& world) const {
     Vec3 p;
     for (std::size_t i = 0; i < 3; ++i)
-        p[i] = (places == PlaceRounding::far ? as_far_place(world[i]) : as_float32(world[i])) * frequency;
+        p[i] = (places == PositionRounding::far ? as_far_place(world[i]) : as_float32(world[i])) * frequency;
     double sum = 0, squares = 0, amount = 1;
     for (int k = 0; k < octaves; ++k) {
         sum += amount * octave(hashed(seed, 0x6f637461 + static_cast<std::uint64_t>(k)), p, truncate);

@@ -212,7 +212,7 @@ std::vector<TestSheet> tests_of(std::span<const CrumpleSheet> sheets, const Crum
     tests.reserve(sheets.size());                                         // they are pointed to
     std::map<std::pair<std::size_t, std::size_t>, const TestSheet*> last; // of each size
     std::size_t open = 0;
-    ShareOfSteps of_sheets(std::vector<double>(sheets.size(), 1));
+    ProgressSteps of_sheets(std::vector<double>(sheets.size(), 1));
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         const Mesh& mesh = *sheets[s].mesh;
         open += mesh.corner_count() - 2 * mesh.face_count();

@@ -2,10 +2,10 @@
 // Sheets as they are tested while their faces are kept apart, and the shares of the moves of their places.
 
 #include "base/error.hpp"
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
+#include "base/math/numbers.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "geometry/cut/cap_paint.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

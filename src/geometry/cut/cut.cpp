@@ -1,8 +1,8 @@
 #include "geometry/cut/cut.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/float32_ulp.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // cut. For clip only.
 
 #include "mesh/cut_memory.hpp"
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 
 namespace facetmill {
 
@@ -35,9 +35,9 @@ struct PlaneCut {
     /// Faces that are not to be cut but have an edge that a cut face is cut at, ascending. Their crossings
     /// are one for each edge between vertices on both sides, none for those where no face is cut.
     std::vector<Index> passing;
-    std::vector<Lineage::Edge> wedges, vertices; ///< the new ones: on which edge, and where
-    std::vector<Index> wedge_vertex;             ///< [new wedges] -> vertex; empty without seams
-    std::vector<Vec3> points;                    ///< [new vertices]
+    std::vector<Provenance::Edge> wedges, vertices; ///< the new ones: on which edge, and where
+    std::vector<Index> wedge_vertex;                ///< [new wedges] -> vertex; empty without seams
+    std::vector<Vec3> points;                       ///< [new vertices]
 
     std::size_t first_extra_vertex() const { return mesh->vertex_count() + vertices.size(); }
     std::size_t first_extra_wedge() const { return mesh->wedge_count() + wedges.size(); }

@@ -22,12 +22,12 @@ class Scorer {
         out.face_offsets.push_back(0);
         for (Index f = 0; f < mesh_.face_count(); ++f) add(f);
         normalise_offsets(out);
-        Descent descent;
-        descent.vertices.identity = descent.wedges.identity = true;
-        descent.vertices.edges = cut_.vertices;
-        descent.wedges.edges = cut_.wedges;
-        descent.faces = result_.source;
-        result_.changes = inherit_attributes(out, mesh_, descent);
+        MeshProvenance provenance;
+        provenance.vertices.identity = provenance.wedges.identity = true;
+        provenance.vertices.edges = cut_.vertices;
+        provenance.wedges.edges = cut_.wedges;
+        provenance.faces = result_.source;
+        result_.changes = inherit_attributes(out, mesh_, provenance);
         return std::move(result_);
     }
 

@@ -2,7 +2,7 @@
 // Scores a mesh along a plane: faces are cut there, and nothing is taken away.
 
 #include "mesh/cut_memory.hpp"
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 
 #include <cstdint>
 

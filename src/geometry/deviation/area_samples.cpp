@@ -1,8 +1,8 @@
 #include "geometry/deviation/area_samples.hpp"
 
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/deviation/deviation.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <bit>

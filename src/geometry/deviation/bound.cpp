@@ -1,9 +1,9 @@
 #include "geometry/deviation/bound.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/deviation/pieces_beyond.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ class Certifier {
           slack_(from.bounds().diagonal() * 1e-6) {}
 
     void run(std::span<const Index> order, std::span<const Index> near) {
-        ShareOfRounds rounds;
+        ProgressRounds rounds;
         const Beyond beyond = beyond_within(order, near);
         rounds.next();
         start_with(beyond.triangles);

@@ -1,6 +1,5 @@
 #include "geometry/deviation/deviation.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/deviation/bound.hpp"
 #include "geometry/deviation/itself.hpp"
@@ -10,6 +9,7 @@
 #include "geometry/spatial/hilbert_curve.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 
@@ -95,14 +95,14 @@ std::size_t next_parts(std::size_t parts, double times) {
 /// The means are of as many samples as they need; the maximum is the farthest of all, and of the vertices.
 void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk& walk,
                      MeasuredSamples& samples, const DeviationSettings& settings, std::vector<Index>& near) {
-    ShareOfSteps steps({2, 12, 2});
+    ProgressSteps steps({2, 12, 2});
     raise_maximum(d, from,
                   walk.farthest_vertex(0, near)); // first: what is next to nothing beside it is soon measured
     steps.next();
     if (!settings.means) return raise_maximum(d, from, walk.farthest_sample(samples, d.maximum, near));
     DistanceSums sums;
     {
-        ShareOfRounds rounds;
+        ProgressRounds rounds;
         for (std::size_t parts = settings.mean_error > 0 ? all_parts / 9 : all_parts;;) {
             raise_maximum(d, from, walk.measure(samples, parts, d.maximum));
             sums = sums_of(samples.distances, parts);
@@ -129,7 +129,7 @@ DirectedDeviation measured_to(const Surface& from, std::span<const Index> order,
         d.maximum = d.rms = d.mean = HUGE_VAL;
         return d;
     }
-    ShareOfSteps steps({1, 12});
+    ProgressSteps steps({1, 12});
     MeasuredSamples samples(from, order, settings.samples, settings.seed);
     d.samples = samples.points.size();
     steps.next();
@@ -155,7 +155,7 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
     const auto corner = [&](std::size_t t) { return from.point(t, 0); };
     const Box dense = dense_box(from.size(), from.bounds(), corner);
     const std::vector<Index> order = order_along_curve(from.size(), dense, corner);
-    ShareOfSteps steps({1, settings.certify ? 2.0 : 0.0});
+    ProgressSteps steps({1, settings.certify ? 2.0 : 0.0});
     std::vector<Index> near;
     DirectedDeviation d = measured_to(from, order, to, settings, near);
     steps.next();
@@ -266,7 +266,7 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
         result.forward = result.backward = deviation_from_itself(first, settings);
         return result;
     }
-    ShareOfSteps steps({1, 4, 4, settings.certify ? 8.0 : 0.0, settings.certify ? 8.0 : 0.0});
+    ProgressSteps steps({1, 4, 4, settings.certify ? 8.0 : 0.0, settings.certify ? 8.0 : 0.0});
     FaceTree first_tree = FaceTree::over(first, of_first, use_of_tree(first, second, settings)),
              second_tree = FaceTree::over(second, of_second, use_of_tree(second, first, settings));
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);

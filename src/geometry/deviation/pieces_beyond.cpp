@@ -1,9 +1,9 @@
 #include "geometry/deviation/pieces_beyond.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/group_distances.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 
@@ -206,7 +206,7 @@ class PieceCutter {
 
 std::vector<Index> triangles_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
                                     std::span<const Index> near, double distance) {
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     return parallel_reduce(
         order.size(), std::vector<Index>{},
         [&](std::size_t begin, std::size_t end) {
@@ -250,7 +250,7 @@ void cut_until(std::size_t most, int times, std::span<const SurfacePiece> pieces
 
 Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
                      std::span<const Index> near, double distance, std::size_t most) {
-    ShareOfSteps steps({1, 5});
+    ProgressSteps steps({1, 5});
     Beyond beyond;
     std::vector<Index>& triangles = beyond.triangles;
     triangles = triangles_beyond(from, order, to, near, distance);
@@ -263,7 +263,7 @@ Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const Fa
             whole.push_back({{from.point(t, 0), from.point(t, 1), from.point(t, 2)}, t});
         }
         cut_until(most, most_times, whole, to, distance, beyond.pieces);
-        Share::tell(static_cast<double>(done) / static_cast<double>(triangles.size()));
+        ProgressScope::report(static_cast<double>(done) / static_cast<double>(triangles.size()));
     }
     triangles.erase(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(done));
     return beyond;

@@ -1,9 +1,9 @@
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/deviation/bound.hpp"
 #include "geometry/deviation/sample_groups.hpp"
 #include "geometry/deviation/sample_walk.hpp"
 #include "geometry/spatial/group_distances.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <bit>
@@ -245,7 +245,7 @@ struct SampleWalk::Candidates {
 /// The farthest of what add(i, candidates) adds for each number below count, in chunks of so many.
 template <class Add>
 Farthest SampleWalk::farthest(std::size_t count, double least, std::size_t chunk, const Add& add) const {
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     return parallel_reduce(
         count, Farthest{},
         [&](std::size_t begin, std::size_t end) {

@@ -1,7 +1,7 @@
 #pragma once
 // Points beside each other, of which few enough at a time are looked at together.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 #include <span>

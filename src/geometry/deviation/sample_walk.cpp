@@ -1,10 +1,10 @@
 #include "geometry/deviation/sample_walk.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/deviation/bound.hpp"
 #include "geometry/deviation/sample_groups.hpp"
 #include "geometry/spatial/group_distances.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -158,7 +158,7 @@ struct SampleWalk::Groups {
 };
 
 Farthest SampleWalk::measure(MeasuredSamples& samples, std::size_t parts, double least) const {
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     const Farthest farthest = parallel_reduce(
         samples.runs.size(), Farthest{},
         [&](std::size_t begin, std::size_t end) {

@@ -1,10 +1,10 @@
 #include "geometry/deviation/signed_deviation.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/spatial/signed_distances.hpp"
 #include "mesh/finite_box.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // Faces at an edge, compared by exact predicates.
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 

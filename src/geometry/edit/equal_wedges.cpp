@@ -1,6 +1,6 @@
 #include "geometry/edit/equal_wedges.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,8 +1,8 @@
 #include "geometry/edit/mask.hpp"
 
 #include "base/error.hpp"
-#include "base/glob.hpp"
-#include "base/spelling.hpp"
+#include "base/text/glob.hpp"
+#include "base/text/spelling.hpp"
 #include "geometry/cut/cap_paint.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "geometry/edit/moved.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

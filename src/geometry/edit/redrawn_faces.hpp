@@ -1,7 +1,7 @@
 #pragma once
 // Other faces on the vertices and wedges of a mesh.
 
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 
 namespace facetmill {
 
@@ -9,18 +9,18 @@ namespace facetmill {
 /// mesh.corners, then end_face. Vertices and wedges may be added behind those of the other.
 struct RedrawnFaces {
     Mesh mesh; ///< without attributes
-    Descent descent;
+    MeshProvenance provenance;
 
     explicit RedrawnFaces(const Mesh& from) {
         mesh.positions = from.positions;
         mesh.wedge_vertex = from.wedge_vertex;
         mesh.face_offsets.push_back(0);
-        descent.vertices.identity = descent.wedges.identity = true;
+        provenance.vertices.identity = provenance.wedges.identity = true;
     }
     /// of: the face of the other mesh that the corners since the last one come from.
     void end_face(Index of) {
         mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
-        descent.faces.push_back(of);
+        provenance.faces.push_back(of);
     }
 };
 

@@ -1,10 +1,10 @@
 #include "geometry/edit/split_non_manifold.hpp"
 
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
+#include "base/math/numbers.hpp"
 #include "geometry/edit/around_edge.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>
@@ -173,7 +173,7 @@ DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges, cons
     const auto faces = corner_faces(mesh);
     const Joints joints(mesh, edges, faces);
     std::vector<Insertion> insertions;
-    std::vector<Lineage::Edge> added;
+    std::vector<Provenance::Edge> added;
     std::vector<Vec3> points;
     for (Index e = 0; e < edges.size(); ++e) {
         const auto& [low, high] = edges.edges[e];

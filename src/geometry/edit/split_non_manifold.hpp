@@ -1,7 +1,7 @@
 #pragma once
 // Edges and vertices taken apart where a surface is not a manifold.
 
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
 
 #include <set>

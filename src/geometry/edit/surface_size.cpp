@@ -1,9 +1,9 @@
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/fetch_points.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

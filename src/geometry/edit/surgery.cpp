@@ -1,9 +1,9 @@
 #include "geometry/edit/surgery.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/face.hpp"
 #include "mesh/indices_where.hpp"
 #include "mesh/wedges.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>
@@ -41,8 +41,8 @@ struct Numbering {
 };
 
 /// All old elements come first.
-Lineage all_of() {
-    Lineage l;
+Provenance all_of() {
+    Provenance l;
     l.identity = true;
     return l;
 }
@@ -69,7 +69,7 @@ Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces) {
     for (auto& v : vertices) v = v != lost;
     const Numbering of_wedges(wedges), of_vertices(vertices);
     Mesh result;
-    Descent descent;
+    MeshProvenance provenance;
     for (const Index v : of_vertices.old) result.positions.push_back(mesh.positions[v]);
     if (mesh.has_seams())
         for (const Index w : of_wedges.old)
@@ -79,10 +79,10 @@ Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces) {
         for (const Index w : mesh.face_wedges(f)) result.corners.push_back(of_wedges.renumbered[w]);
         if (!mesh.all_triangles()) result.face_offsets.push_back(static_cast<Index>(result.corners.size()));
     }
-    descent.faces = faces;
-    descent.vertices.copies = of_vertices.old;
-    descent.wedges.copies = of_wedges.old;
-    inherit_attributes(result, mesh, descent);
+    provenance.faces = faces;
+    provenance.vertices.copies = of_vertices.old;
+    provenance.wedges.copies = of_wedges.old;
+    inherit_attributes(result, mesh, provenance);
     normalise_offsets(result);
     forget_plain_wedges(result);
     return result;
@@ -95,29 +95,30 @@ std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of
     std::vector<Mesh> pieces(count);
     for (std::size_t p = 0; p < count; ++p) {
         Mesh& piece = pieces[p];
-        Descent descent;
-        descent.faces = std::move(faces[p]);
+        MeshProvenance provenance;
+        provenance.faces = std::move(faces[p]);
         if (!mesh.all_triangles()) piece.face_offsets.push_back(0);
-        for (const Index f : descent.faces) {
+        for (const Index f : provenance.faces) {
             for (const Index w : mesh.face_wedges(f)) {
                 const Index v = mesh.vertex_of_wedge(w);
                 if (new_vertex[v] == gone) {
                     new_vertex[v] = static_cast<Index>(piece.positions.size());
                     piece.positions.push_back(mesh.positions[v]);
-                    descent.vertices.copies.push_back(v);
+                    provenance.vertices.copies.push_back(v);
                 }
                 if (new_wedge[w] == gone) {
-                    new_wedge[w] = static_cast<Index>(descent.wedges.copies.size());
-                    descent.wedges.copies.push_back(w);
+                    new_wedge[w] = static_cast<Index>(provenance.wedges.copies.size());
+                    provenance.wedges.copies.push_back(w);
                     if (mesh.has_seams()) piece.wedge_vertex.push_back(new_vertex[v]);
                 }
                 piece.corners.push_back(new_wedge[w]);
             }
             if (!mesh.all_triangles()) piece.face_offsets.push_back(static_cast<Index>(piece.corners.size()));
         }
-        inherit_attributes(piece, mesh, descent);
-        for (const Index w : descent.wedges.copies) new_wedge[w] = gone; // a vertex may be of several pieces
-        for (const Index v : descent.vertices.copies) new_vertex[v] = gone;
+        inherit_attributes(piece, mesh, provenance);
+        for (const Index w : provenance.wedges.copies)
+            new_wedge[w] = gone; // a vertex may be of several pieces
+        for (const Index v : provenance.vertices.copies) new_vertex[v] = gone;
         normalise_offsets(piece);
         forget_plain_wedges(piece);
     }
@@ -173,21 +174,21 @@ std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target) {
 Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
                   const std::vector<Index>& copies) {
     Mesh result;
-    Descent descent;
-    descent.faces_identity = true;
-    descent.vertices.copies.resize(mesh.vertex_count());
-    for (Index v = 0; v < mesh.vertex_count(); ++v) descent.vertices.copies[v] = v;
-    descent.vertices.copies.insert(descent.vertices.copies.end(), copies.begin(), copies.end());
-    for (const Index v : descent.vertices.copies) result.positions.push_back(mesh.positions[v]);
+    MeshProvenance provenance;
+    provenance.faces_identity = true;
+    provenance.vertices.copies.resize(mesh.vertex_count());
+    for (Index v = 0; v < mesh.vertex_count(); ++v) provenance.vertices.copies[v] = v;
+    provenance.vertices.copies.insert(provenance.vertices.copies.end(), copies.begin(), copies.end());
+    for (const Index v : provenance.vertices.copies) result.positions.push_back(mesh.positions[v]);
     result.face_offsets = mesh.face_offsets;
     if (!mesh.has_seams()) { // every vertex is its wedge, the new ones too
         result.corners = vertex_of_corner;
-        descent.wedges = descent.vertices;
+        provenance.wedges = provenance.vertices;
     } else {
         result.corners = mesh.corners;
         result.wedge_vertex.assign(mesh.wedge_count(), gone);
-        descent.wedges.copies.resize(mesh.wedge_count());
-        for (Index w = 0; w < mesh.wedge_count(); ++w) descent.wedges.copies[w] = w;
+        provenance.wedges.copies.resize(mesh.wedge_count());
+        for (Index w = 0; w < mesh.wedge_count(); ++w) provenance.wedges.copies[w] = w;
         std::map<std::pair<Index, Index>, Index> copies;
         for (Index c = 0; c < mesh.corner_count(); ++c) {
             const Index w = mesh.corners[c], v = vertex_of_corner[c];
@@ -197,14 +198,14 @@ Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
                 copies.try_emplace({w, v}, static_cast<Index>(result.wedge_vertex.size()));
             if (fresh) {
                 result.wedge_vertex.push_back(v);
-                descent.wedges.copies.push_back(w);
+                provenance.wedges.copies.push_back(w);
             }
             result.corners[c] = at->second;
         }
         for (Index w = 0; w < mesh.wedge_count(); ++w)
             if (result.wedge_vertex[w] == gone) result.wedge_vertex[w] = mesh.wedge_vertex[w];
     }
-    inherit_attributes(result, mesh, descent);
+    inherit_attributes(result, mesh, provenance);
     return result;
 }
 
@@ -213,7 +214,7 @@ namespace {
 /// Faces built anew from old ones, corner by corner.
 class Inserter {
   public:
-    Inserter(const Mesh& mesh, std::vector<Insertion> insertions, const std::vector<Lineage::Edge>& added)
+    Inserter(const Mesh& mesh, std::vector<Insertion> insertions, const std::vector<Provenance::Edge>& added)
         : mesh_(mesh), insertions_(std::move(insertions)), added_(added),
           plain_(!mesh.has_seams() && !has_wedge_attributes(mesh)), wedges_(explicit_wedges(mesh)) {
         std::sort(insertions_.begin(), insertions_.end(), [](const Insertion& a, const Insertion& b) {
@@ -306,14 +307,14 @@ class Inserter {
     Mesh finish(AttributeChanges* changes) {
         result_.corners = std::move(corners_);
         result_.face_offsets = std::move(offsets_);
-        Descent descent;
-        descent.faces = std::move(sources_);
-        descent.vertices = all_of();
-        descent.vertices.edges = added_;
-        descent.wedges = all_of();
-        descent.wedges.edges = plain_ ? added_ : edges_;
+        MeshProvenance provenance;
+        provenance.faces = std::move(sources_);
+        provenance.vertices = all_of();
+        provenance.vertices.edges = added_;
+        provenance.wedges = all_of();
+        provenance.wedges.edges = plain_ ? added_ : edges_;
         if (!plain_) result_.wedge_vertex = std::move(wedges_);
-        AttributeChanges found = inherit_attributes(result_, mesh_, descent);
+        AttributeChanges found = inherit_attributes(result_, mesh_, provenance);
         if (changes) *changes = std::move(found);
         normalise_offsets(result_);
         forget_plain_wedges(result_);
@@ -322,10 +323,10 @@ class Inserter {
 
     const Mesh& mesh_;
     std::vector<Insertion> insertions_;
-    const std::vector<Lineage::Edge>& added_;
+    const std::vector<Provenance::Edge>& added_;
     bool plain_; ///< a vertex is all there is to a wedge
     std::vector<Index> wedges_;
-    std::vector<Lineage::Edge> edges_;
+    std::vector<Provenance::Edge> edges_;
     std::map<std::tuple<Index, Index, Index>, Index> made_;
     std::vector<RingCorner> ring_;
     std::vector<Index> corners_, offsets_, sources_;
@@ -335,7 +336,7 @@ class Inserter {
 } // namespace
 
 Mesh insert_on_edges(const Mesh& mesh, std::vector<Insertion> insertions,
-                     const std::vector<Lineage::Edge>& added, AttributeChanges* changes) {
+                     const std::vector<Provenance::Edge>& added, AttributeChanges* changes) {
     return Inserter(mesh, std::move(insertions), added).run(changes);
 }
 
@@ -359,16 +360,16 @@ Mesh with_patches(const Mesh& mesh, const Patches& patches, AttributeChanges* ch
     for (Index f = 0; f + 1 < patches.offsets.size(); ++f)
         add_face(result, {patches.corners.data() + patches.offsets[f],
                           patches.corners.data() + patches.offsets[f + 1]});
-    Descent descent;
-    for (Index f = 0; f < mesh.face_count(); ++f) descent.faces.push_back(f);
-    descent.faces.insert(descent.faces.end(), patches.sources.begin(), patches.sources.end());
-    descent.wedges = all_of();
-    descent.wedges.mix_offsets = patches.mix_offsets;
-    descent.wedges.mix_sources = patches.mix_wedges;
-    descent.wedges.mix_weights = patches.mix_weights;
-    descent.vertices = descent.wedges;
-    for (auto& w : descent.vertices.mix_sources) w = mesh.vertex_of_wedge(w);
-    AttributeChanges found = inherit_attributes(result, mesh, descent);
+    MeshProvenance provenance;
+    for (Index f = 0; f < mesh.face_count(); ++f) provenance.faces.push_back(f);
+    provenance.faces.insert(provenance.faces.end(), patches.sources.begin(), patches.sources.end());
+    provenance.wedges = all_of();
+    provenance.wedges.mix_offsets = patches.mix_offsets;
+    provenance.wedges.mix_sources = patches.mix_wedges;
+    provenance.wedges.mix_weights = patches.mix_weights;
+    provenance.vertices = provenance.wedges;
+    for (auto& w : provenance.vertices.mix_sources) w = mesh.vertex_of_wedge(w);
+    AttributeChanges found = inherit_attributes(result, mesh, provenance);
     if (changes) *changes = std::move(found);
     return result;
 }

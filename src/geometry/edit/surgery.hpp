@@ -2,8 +2,8 @@
 // The cuts and stitches that repairs are made of: faces that go, vertices that merge or part, points put on
 // edges, patches. Each gives a new mesh in which all else is as it was, in the same order.
 
-#include "mesh/lineage.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/provenance.hpp"
 
 #include <span>
 #include <vector>
@@ -47,7 +47,7 @@ struct Insertion {
 /// interpolated between the ends given in added; so are wedges, once per pair of wedges and vertex.
 /// `changes` tells what became of the attributes.
 Mesh insert_on_edges(const Mesh& mesh, std::vector<Insertion> insertions,
-                     const std::vector<Lineage::Edge>& added, AttributeChanges* changes = nullptr);
+                     const std::vector<Provenance::Edge>& added, AttributeChanges* changes = nullptr);
 
 /// Faces to be added. A corner names a wedge of the mesh, or wedge count + i for new point i.
 struct Patches {

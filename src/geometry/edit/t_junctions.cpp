@@ -1,6 +1,6 @@
 #include "geometry/edit/t_junctions.hpp"
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
 

@@ -1,13 +1,13 @@
 #include "geometry/generate/generate.hpp"
 
 #include "base/error.hpp"
-#include "base/memory.hpp"
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <bit>

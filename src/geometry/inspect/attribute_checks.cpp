@@ -1,7 +1,7 @@
 // The properties that are about attributes.
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/inspect/measures.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // The pairs of faces that lie on each other: neighbours, faces in one plane, faces on the texture.
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
-#include "base/sorted_once.hpp"
+#include "base/math/predicates.hpp"
+#include "base/sort_unique.hpp"
 #include "geometry/edit/around_edge.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/box_tree.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -113,7 +113,7 @@ std::optional<Pairs> uv_overlaps(const Mesh& mesh) {
             return a;
         },
         1024);
-    sort_once(pairs);
+    sort_unique(pairs);
     return pairs;
 }
 

@@ -1,12 +1,12 @@
 // The properties that each face has: angles, edges, aspect ratio, planarity, and the wall under it.
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/spatial/rays_walk.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

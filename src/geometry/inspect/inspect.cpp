@@ -1,6 +1,5 @@
 #include "geometry/inspect/inspect.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/inspect/evidence.hpp"
@@ -10,6 +9,7 @@
 #include "mesh/equal_meshes.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>
@@ -103,7 +103,7 @@ FaceSums far_face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, con
 /// Properties that do not depend on the transform. repeating: triangles that have a vertex twice.
 void inspect_as_it_is(Properties& p, const Mesh& mesh, std::int64_t repeating,
                       const InspectSettings& settings) {
-    ShareOfSteps steps({4, 1, settings.self_intersections ? 12.0 : 0.0});
+    ProgressSteps steps({4, 1, settings.self_intersections ? 12.0 : 0.0});
     const Connectivity connectivity = connectivity_of(mesh);
     steps.next();
     set_connectivity(p, connectivity);
@@ -138,7 +138,7 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
     p.faces = static_cast<std::int64_t>(mesh.face_count());
     p.bounds = box_of(positions);
-    ShareOfSteps steps({1, settings.self_intersections ? 17.0 : 5.0});
+    ProgressSteps steps({1, settings.self_intersections ? 17.0 : 5.0});
     const FaceSums sums = far_face_sums(mesh, positions, p.bounds);
     steps.next();
     p.triangles = sums.triangles;
@@ -232,7 +232,7 @@ class Joiner {
 void measure_requested(Properties& p, const Mesh& world, const Mesh& local, const InspectSettings& settings) {
     const Measured measured{world, local, p, settings};
     std::vector<std::pair<const Property*, double>> values;
-    ShareOfSteps steps(std::vector<double>(settings.requested.size(), 1));
+    ProgressSteps steps(std::vector<double>(settings.requested.size(), 1));
     for (const Property* property : settings.requested) {
         if (const auto value = value_of(*property, measured)) values.emplace_back(property, *value);
         steps.next();
@@ -259,7 +259,7 @@ void set_connectivity(Properties& p, const Connectivity& c) {
 namespace {
 
 Properties inspect_alike(const Mesh& mesh, const InspectSettings& settings, const Properties* alike) {
-    ShareOfSteps steps(lengths_of(settings));
+    ProgressSteps steps(lengths_of(settings));
     Properties p = inspect_placed(mesh, mesh.positions, false, settings, alike);
     steps.next();
     measure_requested(p, mesh, mesh, settings);
@@ -271,7 +271,7 @@ Properties inspect_alike(const Part& part, const InspectSettings& settings, cons
     std::vector<Vec3> world(part.mesh.vertex_count());
     parallel_for(world.size(),
                  [&](std::size_t v) { world[v] = part.transform.point(part.mesh.positions[v]); });
-    ShareOfSteps steps(lengths_of(settings));
+    ProgressSteps steps(lengths_of(settings));
     Properties p = inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings, alike);
     steps.next();
     if (settings.requested.empty()) return p;
@@ -303,7 +303,7 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     std::vector<double> lengths;
     lengths.reserve(scene.parts.size());
     for (const Part& part : scene.parts) lengths.push_back(1 + static_cast<double>(part.mesh.face_count()));
-    ShareOfSteps steps(std::move(lengths));
+    ProgressSteps steps(std::move(lengths));
     const std::vector<std::size_t> first = first_with_equal_mesh(scene);
     std::vector<std::uint8_t> is_again(first.size());
     for (std::size_t i = 0; i < first.size(); ++i) is_again[first[i]] |= first[i] != i;

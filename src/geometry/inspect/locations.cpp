@@ -1,14 +1,14 @@
 // The places where the properties of connectivity, faces and pairs fail, and what a place is known by.
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
-#include "base/random.hpp"
-#include "base/sorted_once.hpp"
+#include "base/math/predicates.hpp"
+#include "base/math/random.hpp"
+#include "base/sort_unique.hpp"
 #include "geometry/edit/t_junctions.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/orient/orient.hpp"
 #include "mesh/lines.hpp"
 #include "mesh/placement.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -85,7 +85,7 @@ std::vector<Location> locations_of_vertices(const Mesh& mesh, std::size_t limit,
 void vertex_set(const Mesh& mesh, Index f, std::vector<Index>& set) {
     set.clear();
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) set.push_back(mesh.vertex(c));
-    sort_once(set);
+    sort_unique(set);
 }
 
 struct HashedFace {

@@ -1,6 +1,6 @@
 #include "geometry/intersect/contacts.hpp"
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/inspect/evidence.hpp"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // A filter before the exact test of two triangles: nearly all neighbours on a surface are apart by signs that
 // floating point is sure of.
 
-#include "base/predicates.hpp"
-#include "base/vec.hpp"
+#include "base/math/predicates.hpp"
+#include "base/math/vec.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "geometry/intersect/plain_stars.hpp"
 
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
 #include "geometry/intersect/disjoint_triangles.hpp"
 #include "mesh/buckets.hpp"
 

@@ -2,7 +2,7 @@
 // 1971), with bounds of their error.
 #include "geometry/intersect/plane_crossing.hpp"
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 // Crossings of an edge with the plane of a triangle, and of three planes, in doubles.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <array>
 #include <optional>

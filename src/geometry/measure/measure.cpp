@@ -1,11 +1,11 @@
 #include "geometry/measure/measure.hpp"
 
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/measure/pieces.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

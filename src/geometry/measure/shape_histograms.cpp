@@ -1,11 +1,11 @@
 #include "geometry/measure/shape_histograms.hpp"
 
-#include "base/arc_tangents.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
-#include "base/simd.hpp"
+#include "base/math/arc_tangents.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/simd.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

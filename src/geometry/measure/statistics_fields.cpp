@@ -1,6 +1,6 @@
 #include "geometry/measure/statistics_fields.hpp"
 
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 #include "geometry/normals/normals.hpp"
 
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/normals/one_ring.hpp"
 #include "mesh/face.hpp"
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <cstring>
 
@@ -309,7 +309,7 @@ void set_facet_normals(Mesh& mesh) {
             corners[c] = static_cast<Index>(i);
         }
     }
-    Lineage copies;
+    Provenance copies;
     for (const Facet& facet : facets) copies.copies.push_back(facet.wedge);
     mesh.corners = std::move(corners);
     mesh.wedge_vertex = std::move(vertex_of);

@@ -1,10 +1,10 @@
 #include "geometry/normals/normals.hpp"
 
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/normals/one_ring.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 
 #include <numeric>
 #include <tuple>

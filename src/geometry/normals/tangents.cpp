@@ -3,7 +3,7 @@
 // (MikkTSpace).
 
 #include "geometry/normals/tangents.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "mesh/separate_wedges.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "geometry/orient/orient.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/components_around.hpp"
 #include "geometry/spatial/rays.hpp"
@@ -8,6 +7,7 @@
 #include "mesh/placement.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
-#include "base/portable_math.hpp"
-#include "base/predicates.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
 
 namespace facetmill::polygon {
@@ -10,17 +10,17 @@ bool between(double a, double x, double b) { return (a <= x && x <= b) || (b <= 
 
 } // namespace
 
-const char* to_string(Place place) {
+const char* to_string(PointLocation place) {
     constexpr const char* names[] = {"outside", "inside", "on_edge", "on_vertex"};
     return names[static_cast<int>(place)];
 }
 
-Place locate(const Vec2& p, Rings rings) {
+PointLocation locate(const Vec2& p, Rings rings) {
     bool inside = false, on_edge = false;
     for (const Ring ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
-            if (a == p) return Place::on_vertex;
+            if (a == p) return PointLocation::on_vertex;
             const bool a_below = a.y <= p.y, b_below = b.y <= p.y;
             if (a_below == b_below) {
                 on_edge = on_edge || (a.y == p.y && b.y == p.y && between(a.x, p.x, b.x));
@@ -30,21 +30,21 @@ Place locate(const Vec2& p, Rings rings) {
             on_edge = on_edge || side == 0;
             if ((side > 0) == a_below) inside = !inside;
         }
-    return on_edge ? Place::on_edge : inside ? Place::inside : Place::outside;
+    return on_edge ? PointLocation::on_edge : inside ? PointLocation::inside : PointLocation::outside;
 }
 
-Place locate(const Vec2& p, Ring ring) { return locate(p, Rings(&ring, 1)); }
+PointLocation locate(const Vec2& p, Ring ring) { return locate(p, Rings(&ring, 1)); }
 
-Place locate_convex(const Vec2& p, Ring ring) {
+PointLocation locate_convex(const Vec2& p, Ring ring) {
     bool left = false, right = false, on = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
-        if (a == p) return Place::on_vertex;
+        if (a == p) return PointLocation::on_vertex;
         const int side = orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y);
         (side > 0 ? left : side < 0 ? right : on) = true;
     }
-    if (left == right) return Place::outside;
-    return on ? Place::on_edge : Place::inside;
+    if (left == right) return PointLocation::outside;
+    return on ? PointLocation::on_edge : PointLocation::inside;
 }
 
 double angle_sum(const Vec2& p, Ring ring) {

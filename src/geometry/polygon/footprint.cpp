@@ -1,8 +1,8 @@
 #include "geometry/polygon/footprint.hpp"
 
 #include "base/error.hpp"
-#include "base/predicates.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/math/predicates.hpp"
+#include "base/text/readable_numbers.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -73,29 +73,29 @@ Footprint::Footprint(std::vector<std::vector<Vec2>> rings)
         int depth = 0;
         for (std::size_t k = 0; k < rings_.size(); ++k) {
             if (k == i) continue;
-            auto place = polygon::Place::on_edge; // of the first corner that tells
-            for (std::size_t c = 0; c < rings_[i].size() && place > polygon::Place::inside; ++c)
+            auto place = polygon::PointLocation::on_edge; // of the first corner that tells
+            for (std::size_t c = 0; c < rings_[i].size() && place > polygon::PointLocation::inside; ++c)
                 place = polygon::locate(rings_[i][c], rings_[k]);
-            depth += place == polygon::Place::inside;
+            depth += place == polygon::PointLocation::inside;
         }
         if ((depth % 2 == 0) != (way > 0)) std::reverse(rings_[i].begin(), rings_[i].end());
     }
     tree_ = RingTree(spans());
 }
 
-polygon::Place Footprint::locate(const Vec2& p) const {
-    using polygon::Place;
+polygon::PointLocation Footprint::locate(const Vec2& p) const {
+    using polygon::PointLocation;
     bool inside = false;
-    Place on = Place::outside;
+    PointLocation on = PointLocation::outside;
     const bool odd = tree_.odd_on_left(p, [&](Index i) {
         const auto& e = tree_.edges()[i];
         if (e.a == p) {
-            on = Place::on_vertex;
+            on = PointLocation::on_vertex;
             return false;
         }
         const bool a_below = e.a.y <= p.y, b_below = e.b.y <= p.y;
         if (a_below == b_below) {
-            if (e.a.y == p.y && e.b.y == p.y && (e.a.x <= p.x) != (e.b.x <= p.x)) on = Place::on_edge;
+            if (e.a.y == p.y && e.b.y == p.y && (e.a.x <= p.x) != (e.b.x <= p.x)) on = PointLocation::on_edge;
             return true;
         }
         if (std::max(e.a.x, e.b.x) < p.x) { // all of it is on the left
@@ -103,11 +103,11 @@ polygon::Place Footprint::locate(const Vec2& p) const {
             return true;
         }
         const int side = turn(e.a, e.b, p);
-        if (side == 0) on = Place::on_edge;
+        if (side == 0) on = PointLocation::on_edge;
         if ((side > 0) != a_below) inside = !inside;
         return true;
     });
-    return on != Place::outside ? on : inside != odd ? Place::inside : Place::outside;
+    return on != PointLocation::outside ? on : inside != odd ? PointLocation::inside : PointLocation::outside;
 }
 
 double Footprint::area() const {

@@ -30,7 +30,7 @@ class Footprint {
     const polygon::RingTree& tree() const { return tree_; }
 
     /// As polygon::locate, in logarithmic time.
-    polygon::Place locate(const Vec2& p) const;
+    polygon::PointLocation locate(const Vec2& p) const;
     /// Calls visit(segment) for the segments at most so far from a point, until it returns false.
     template <class Visit>
     void near(const Vec2& p, double distance, Visit&& visit) const {

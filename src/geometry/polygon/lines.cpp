@@ -1,5 +1,5 @@
 #include "base/error.hpp"
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
 
 #include <algorithm>

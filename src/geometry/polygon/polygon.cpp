@@ -1,8 +1,8 @@
 #include "geometry/polygon/polygon.hpp"
 
-#include "base/exact_integer.hpp"
-#include "base/exact_sum.hpp"
-#include "base/predicates.hpp"
+#include "base/math/exact_integer.hpp"
+#include "base/math/exact_sum.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/ring_tree.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 

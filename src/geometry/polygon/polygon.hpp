@@ -3,10 +3,10 @@
 // not a polygon (2D) has its vertices ordered clockwise or counter-clockwise" (1998), "Clipping a line
 // segment to a complex polygon" (1997), "Calculating the area of a 3D polygon" (2000), "Determining if a
 // point lies on the interior of a polygon" (1987) and "Calculating the area and centroid of a polygon"
-// (1988). Signs that decide are exact (base/predicates.hpp); sums are taken about a point of the polygon, so
-// that polygons far from the origin lose nothing.
+// (1988). Signs that decide are exact (base/math/predicates.hpp); sums are taken about a point of the
+// polygon, so that polygons far from the origin lose nothing.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "mesh/mesh.hpp"
 
 #include <optional>
@@ -130,16 +130,16 @@ Kind classify(Ring ring);
 
 // --- Containment
 
-enum class Place { outside, inside, on_edge, on_vertex };
-const char* to_string(Place place);
+enum class PointLocation { outside, inside, on_edge, on_vertex };
+const char* to_string(PointLocation place);
 
 /// Crossing rule: a ray to the right crosses an odd number of edges; of each edge the lower end counts and
 /// the upper does not, so that shared ends count once. Holes are holes whatever their orientation. Exact.
-Place locate(const Vec2& p, Rings rings);
-Place locate(const Vec2& p, Ring ring);
+PointLocation locate(const Vec2& p, Rings rings);
+PointLocation locate(const Vec2& p, Ring ring);
 
 /// For a convex ring: on one side of all its edges. Exact.
-Place locate_convex(const Vec2& p, Ring convex);
+PointLocation locate_convex(const Vec2& p, Ring convex);
 
 /// The sum of the angles that the edges subtend at p: 2 pi times how often the ring goes round p. p is not on
 /// the ring.

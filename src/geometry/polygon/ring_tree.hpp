@@ -2,7 +2,7 @@
 // A tree of boxes over the edges of rings, in their order. Neighbours along a ring are neighbours in the
 // tree, so one pass builds it, and searches for near edges are still fast.
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
 
 namespace facetmill::polygon {

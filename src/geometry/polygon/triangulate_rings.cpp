@@ -1,6 +1,6 @@
 #include "geometry/polygon/triangulate_rings.hpp"
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/cgal/triangulate_polygon.hpp"
 
 #include <algorithm>

@@ -24,14 +24,14 @@ const Attribute* colours_in(const Mesh& mesh) {
     return nullptr;
 }
 
-PreviewAttributes preview_attributes(const Scene& scene, const MaterialLooks* looks) {
+PreviewAttributes preview_attributes(const Scene& scene, const ResolvedMaterials* materials) {
     PreviewAttributes out{.normals = true};
     for (const Part& part : scene.parts) {
         if (part.mesh.face_count() > 0 && !normals_in(part.mesh)) out.normals = false;
         out.colours |= colours_in(part.mesh) != nullptr;
     }
-    if (looks)
-        out.textures = std::any_of(looks->begin(), looks->end(), [](const MaterialLook& look) {
+    if (materials)
+        out.textures = std::any_of(materials->begin(), materials->end(), [](const MaterialLook& look) {
             return static_cast<bool>(look.base_texture);
         });
     return out;
@@ -56,8 +56,8 @@ struct Gatherer::Placed {
     }
 };
 
-Gatherer::Gatherer(const Scene& scene, const MaterialLooks* looks, PreviewAttributes wanted)
-    : scene_(scene), looks_(looks), wanted_(wanted) {}
+Gatherer::Gatherer(const Scene& scene, const ResolvedMaterials* materials, PreviewAttributes wanted)
+    : scene_(scene), materials_(materials), wanted_(wanted) {}
 
 Index Gatherer::primitive_for(Placed& placed, Index face) {
     const Mesh& mesh = placed.mesh;
@@ -89,7 +89,7 @@ void Gatherer::push_attributes(const Placed& placed, Index face, Index wedge, co
         for (std::size_t c = 0; c < 3; ++c) normals_.push_back(finite_or(n[c], 0));
     }
     const MaterialLook* look =
-        looks_ && paint.material < looks_->size() ? &(*looks_)[paint.material] : nullptr;
+        materials_ && paint.material < materials_->size() ? &(*materials_)[paint.material] : nullptr;
     const Texture* texture = look && look->base_texture ? &look->base_texture : nullptr;
     double u = 0, v = 0;
     if (texture)

@@ -15,12 +15,12 @@ struct PreviewAttributes {
 };
 /// The colours of a mesh, or null.
 const Attribute* colours_in(const Mesh& mesh);
-PreviewAttributes preview_attributes(const Scene& scene, const MaterialLooks* looks);
+PreviewAttributes preview_attributes(const Scene& scene, const ResolvedMaterials* materials);
 
 /// Takes triangles, part by part, into one mesh.
 class Gatherer {
   public:
-    Gatherer(const Scene& scene, const MaterialLooks* looks, PreviewAttributes wanted);
+    Gatherer(const Scene& scene, const ResolvedMaterials* materials, PreviewAttributes wanted);
     /// Triangles of a mesh of triangles that stands there, by their corners, three each: whose vertices and
     /// attributes they have. Those with a point that is not finite are left out.
     void add(const Mesh& triangles, const Transform& to_world, std::span<const Index> corners);
@@ -33,7 +33,7 @@ class Gatherer {
     void push_attributes(const Placed& placed, Index face, Index wedge, const PreviewPaint& paint);
 
     const Scene& scene_;
-    const MaterialLooks* looks_;
+    const ResolvedMaterials* materials_;
     PreviewAttributes wanted_;
     Preview out_;
     std::vector<float> normals_, colours_, coordinates_;

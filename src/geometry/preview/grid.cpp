@@ -1,8 +1,8 @@
 #include "geometry/preview/grid.hpp"
 
-#include "base/parallel.hpp"
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
 #include "mesh/finite_box.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,8 +12,8 @@ namespace {
 /// The colours of a part without faces.
 class LooseColours {
   public:
-    LooseColours(const Part& part, const Scene& scene, const MaterialLooks* looks)
-        : mesh_(part.mesh), scene_(scene), looks_(looks), own_(colours_in(part.mesh)) {
+    LooseColours(const Part& part, const Scene& scene, const ResolvedMaterials* materials)
+        : mesh_(part.mesh), scene_(scene), materials_(materials), own_(colours_in(part.mesh)) {
         if (own_ && own_->domain != Domain::vertex && own_->domain != Domain::wedge) own_ = nullptr;
     }
 
@@ -32,7 +32,7 @@ class LooseColours {
   private:
     Texel of_material(Index primitive) const {
         const Index m = primitive < mesh_.primitives.size() ? mesh_.primitives[primitive].material : none;
-        if (looks_ && m < looks_->size()) return (*looks_)[m].base;
+        if (materials_ && m < materials_->size()) return (*materials_)[m].base;
         Texel colour{1, 1, 1, 1};
         if (m < scene_.materials.size())
             for (std::size_t c = 0; c < 4; ++c)
@@ -42,7 +42,7 @@ class LooseColours {
 
     const Mesh& mesh_;
     const Scene& scene_;
-    const MaterialLooks* looks_;
+    const ResolvedMaterials* materials_;
     const Attribute* own_;
 };
 
@@ -55,7 +55,7 @@ void push(LooseParts& out, const Vec3& place, const Texel& colour) {
 
 } // namespace
 
-LooseParts loose_parts(const Scene& scene, const MaterialLooks* looks, std::size_t most) {
+LooseParts loose_parts(const Scene& scene, const ResolvedMaterials* materials, std::size_t most) {
     LooseParts out;
     for (const Part& part : scene.parts) {
         out.all_lines += part.mesh.line_count();
@@ -68,7 +68,7 @@ LooseParts loose_parts(const Scene& scene, const MaterialLooks* looks, std::size
         for (const Part& part : scene.parts) {
             const Mesh& mesh = part.mesh;
             if (mesh.face_count() > 0 || (mesh.line_count() > 0) != lines) continue;
-            const LooseColours colours(part, scene, looks);
+            const LooseColours colours(part, scene, materials);
             for (std::size_t i = 0; i < (lines ? mesh.line_count() : mesh.vertex_count()); ++i)
                 if (number++ % step == 0) visit(part, i, colours);
         }

@@ -1,12 +1,12 @@
 #include "geometry/preview/preview.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/preview/gathered.hpp"
 #include "geometry/preview/grid.hpp"
 #include "geometry/preview/loose.hpp"
 #include "geometry/simplify/simplify.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -113,9 +113,9 @@ Mesh reduced(Mesh mesh, std::size_t faces) {
 
 /// The parts as one mesh: all of their triangles, or, with a cell, those between the vertices that a grid
 /// leaves.
-Preview gathered(const Scene& scene, const MaterialLooks* looks, const PreviewAttributes& wanted,
+Preview gathered(const Scene& scene, const ResolvedMaterials* materials, const PreviewAttributes& wanted,
                  std::optional<double> cell) {
-    Gatherer gatherer(scene, looks, wanted);
+    Gatherer gatherer(scene, materials, wanted);
     for (const Part& part : scene.parts) {
         if (part.mesh.face_count() == 0) continue;
         const bool as_it_is = part.mesh.all_triangles();
@@ -138,17 +138,17 @@ Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     std::size_t faces = 0;
     for (const Part& part : scene.parts) faces += triangles_in(part.mesh);
     if (faces == 0) return {};
-    const MaterialLooks* looks = settings.looks.get();
-    PreviewAttributes wanted = preview_attributes(scene, looks);
+    const ResolvedMaterials* materials = settings.materials.get();
+    PreviewAttributes wanted = preview_attributes(scene, materials);
     wanted.last_cap = settings.last_cap;
     wanted.baked = wanted.textures && faces > many_with_textures * settings.faces;
     if (wanted.baked) wanted.textures = false;
     std::optional<double> cell;
     if (!wanted.textures && faces > many * settings.faces)
         cell = cell_edge(scene, settings.faces * 3 / 4); // almost two triangles for each cell that is met
-    Preview out = gathered(scene, looks, wanted, cell);
+    Preview out = gathered(scene, materials, wanted, cell);
     // A surface of components smaller than a cell has no triangles between cells.
-    if (cell && out.mesh.face_count() < settings.faces / 4) out = gathered(scene, looks, wanted, {});
+    if (cell && out.mesh.face_count() < settings.faces / 4) out = gathered(scene, materials, wanted, {});
     out.faces = faces;
     if (out.mesh.face_count() > settings.faces) out.mesh = reduced(std::move(out.mesh), settings.faces);
     return out;
@@ -158,7 +158,7 @@ Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
 
 Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
     Preview out = surface_preview(scene, settings);
-    append_loose(out, loose_parts(scene, settings.looks.get(), settings.faces));
+    append_loose(out, loose_parts(scene, settings.materials.get(), settings.faces));
     return out;
 }
 

@@ -11,7 +11,7 @@ namespace facetmill {
 
 struct PreviewSettings {
     std::size_t faces = 60000; ///< about so many triangles at most; of lines and of points exactly so many
-    std::shared_ptr<const MaterialLooks> looks{}; ///< whose base textures will be laid on; or none
+    std::shared_ptr<const ResolvedMaterials> materials{}; ///< whose base textures will be laid on; or none
     /// What closes cuts with numbers above it (later_caps) has paints of its own; none: it has not.
     std::optional<Index> last_cap{};
 };

@@ -1,8 +1,8 @@
 #include "geometry/probe/probe.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 
@@ -74,7 +74,7 @@ std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3
     const auto order =
         order_along_curve(points.size(), box_of(points), [&](std::size_t i) { return points[i]; });
     std::vector<PointAnswer> answers(points.size());
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_chunks(
         points.size(),
         [&](std::size_t begin, std::size_t end) {

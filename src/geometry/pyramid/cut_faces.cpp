@@ -1,6 +1,6 @@
 #include "geometry/pyramid/cut_faces.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,5 @@
 #include "geometry/pyramid/pyramid.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/edit/equal_wedges.hpp"
@@ -8,6 +7,7 @@
 #include "geometry/pyramid/cut_faces.hpp"
 #include "geometry/simplify/simplify.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,12 +131,12 @@ class PyramidMaker {
     std::vector<PyramidTile> run() {
         std::size_t deepest = 0;
         for (const PyramidTile& tile : tiles_) deepest = std::max(deepest, tile.name.size());
-        ShareOfSteps steps(std::vector<double>(deepest + 1, 1));
+        ProgressSteps steps(std::vector<double>(deepest + 1, 1));
         for (std::size_t level = deepest + 1; level-- > 0; steps.next()) {
             std::vector<std::size_t> here;
             for (std::size_t t = 0; t < tiles_.size(); ++t)
                 if (tiles_[t].name.size() == level && !tiles_[t].children.empty()) here.push_back(t);
-            Share::loop_tells();
+            ProgressScope::report_next_loop();
             parallel_for(
                 here.size(), [&](std::size_t i) { join(here[i]); }, 1);
         }

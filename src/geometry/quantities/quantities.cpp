@@ -1,12 +1,12 @@
 #include "geometry/quantities/quantities.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/measure/measure.hpp"
 #include "geometry/spatial/signed_distances.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/unit_text.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,12 +1,12 @@
 #include "geometry/relax/relax.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
-#include "base/sorted_once.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/sort_unique.hpp"
 #include "mesh/buckets.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 
@@ -132,7 +132,7 @@ struct Surroundings {
         for (const Corner& c : corners)
             for (Index other = mesh.face_begin(c.face); other < mesh.face_end(c.face); ++other)
                 if (mesh.vertex(other) != c.vertex) all.push_back(mesh.vertex(other));
-        sort_once(all);
+        sort_unique(all);
     }
 };
 
@@ -199,9 +199,9 @@ void refuse_giants(const Mesh& mesh, const Settings& settings) {
 }
 
 /// Which of its neighbours a vertex moves towards.
-class Choice {
+class NeighbourChoice {
   public:
-    Choice(const Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {
+    NeighbourChoice(const Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {
         if (!settings.feature_angle) return;
         straight_ = cosine(*settings.feature_angle);
         tracks_ = feature_ends(mesh, *settings.feature_angle, settings.to_world,
@@ -245,7 +245,7 @@ class Choice {
 Neighbourhoods neighbourhoods(const Mesh& mesh, const Settings& settings) {
     refuse_giants(mesh, settings);
     const std::size_t n = mesh.vertex_count();
-    const Choice choose(mesh, settings);
+    const NeighbourChoice choose(mesh, settings);
     Neighbourhoods result;
     auto& offsets = result.lists.offsets;
     offsets.assign(n + 1, 0);

@@ -1,12 +1,12 @@
 #include "geometry/relax/relax.hpp"
 
 #include "base/error.hpp"
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
+#include "base/math/numbers.hpp"
 #include "base/progress.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/relax/steps.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +75,7 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         const std::vector<Vec3>& from = run.iterations > 0 ? last : start;
         step(from, run.places);
         ++run.iterations;
-        Share::tell(static_cast<double>(run.iterations) / static_cast<double>(iterations));
+        ProgressScope::report(static_cast<double>(run.iterations) / static_cast<double>(iterations));
         if (until <= 0) continue;
         run.last_move = move_size(from, run.places, settings.to_world).largest;
         const double area = twice_area(mesh, run.places, settings.to_world);
@@ -162,7 +162,7 @@ std::optional<Refusal> check_relax_settings(const Settings& s) {
 
 RelaxResult relax(Mesh mesh, const Settings& settings) {
     throw_refusal("relax", check_relax_settings(settings));
-    ShareOfSteps steps({2, 2 + static_cast<double>(settings.iterations), 2});
+    ProgressSteps steps({2, 2 + static_cast<double>(settings.iterations), 2});
     RelaxResult result;
     const Neighbourhoods near = neighbourhoods(mesh, settings);
     result.held = near.held;

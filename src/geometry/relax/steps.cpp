@@ -1,7 +1,7 @@
 #include "geometry/relax/steps.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>

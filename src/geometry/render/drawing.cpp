@@ -1,11 +1,11 @@
 #include "geometry/render/drawing.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/normals/normals.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/transform.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Letters of five by seven pixels, for the numbers in pictures.
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/render/render.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "geometry/render/legend.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "geometry/render/font.hpp"
 #include "geometry/render/srgb.hpp"
 

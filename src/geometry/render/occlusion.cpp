@@ -1,8 +1,8 @@
 #include "geometry/render/occlusion.hpp"
 
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/progress.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 
@@ -143,7 +143,7 @@ std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, c
         return open_at(places, spiral, pixel, normal, static_cast<float>(radius));
     };
     std::vector<float> open(places.place.size(), 1);
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_for(open.size(), [&](std::size_t pixel) {
         if (pixel % width % every == 0 && pixel / width % every == 0) open[pixel] = open_of(pixel);
     });

@@ -43,7 +43,7 @@ Painter::Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& se
     const Colour plain = settings.paint == Paint::part ? distinct_colour(number)
                          : colours_                    ? Colour{1, 1, 1}
                                                        : plain_grey;
-    const MaterialLooks* looks = as_is ? settings.looks.get() : nullptr;
+    const ResolvedMaterials* materials = as_is ? settings.materials.get() : nullptr;
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
         PrimitivePaint& paint = primitives_[i];
         paint.colour = {plain[0], plain[1], plain[2], 1};
@@ -54,7 +54,7 @@ Painter::Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& se
         const Index m = mesh.primitives[i].material;
         paint.double_sided = scene.materials[m].double_sided;
         if (!as_is) continue;
-        if (looks && m < looks->size()) paint.look = &(*looks)[m];
+        if (materials && m < materials->size()) paint.look = &(*materials)[m];
         if (!loose || !is_white(scene.materials[m], paint.look))
             paint.colour = factor_of(scene.materials[m], paint.look);
     }

@@ -1,13 +1,13 @@
 #include "geometry/render/render.hpp"
 
-#include "base/memory.hpp"
-#include "base/parallel.hpp"
+#include "base/math/simd.hpp"
 #include "base/progress.hpp"
-#include "base/simd.hpp"
 #include "geometry/render/layers.hpp"
 #include "geometry/render/legend.hpp"
 #include "geometry/render/occlusion.hpp"
 #include "geometry/render/srgb.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 
 #include <limits>
 #include <numeric>
@@ -84,13 +84,13 @@ class PictureDrawing {
           bands_(in_bands(drawing_, canvas_.height)) {}
 
     Picture picture() {
-        ShareOfSteps steps({2, 1, 3});
+        ProgressSteps steps({2, 1, 3});
         draw_faces();
         draw_points();
         steps.next();
         if (settings_.occlusion && settings_.paint != Paint::normal) open_ = occluded();
         steps.next();
-        Share::loop_tells();
+        ProgressScope::report_next_loop();
         Picture picture;
         picture.width = settings_.width;
         picture.height = settings_.height;
@@ -110,7 +110,7 @@ class PictureDrawing {
     int last_row(std::size_t band) const { return std::min(first_row(band) + band_rows, canvas_.height); }
 
     void draw_faces() {
-        Share::loop_tells();
+        ProgressScope::report_next_loop();
         for (const PartDrawing& part : drawing_.parts())
             if (part.has_faces()) draw_part(part);
     }
@@ -392,7 +392,7 @@ Picture picture_of(const Scene& scene, const PictureSettings& settings) {
     require_memory(64.0 * settings.width * settings.height, "the picture", "render fewer pixels");
     const ValueRange range = painted_range(scene, settings);
     const PictureSettings own = beside_legend(settings, range);
-    ShareOfSteps steps({1, 3});
+    ProgressSteps steps({1, 3});
     PictureDrawing drawing(scene, own, range);
     steps.next();
     Picture picture = drawing.picture();

@@ -82,7 +82,8 @@ struct PictureSettings {
     std::optional<std::array<float, 3>> ground{}; ///< linear background; none: transparent
     std::function<bool(const Part&)> shows{};     ///< which parts; empty: all
     std::vector<Vec3> marks{}; ///< places in world space with rings around them, over all else
-    std::shared_ptr<const MaterialLooks> looks{}; ///< with textures; none: Material::base_colour alone
+    std::shared_ptr<const ResolvedMaterials>
+        materials{}; ///< with textures; none: Material::base_colour alone
 };
 
 /// Rows from the top, four bytes a pixel: red, green, blue (sRGB), alpha (0 where nothing is).

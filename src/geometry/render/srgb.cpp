@@ -1,6 +1,6 @@
 #include "geometry/render/srgb.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 
 #include <algorithm>
 #include <array>

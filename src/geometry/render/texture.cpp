@@ -1,7 +1,7 @@
 #include "geometry/render/texture.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/render/srgb.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Textures and materials as a picture needs them: images with their mip levels, samplers, and what a material
 // does with them, after the specification of glTF 2.0 (Khronos, 2021) and KHR_texture_transform. Who reads
-// files makes them (io/gltf/looks.hpp).
+// files makes them (io/gltf/contents/resolved_materials.hpp).
 
 #include <array>
 #include <cstdint>
@@ -76,6 +76,6 @@ struct MaterialLook {
 };
 
 /// By the index of the scene's materials.
-using MaterialLooks = std::vector<MaterialLook>;
+using ResolvedMaterials = std::vector<MaterialLook>;
 
 } // namespace facetmill

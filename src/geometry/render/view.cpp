@@ -1,9 +1,9 @@
 #include "geometry/render/view.hpp"
 
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/render/canvas.hpp"
 #include "mesh/transform.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // What the contours of a section are to each other, and their measures.
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/ring_tree.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 #include "geometry/section/section.hpp"

@@ -1,8 +1,8 @@
 #include "geometry/section/cut.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 
 #include <bit>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "geometry/section/section.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 #include "geometry/section/cut.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -197,7 +197,7 @@ std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings) 
         0) // a mirrored part: its faces are turned, so that fronts stay fronts
         parallel_for(pieces.size(), [&](std::size_t i) { std::swap(pieces[i].from, pieces[i].to); });
     std::vector<Section> sections(stack.size());
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_for(
         sections.size(),
         [&](std::size_t k) {

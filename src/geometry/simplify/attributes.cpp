@@ -5,9 +5,9 @@
 
 #include "geometry/simplify/attributes.hpp"
 
-#include "base/parallel.hpp"
-#include "base/random.hpp"
-#include "mesh/lineage.hpp"
+#include "base/math/random.hpp"
+#include "mesh/provenance.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill::simplification {
 
@@ -228,21 +228,22 @@ class Followed {
         gather_faces();
     }
 
-    Lineage lineage() const {
+    Provenance element_provenance() const {
         std::vector<Mix> mixes(survivors_.size());
         parallel_for(
             mixes.size(), [&](std::size_t e) { mixes[e] = mix_of(static_cast<Index>(e)); }, 1024);
-        Lineage lineage;
-        lineage.mix_offsets.assign(1, 0);
+        Provenance element_provenance;
+        element_provenance.mix_offsets.assign(1, 0);
         for (const Mix& m : mixes) {
             for (std::size_t k = 0; k < 3; ++k) {
                 if (!(m.weight[k] > 0)) continue;
-                lineage.mix_sources.push_back(m.of[k]);
-                lineage.mix_weights.push_back(m.weight[k]);
+                element_provenance.mix_sources.push_back(m.of[k]);
+                element_provenance.mix_weights.push_back(m.weight[k]);
             }
-            lineage.mix_offsets.push_back(static_cast<Index>(lineage.mix_sources.size()));
+            element_provenance.mix_offsets.push_back(
+                static_cast<Index>(element_provenance.mix_sources.size()));
         }
-        return lineage;
+        return element_provenance;
     }
 
   private:
@@ -352,10 +353,10 @@ std::vector<Index> number_wedges(Mesh& to, const Shape& s, std::size_t old_wedge
     return survivors;
 }
 
-Lineage copies(std::vector<Index> old) {
-    Lineage lineage;
-    lineage.copies = std::move(old);
-    return lineage;
+Provenance copies(std::vector<Index> old) {
+    Provenance element_provenance;
+    element_provenance.copies = std::move(old);
+    return element_provenance;
 }
 
 /// The same number for each: vertex v is vertex v.
@@ -366,21 +367,21 @@ std::vector<Index> identity(std::size_t n) {
 }
 
 /// Where the vertices of the shape are from.
-Lineage vertex_lineage(const Shape& s, const Mesh& from, const Log& log) {
+Provenance vertex_provenance(const Shape& s, const Mesh& from, const Log& log) {
     std::vector<Merge> merges;
     merges.reserve(log.steps.size());
     for (const Step& step : log.steps) merges.push_back({step.a, step.b});
     return Followed(s, from, log, from.vertex_count(), s.source, identity(s.vertex_slots()), merges,
                     [&](Index c) { return from.vertex(c); })
-        .lineage();
+        .element_provenance();
 }
 
 /// Where its wedges are from: of wedge_vertex, and old ones.
-Lineage wedge_lineage(const Shape& s, const Mesh& from, const Log& log, const std::vector<Index>& wedges,
-                      const std::vector<Index>& wedge_vertex) {
+Provenance wedge_provenance(const Shape& s, const Mesh& from, const Log& log,
+                            const std::vector<Index>& wedges, const std::vector<Index>& wedge_vertex) {
     return Followed(s, from, log, from.wedge_count(), wedges, wedge_vertex, log.wedges,
                     [&](Index c) { return from.corners[c]; })
-        .lineage();
+        .element_provenance();
 }
 
 } // namespace
@@ -449,21 +450,21 @@ Finished finish(const Shape& s, const Mesh& from, const Log* log) {
         to.positions[v] = s.moved[v] ? s.frame.outside(s.at[v]) : from.positions[s.source[v]];
     });
     done.wedges = number_wedges(to, s, from.wedge_count());
-    Descent descent;
-    descent.faces = s.face_source;
+    MeshProvenance provenance;
+    provenance.faces = s.face_source;
     const bool any = log && !log->steps.empty();
     const bool of_wedges = has_attributes(from, Domain::wedge);
     if (any && (has_attributes(from, Domain::vertex) || (!s.has_seams() && of_wedges)))
-        descent.vertices = vertex_lineage(s, from, *log);
+        provenance.vertices = vertex_provenance(s, from, *log);
     else
-        descent.vertices = copies(s.source);
+        provenance.vertices = copies(s.source);
     if (!s.has_seams())
-        descent.wedges = descent.vertices;
+        provenance.wedges = provenance.vertices;
     else if (any && of_wedges)
-        descent.wedges = wedge_lineage(s, from, *log, done.wedges, to.wedge_vertex);
+        provenance.wedges = wedge_provenance(s, from, *log, done.wedges, to.wedge_vertex);
     else
-        descent.wedges = copies(done.wedges);
-    done.changes = inherit_attributes(to, from, descent);
+        provenance.wedges = copies(done.wedges);
+    done.changes = inherit_attributes(to, from, provenance);
     return done;
 }
 

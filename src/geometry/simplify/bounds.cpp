@@ -7,12 +7,12 @@
 
 #include "geometry/simplify/methods.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/group_distances.hpp"
 #include "mesh/placement.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <atomic>
@@ -317,7 +317,7 @@ std::size_t longest_good(const Origin& origin, const Mesh& from, const Log& log,
                          std::size_t& measurements) {
     const std::size_t vertices = origin.shape.vertex_slots();
     std::size_t good = 0, bad = log.steps.size();
-    ShareOfRounds rounds;
+    ProgressRounds rounds;
     while (bad - good > std::max<std::size_t>(1, (vertices - good) / 100)) {
         // What is wrong is most likely near the end: there the errors are the largest.
         const std::size_t back =
@@ -363,7 +363,7 @@ Judge::Judge(const Mesh& from, double bound, std::size_t samples)
 
 bool Judge::within(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    ShareOfSteps steps({1, 1});
+    ProgressSteps steps({1, 1});
     if (any_beyond(now, tree_, bound_, settings_)) return false;
     steps.next();
     return !any_beyond(surface_, FaceTree(now, FaceTree::Use::near), bound_, settings_);
@@ -371,7 +371,7 @@ bool Judge::within(const Mesh& mesh) const {
 
 double Judge::deviation(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    ShareOfSteps steps({1, 1});
+    ProgressSteps steps({1, 1});
     const double forward = deviation_to(surface_, FaceTree(now, FaceTree::Use::near), settings_).maximum;
     steps.next();
     return std::max(forward, deviation_to(now, tree_, settings_).maximum);
@@ -408,7 +408,7 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     const double limit = guarded_share * max_error * s.frame.scale;
     s.bounds.followed = follow_points(s, from, judge.tree());
     s.bounds.followed->farthest = limit * limit;
-    ShareOfSteps steps({4, 2});
+    ProgressSteps steps({4, 2});
     Ended end;
     end.outcome = run_passes(s, goal);
     steps.next();
@@ -420,11 +420,11 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     const std::size_t all = log.steps.size();
     end.measurements = 1;
     {
-        const Share first(0, 0.2);
+        const ProgressScope first(0, 0.2);
         end.measured = judge.deviation(bare_after(origin, from, log, all));
     }
     if (!(*end.measured <= max_error)) {
-        const Share others(0.2, 1);
+        const ProgressScope others(0.2, 1);
         end.by_error = true;
         const std::size_t steps = longest_good(origin, from, log, judge, end.measurements);
         end.rolled_back = all - steps;

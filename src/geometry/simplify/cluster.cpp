@@ -2,7 +2,7 @@
 
 #include "geometry/simplify/methods.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <bit>
 

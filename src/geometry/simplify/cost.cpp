@@ -1,7 +1,7 @@
 #include "geometry/simplify/cost.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/simplify/attributes.hpp"
+#include "parallel/parallel.hpp"
 
 #include <cstring>
 

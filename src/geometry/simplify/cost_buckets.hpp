@@ -1,7 +1,7 @@
 #pragma once
 // Costs of edges by their leading bits, from which a pass takes its threshold.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,8 +2,8 @@
 // How far points are from the triangles around a vertex, and places on the triangles from the points: bounds
 // in float32, four at a time, so that most pairs need no more.
 
-#include "base/simd.hpp"
-#include "base/vec.hpp"
+#include "base/math/simd.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "geometry/simplify/features.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <map>

@@ -9,10 +9,10 @@
 
 #include "geometry/simplify/methods.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "geometry/simplify/collapse_chunks.hpp"
 #include "geometry/simplify/cost_buckets.hpp"
-#include "geometry/simplify/stretches.hpp"
+#include "parallel/parallel.hpp"
 
 #include <memory>
 #include <numeric>
@@ -66,7 +66,7 @@ class Passes {
             else
                 commit(limit);
             count();
-            Share::tell(1 - static_cast<double>(remaining()) / all);
+            ProgressScope::report(1 - static_cast<double>(remaining()) / all);
         }
         for (Member& m : members_) m.done.stuck = stuck;
     }
@@ -282,7 +282,7 @@ class Passes {
                                                    other_vertices + uses * s.rings.live_vertices);
                 return (left + uses - 1) / uses;
             };
-            totals[m] = collapse_by_stretches(s, lists, most);
+            totals[m] = collapse_in_chunks(s, lists, most);
         });
         for (std::size_t m = 0; m < members_.size(); ++m) append(later, totals[m].later, m);
         count();

@@ -2,7 +2,7 @@
 // Weighted sums of squared distances to planes, after M. Garland and P. Heckbert, 'Surface simplification
 // using quadric error metrics' (1997).
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 

@@ -2,10 +2,10 @@
 
 #include "geometry/simplify/joint.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "geometry/simplify/subject.hpp"
+#include "geometry/simplify/input.hpp"
 #include "geometry/simplify/targets.hpp"
+#include "parallel/parallel.hpp"
 
 #include <memory>
 
@@ -26,7 +26,7 @@ class Sharer {
         : uses(given.uses), scale_(given.scale), settings_(settings), meshes_(std::move(given.meshes)) {
         settings_.lock = std::move(given.lock);
         settings_.max_quadric_error = given.max_quadric_error;
-        subject_ = std::make_unique<Subject>(
+        subject_ = std::make_unique<SimplifyInput>(
             meshes_.size() == 1 ? std::move(meshes_.front()) : joined(pointers()), settings_);
         vertices_given_ = subject_->vertices();
     }
@@ -83,7 +83,7 @@ class Sharer {
     double scale_;
     SimplifySettings settings_;
     std::vector<Mesh> meshes_; ///< as given; a single one is the subject's
-    std::unique_ptr<Subject> subject_;
+    std::unique_ptr<SimplifyInput> subject_;
     std::size_t vertices_given_ = 0;
     std::optional<State> state_;
 };
@@ -109,7 +109,7 @@ class Sharing {
         }
         moved_ = !targets.goal.met(faces, vertices);
         if (!moved_) return;
-        ShareOfSteps steps({1, 2});
+        ProgressSteps steps({1, 2});
         each([&](std::size_t i) { sharers_[i]->lay_out(); });
         steps.next();
         std::vector<Member> members;
@@ -191,7 +191,7 @@ std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vect
     Sharing all(std::move(given), settings);
     std::vector<std::optional<double>> ratios(settings.levels.begin(), settings.levels.end());
     if (ratios.empty()) ratios.push_back(settings.ratio);
-    ShareOfSteps steps(std::vector<double>(ratios.size(), 1));
+    ProgressSteps steps(std::vector<double>(ratios.size(), 1));
     for (const auto& ratio : ratios) {
         all.go(ratio);
         all.add_results(ratio, results);

@@ -2,7 +2,7 @@
 
 #include "base/progress.hpp"
 #include "geometry/intersect/self_intersections.hpp"
-#include "geometry/simplify/subject.hpp"
+#include "geometry/simplify/input.hpp"
 #include "geometry/simplify/targets.hpp"
 
 namespace facetmill {
@@ -29,7 +29,7 @@ Ended run_to(State s, const CoincidentBorders* borders, const Goal& goal) {
     return end;
 }
 
-Ended run(State s, const Subject& subject, Goal goal, const SimplifySettings& settings) {
+Ended run(State s, const SimplifyInput& subject, Goal goal, const SimplifySettings& settings) {
     if (settings.method == Method::cluster)
         return run_cluster(std::move(s), subject.mesh(), goal, settings.max_error, settings.samples);
     if (settings.method == Method::constrained)
@@ -40,7 +40,7 @@ Ended run(State s, const Subject& subject, Goal goal, const SimplifySettings& se
     return run_within(std::move(s), subject.mesh(), goal, *settings.max_error, settings.samples);
 }
 
-SimplifyResult result_of(const Subject& subject, const Targets& targets, const Ended& end) {
+SimplifyResult result_of(const SimplifyInput& subject, const Targets& targets, const Ended& end) {
     const Stop stop = targets.reason(end);
     SimplifyResult r = stop == Stop::max_quadric_error && end.outcome.collapses == 0
                            ? subject.unchanged(stop)
@@ -55,11 +55,12 @@ SimplifyResult result_of(const Subject& subject, const Targets& targets, const E
 }
 
 /// With the self-intersections counted, and avoided on request.
-SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const SimplifySettings& settings) {
+SimplifyResult simplify_crossing(SimplifyInput& subject, const Targets& targets,
+                                 const SimplifySettings& settings) {
     const std::size_t before = find_self_intersections(subject.mesh(), {.limit = 0}).count;
     std::vector<float> limits(subject.mesh().vertex_count(), never);
     std::size_t passes = 0;
-    ShareOfRounds rounds;
+    ProgressRounds rounds;
     for (int round = 1;; ++round, rounds.next()) {
         const Ended end =
             run(subject.state(true, round == 1 ? nullptr : &limits), subject, targets.goal, settings);
@@ -81,8 +82,8 @@ SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     throw_first(check_simplify_settings(settings));
-    ShareOfSteps steps({1, 3, 6, 2});
-    Subject subject(std::move(given), settings);
+    ProgressSteps steps({1, 3, 6, 2});
+    SimplifyInput subject(std::move(given), settings);
     const Targets targets(subject.faces(), settings);
     steps.next();
     if (targets.goal.met(subject.faces(), subject.vertices())) return subject.unchanged();
@@ -98,13 +99,13 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
 
 std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& settings) {
     throw_first(check_simplify_levels(settings));
-    Subject subject(std::move(given), settings);
+    SimplifyInput subject(std::move(given), settings);
     std::optional<State> s;
     Member member{};
     std::vector<SimplifyResult> levels;
     std::vector<double> lengths(settings.levels.size(), 1);
     if (!lengths.empty()) lengths.front() = 3; // most collapses are on the way to the first
-    ShareOfSteps steps(std::move(lengths));
+    ProgressSteps steps(std::move(lengths));
     const auto next = [&](SimplifyResult r) {
         levels.push_back(std::move(r));
         steps.next();

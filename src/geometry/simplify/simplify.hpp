@@ -2,7 +2,7 @@
 // Simplification: edges are collapsed, cheapest first, until a target is met. The one header of this folder
 // that others include.
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/refusal.hpp"
 #include "geometry/normals/normals.hpp"
 #include "mesh/plane.hpp"

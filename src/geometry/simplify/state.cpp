@@ -1,7 +1,7 @@
 #include "geometry/simplify/state.hpp"
 
-#include "base/parallel.hpp"
-#include "base/storage.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <atomic>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "geometry/simplify/targets.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 
 namespace facetmill {
 

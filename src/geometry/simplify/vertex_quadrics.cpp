@@ -1,8 +1,8 @@
 // The quadrics that vertices start with: of the planes of their faces, and of planes upright on them that
 // hold what the faces do not, boundaries, features and sharp folds.
 
-#include "base/parallel.hpp"
 #include "geometry/simplify/cost.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill::simplification {
 

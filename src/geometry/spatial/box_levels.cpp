@@ -1,6 +1,6 @@
 #include "geometry/spatial/box_levels.hpp"
 
-#include "base/storage.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 

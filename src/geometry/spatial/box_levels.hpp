@@ -3,8 +3,8 @@
 // are sorted so that neighbours in the row are neighbours in space, and every node stands over four of the
 // level below, so the tree needs no pointers and building it is a sort.
 
-#include "base/parallel.hpp"
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 // All pairs of boxes of one set that meet, found in one walk of a tree against itself.
 
+#include "base/math/simd.hpp"
 #include "base/progress.hpp"
-#include "base/simd.hpp"
 #include "geometry/spatial/box_levels.hpp"
 #include "mesh/mesh.hpp"
 
@@ -74,7 +74,7 @@ class BoxPairs {
         constexpr std::size_t batch = 1024;
         const std::vector<Couple> tasks = couples_above();
         std::atomic<std::size_t> all = 0;
-        Share::loop_tells();
+        ProgressScope::report_next_loop();
         parallel_for(
             tasks.size(),
             [&](std::size_t i) {

@@ -1,6 +1,6 @@
 #include "geometry/spatial/box_tree.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

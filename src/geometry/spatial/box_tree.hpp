@@ -1,7 +1,7 @@
 #pragma once
 // A tree of boxes over items along a Morton curve, to find the items whose boxes meet a given one.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "mesh/mesh.hpp"
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 // that slivers lose nothing.
 #include "geometry/spatial/closest_point.hpp"
 
-#include "base/parallel.hpp"
+#include "base/math/simd.hpp"
 #include "base/progress.hpp"
-#include "base/simd.hpp"
 #include "geometry/spatial/dense_box.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -340,7 +340,7 @@ std::vector<Index> order_of_queries(std::span<const Vec3> points) {
 std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points, OfSeveral which) {
     const std::vector<Index> order = order_of_queries(points);
     std::vector<Closest> found(points.size());
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_chunks(
         points.size(),
         [&](std::size_t begin, std::size_t end) {

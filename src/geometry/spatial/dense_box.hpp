@@ -2,7 +2,7 @@
 // Where most of many points are. Frames and curves laid over the box of all of them lose their precision to a
 // single point far away.
 
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #include "geometry/spatial/face_tree.hpp"
 
-#include "base/parallel.hpp"
-#include "base/storage.hpp"
 #include "geometry/spatial/dense_box.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
 #include "geometry/spatial/median_order.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 #include <atomic>

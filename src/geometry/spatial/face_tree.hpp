@@ -6,7 +6,7 @@
 // box of a scan of 1.1M). So the lower levels also have boxes turned to lie flat along their piece of the
 // surface.
 
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
 #include "geometry/spatial/box_levels.hpp"
 #include "mesh/surface.hpp"
 

@@ -3,7 +3,7 @@
 // that can be the closest to any of them; all pairs are then computed in float32, four points at a time, in a
 // frame of the group's own.
 
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
 #include "geometry/spatial/face_tree.hpp"
 #include "geometry/spatial/triangle_slabs.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 // A Hilbert curve through a box: items sorted along it lie near each other in space and in memory.
 
-#include "base/parallel.hpp"
-#include "base/vec.hpp"
+#include "base/math/vec.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <span>

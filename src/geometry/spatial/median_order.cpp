@@ -1,7 +1,7 @@
 #include "geometry/spatial/median_order.hpp"
 
-#include "base/parallel.hpp"
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "geometry/spatial/rays.hpp"
 
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/spatial/rays_walk.hpp"
 
@@ -85,7 +85,7 @@ SegmentFacet meet(const Line& line, std::span<const Vec3> facet) {
     std::vector<Vec2> ring;
     for (const Vec3& p : facet) ring.push_back({p[u], p[v]});
     const auto place = polygon::locate({result.point[u], result.point[v]}, ring);
-    result.meeting = place == polygon::Place::outside ? Meeting::outside_facet : Meeting::hit;
+    result.meeting = place == polygon::PointLocation::outside ? Meeting::outside_facet : Meeting::hit;
     return result;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Where segments and rays meet a surface, and what is inside it. After P. Bourke, "Determining whether a line
 // segment intersects a 3 vertex facet" (1997) and "Determining if a point lies on the interior of a polygon"
-// (1987); whether a line meets a triangle is decided by exact signs (base/predicates.hpp).
+// (1987); whether a line meets a triangle is decided by exact signs (base/math/predicates.hpp).
 
 #include "geometry/spatial/face_tree.hpp"
 

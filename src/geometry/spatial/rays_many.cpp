@@ -1,8 +1,8 @@
 // Many lines at once, of geometry/spatial/rays.hpp.
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
 #include "geometry/spatial/rays_walk.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 
@@ -78,7 +78,7 @@ HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all) {
     constexpr std::size_t chunk = 256;
     std::vector<std::vector<Found>> found((lines.size() + chunk - 1) / chunk);
     std::vector<std::size_t> counts(lines.size() + 1);
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_chunks(
         lines.size(),
         [&](std::size_t begin, std::size_t end) {

@@ -2,8 +2,8 @@
 // How geometry/spatial/rays.hpp finds what a line meets: the exact test of a triangle, and the way through
 // the tree, in steps, so that many lines can take turns.
 
-#include "base/predicates.hpp"
-#include "base/simd.hpp"
+#include "base/math/predicates.hpp"
+#include "base/math/simd.hpp"
 #include "geometry/spatial/rays.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "geometry/spatial/signed_distances.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What lies across from four triangles, within a distance of their planes.
 
-#include "base/simd.hpp"
+#include "base/math/simd.hpp"
 
 #include <array>
 

@@ -1,9 +1,9 @@
 #include "geometry/split/estimate.hpp"
 
 #include "base/error.hpp"
-#include "base/memory.hpp"
-#include "base/parallel.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

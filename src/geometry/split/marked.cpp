@@ -1,6 +1,6 @@
 #include "geometry/split/marked.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/progress.hpp"
 #include "geometry/split/patterns.hpp"
 #include "geometry/split/spots.hpp"
@@ -391,7 +391,7 @@ SplitResult refine(const Mesh& mesh, const SplitSettings& settings) {
     const bool budget = settings.max_faces > 0;
     const std::uint64_t most = budget ? settings.max_faces : UINT64_MAX;
     const Mesh* from = &mesh;
-    for (ShareOfRounds rounds; result.stop != Stop::budget; rounds.next()) {
+    for (ProgressRounds rounds; result.stop != Stop::budget; rounds.next()) {
         const MeasuredEdges edges = measure_edges(*from, settings.to_world);
         const std::vector<Index> wanted = candidates(edges, limit, budget);
         if (wanted.empty()) {

@@ -1,12 +1,12 @@
 #include "geometry/split/patterns.hpp"
 
-#include "base/storage.hpp"
+#include "parallel/storage.hpp"
 
 namespace facetmill::split_detail {
 
 namespace {
 
-void place(std::vector<Vec3>& positions, const Mesh& from, const Lineage& vertices) {
+void place(std::vector<Vec3>& positions, const Mesh& from, const Provenance& vertices) {
     const std::size_t old = from.vertex_count(), on_edges = vertices.edges.size();
     resize_large(positions, old + on_edges + vertices.mixes());
     parallel_for(old, [&](std::size_t v) { positions[v] = from.positions[v]; });
@@ -24,8 +24,8 @@ void place(std::vector<Vec3>& positions, const Mesh& from, const Lineage& vertic
 
 } // namespace
 
-AttributeChanges finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* points) {
-    Lineage &vertices = descent.vertices, &wedges = descent.wedges;
+AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance, const EdgePoints* points) {
+    Provenance &vertices = provenance.vertices, &wedges = provenance.wedges;
     vertices.identity = wedges.identity = true;
     // The mixes were written as wedges, because patterns speak of corners.
     vertices.mix_offsets = wedges.mix_offsets;
@@ -43,9 +43,9 @@ AttributeChanges finish(Mesh& to, const Mesh& from, Descent& descent, const Edge
         for (std::size_t i = 0; i < vertices.mixes(); ++i)
             to.wedge_vertex.push_back(static_cast<Index>(inside + i));
     } else {
-        descent.wedges_as_vertices = true;
+        provenance.wedges_as_vertices = true;
     }
-    return inherit_attributes(to, from, descent);
+    return inherit_attributes(to, from, provenance);
 }
 
 } // namespace facetmill::split_detail

@@ -2,11 +2,11 @@
 // What one face becomes by the methods of split that cut every face alike (see below for the
 // frame).
 
-#include "base/parallel.hpp"
-#include "base/storage.hpp"
 #include "geometry/split/centre.hpp"
 #include "geometry/split/points.hpp"
 #include "mesh/quad_diagonal.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 #include <array>
@@ -91,8 +91,8 @@ std::vector<PatternCounts> count_blocks(const Mesh& mesh, const Pattern& pattern
     return sums;
 }
 
-/// Sets positions, wedge_vertex, attributes and primitives of the result from its lineages.
-AttributeChanges finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* points);
+/// Sets positions, wedge_vertex, attributes and primitives of the result from its provenances.
+AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance, const EdgePoints* points);
 
 } // namespace split_detail
 
@@ -108,13 +108,13 @@ Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pa
     const auto sums = split_detail::count_blocks(mesh, pattern);
     const PatternCounts& total = sums.back();
     Mesh out;
-    Descent descent;
+    MeshProvenance provenance;
     resize_large(out.corners, total.corners);
     const bool offsets = !pattern.triangles_only(mesh);
     if (offsets) out.face_offsets.assign(total.faces + 1, 0);
     const bool face_sources = has_attributes(mesh, Domain::face);
-    if (face_sources) resize_large(descent.faces, total.faces);
-    Lineage& mixes = descent.wedges;
+    if (face_sources) resize_large(provenance.faces, total.faces);
+    Provenance& mixes = provenance.wedges;
     mixes.mix_offsets.assign(total.mixes + 1, 0);
     mixes.mix_sources.resize(total.sources);
     mixes.mix_weights.resize(total.sources);
@@ -134,12 +134,12 @@ Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pa
                 const Index f = static_cast<Index>(i);
                 pattern.emit({mesh, points, f, static_cast<Index>(first_inside + at.mixes)}, to);
                 const PatternCounts made = pattern.counts(mesh, f);
-                if (face_sources) std::fill_n(&descent.faces[at.faces], made.faces, f);
+                if (face_sources) std::fill_n(&provenance.faces[at.faces], made.faces, f);
                 at += made;
             }
         },
         split_detail::block);
-    changes = split_detail::finish(out, mesh, descent, points);
+    changes = split_detail::finish(out, mesh, provenance, points);
     normalise_offsets(out);
     return out;
 }

@@ -1,7 +1,7 @@
 #include "geometry/split/points.hpp"
 
-#include "base/parallel.hpp"
-#include "base/storage.hpp"
+#include "parallel/parallel.hpp"
+#include "parallel/storage.hpp"
 
 #include <algorithm>
 
@@ -77,11 +77,11 @@ void EdgePoints::number_bundles() {
     });
 }
 
-void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
+void EdgePoints::describe(Provenance& vertices, Provenance& wedges) const {
     const auto n = static_cast<std::size_t>(points_);
     // Points are reckoned from the lexicographically smaller end, so that unwelded copies of an edge, in this
     // mesh or another, get exactly the same points whatever their numbers.
-    const auto fill = [&](std::vector<Lineage::Edge>& out, std::size_t at, std::size_t e, Index low,
+    const auto fill = [&](std::vector<Provenance::Edge>& out, std::size_t at, std::size_t e, Index low,
                           Index high) {
         const auto& [a, b] = table_->edges[e];
         const bool turn = at_.empty() && comes_before(mesh_->positions[b], mesh_->positions[a]);

@@ -1,7 +1,7 @@
 #pragma once
 // New points on edges, the same for all faces that meet there. For the methods of split.
 
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
 
 #include <cstdint>
@@ -33,8 +33,8 @@ class EdgePoints {
     std::size_t vertex_points() const { return edge_count_ * static_cast<std::size_t>(points_); }
     std::size_t wedge_points() const { return bundle_count_ * static_cast<std::size_t>(points_); }
 
-    /// Appends the points to the lineages; wedges is left alone when the mesh has no seams.
-    void describe(Lineage& vertices, Lineage& wedges) const;
+    /// Appends the points to the provenances; wedges is left alone when the mesh has no seams.
+    void describe(Provenance& vertices, Provenance& wedges) const;
     /// Appends the vertex of each wedge point; for meshes with seams.
     void append_wedge_vertices(std::vector<Index>& wedge_vertex) const;
 

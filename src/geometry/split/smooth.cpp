@@ -1,14 +1,14 @@
 #include "geometry/split/smooth.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/split/patterns.hpp"
 #include "geometry/split/split.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/format.h>
 

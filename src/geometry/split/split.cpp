@@ -1,8 +1,7 @@
 #include "geometry/split/split.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/progress.hpp"
 #include "geometry/split/estimate.hpp"
 #include "geometry/split/marked.hpp"
@@ -11,6 +10,7 @@
 #include "geometry/split/spots.hpp"
 #include "mesh/fetch_points.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -150,7 +150,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
     const Mesh* from = &mesh;
     if (settings.min_angle > 0)
         result.narrow = result.narrow_before = narrow_faces(triangulated(mesh), settings);
-    for (ShareOfSteps steps(lengths_of_passes(mesh, settings));; steps.next()) {
+    for (ProgressSteps steps(lengths_of_passes(mesh, settings));; steps.next()) {
         if (is_reached(*from, settings)) {
             result.stop = Stop::target;
             break;

@@ -2,7 +2,7 @@
 // Splits faces into smaller ones, by many methods, without cracks.
 
 #include "base/refusal.hpp"
-#include "mesh/lineage.hpp"
+#include "mesh/provenance.hpp"
 
 #include <optional>
 #include <string>

@@ -1,9 +1,9 @@
 #include "geometry/split/spots.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/split/centre.hpp"
 #include "mesh/face.hpp"
 #include "mesh/quad_diagonal.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <span>

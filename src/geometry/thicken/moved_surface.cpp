@@ -1,12 +1,12 @@
 #include "geometry/thicken/moved_surface.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/measure/measure.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <queue>

@@ -1,12 +1,12 @@
 #include "geometry/thicken/resolve.hpp"
 
-#include "base/parallel.hpp"
-#include "geometry/clean/combine.hpp"
+#include "geometry/boolean/combine.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -29,7 +29,7 @@ struct ResolvedSolid {
 /// passes through the surface itself, which would take walls away, it stands together with copies half as
 /// far, a quarter, up to a sixteenth: the back for what is inside of each, the front for what is inside of
 /// any. So the wall is thinner there, and not gone. Pieces of a side that enclose less than a cube of the
-/// thickness (in world) are left out. Boolean operations as in geometry/clean/combine.hpp: the same for any
+/// thickness (in world) are left out. Boolean operations as in geometry/boolean/combine.hpp: the same for any
 /// number of threads.
 ResolvedSolid resolved_solid(const ThickenMoves& moves, const Transform& to_world);
 

@@ -1,7 +1,6 @@
 #include "geometry/thicken/thicken.hpp"
 
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/edit/split_non_manifold.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/connectivity.hpp"
@@ -13,12 +12,13 @@
 #include "geometry/thicken/resolve.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
-#include "mesh/lineage.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
 #include "mesh/wedges.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,8 +33,8 @@ namespace {
 /// The surface and its back, face by face: face f's back is face f + face_count, wedge w's is w +
 /// wedge_count.
 struct Doubled {
-    Mesh mesh;       ///< with wedge_vertex spelled out, without attributes
-    Descent descent; ///< complete but for what is added later
+    Mesh mesh;                 ///< with wedge_vertex spelled out, without attributes
+    MeshProvenance provenance; ///< complete but for what is added later
 };
 
 /// back_vertex says where each vertex is on the back: itself, or one of the new ones, numbered from the
@@ -57,11 +57,12 @@ Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
         if (!mesh.all_triangles()) d.mesh.face_offsets.push_back(static_cast<Index>(d.mesh.corners.size()));
     }
     for (int side = 0; side < 2; ++side) {
-        for (Index w = 0; w < count; ++w) d.descent.wedges.copies.push_back(w);
-        for (Index f = 0; f < mesh.face_count(); ++f) d.descent.faces.push_back(f);
+        for (Index w = 0; w < count; ++w) d.provenance.wedges.copies.push_back(w);
+        for (Index f = 0; f < mesh.face_count(); ++f) d.provenance.faces.push_back(f);
     }
-    for (Index v = 0; v < mesh.vertex_count(); ++v) d.descent.vertices.copies.push_back(v);
-    d.descent.vertices.copies.insert(d.descent.vertices.copies.end(), back_copies.begin(), back_copies.end());
+    for (Index v = 0; v < mesh.vertex_count(); ++v) d.provenance.vertices.copies.push_back(v);
+    d.provenance.vertices.copies.insert(d.provenance.vertices.copies.end(), back_copies.begin(),
+                                        back_copies.end());
     return d;
 }
 
@@ -184,7 +185,7 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
             const auto at = [&](std::size_t i) { return d.mesh.positions[d.mesh.vertex_of_wedge(ring[i])]; };
             const Vec3 normal = normalised(cross(at(2) - at(0), at(3) - at(1)));
             for (Index& w : ring) {
-                d.descent.wedges.copies.push_back(w % back);
+                d.provenance.wedges.copies.push_back(w % back);
                 d.mesh.wedge_vertex.push_back(d.mesh.wedge_vertex[w]);
                 w = static_cast<Index>(d.mesh.wedge_vertex.size() - 1);
                 normals.emplace_back(w, normal);
@@ -193,11 +194,11 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
         if (mesh.all_triangles()) {
             add_face(d.mesh, std::array{ring[0], ring[1], ring[2]});
             add_face(d.mesh, std::array{ring[0], ring[2], ring[3]});
-            d.descent.faces.insert(d.descent.faces.end(), {e.face, e.face});
+            d.provenance.faces.insert(d.provenance.faces.end(), {e.face, e.face});
             added += 2;
         } else {
             add_face(d.mesh, ring);
-            d.descent.faces.push_back(e.face);
+            d.provenance.faces.push_back(e.face);
             ++added;
         }
     }
@@ -401,7 +402,7 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     });
     std::vector<std::pair<Index, Vec3>> wall_normals;
     r.wall_faces = add_walls(mesh, d, wall_normals);
-    r.changes = inherit_attributes(d.mesh, mesh, d.descent);
+    r.changes = inherit_attributes(d.mesh, mesh, d.provenance);
     // Walls come after the back: their normals are set after those of the back are turned.
     turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
     if (Attribute* normals = d.mesh.find("NORMAL", Domain::wedge))
@@ -549,9 +550,9 @@ TwoSidedResult two_sided(const Mesh& mesh) {
     if (plain) { // a vertex is all there is to a wedge
         for (Index& c : d.mesh.corners) c = d.mesh.wedge_vertex[c];
         d.mesh.wedge_vertex = {};
-        d.descent.wedges = d.descent.vertices;
+        d.provenance.wedges = d.provenance.vertices;
     }
-    r.changes = inherit_attributes(d.mesh, mesh, d.descent);
+    r.changes = inherit_attributes(d.mesh, mesh, d.provenance);
     if (!plain) turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
     std::vector<std::uint8_t> gone(mesh.face_count(), 0); // backs that are there already
     gone.insert(gone.end(), done.begin(), done.end());

@@ -20,7 +20,7 @@ struct ThickenSettings {
     bool self_intersections = true; ///< count them in the result
     Transform to_world{};           ///< where thickness is meant and measured; not singular
     /// A solid that folds over or passes through itself is made again without its folds (by the boolean
-    /// operations of geometry/clean/combine.hpp); for what is closed once it has walls.
+    /// operations of geometry/boolean/combine.hpp); for what is closed once it has walls.
     bool resolve = false;
 };
 

@@ -1,16 +1,16 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/cgal/triangulate_polygon.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 #include "geometry/triangulate/triangulate.hpp"
 #include "mesh/face.hpp"
-#include "mesh/lineage.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/power_scale.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -114,7 +114,7 @@ class OutlineSplitter {
         for (std::size_t i = 0; i < vertex_of.size(); ++i) {
             const auto& added = filling.added[i];
             const Index c = begin + added.edge;
-            const Lineage::Edge at{mesh_.vertex(c), mesh_.vertex(next_corner(mesh_, f, c)), added.t};
+            const Provenance::Edge at{mesh_.vertex(c), mesh_.vertex(next_corner(mesh_, f, c)), added.t};
             vertex_of[i] = vertex_for(edges_at[i], at);
         }
         for (Index e = 0; e < n; ++e)
@@ -141,7 +141,7 @@ class OutlineSplitter {
     }
 
     /// One for each place where the same edges of the mesh meet, whichever face says so.
-    Index vertex_for(const std::vector<Index>& corners, const Lineage::Edge& at) {
+    Index vertex_for(const std::vector<Index>& corners, const Provenance::Edge& at) {
         std::vector<Index> edges;
         edges.reserve(corners.size());
         for (const Index c : corners) edges.push_back(edges_.corner_edge[c]);
@@ -163,7 +163,7 @@ class OutlineSplitter {
     EdgeTable edges_;
     std::map<std::vector<Index>, Index> made_;
     std::set<std::pair<Index, Index>> done_; ///< edge, vertex
-    std::vector<Lineage::Edge> added_;
+    std::vector<Provenance::Edge> added_;
     std::vector<Insertion> insertions_;
 };
 
@@ -193,8 +193,8 @@ class FaceFiller {
         std::map<Index, FaceTriangles> fillings;
         for (const Index f : faces)
             if (auto triangles = filling_of(f); !triangles.empty()) fillings[f] = std::move(triangles);
-        Descent descent;
-        descent.vertices.identity = descent.wedges.identity = true;
+        MeshProvenance provenance;
+        provenance.vertices.identity = provenance.wedges.identity = true;
         Mesh& m = out_.mesh.emplace();
         m.positions = mesh_.positions;
         m.wedge_vertex = mesh_.wedge_vertex;
@@ -202,7 +202,7 @@ class FaceFiller {
         const auto emit = [&](Index f, auto&& corners) {
             for (const Index c : corners) m.corners.push_back(mesh_.corners[c]);
             m.face_offsets.push_back(static_cast<Index>(m.corners.size()));
-            descent.faces.push_back(f);
+            provenance.faces.push_back(f);
         };
         std::vector<Index> corners;
         for (Index f = 0; f < mesh_.face_count(); ++f) {
@@ -217,7 +217,7 @@ class FaceFiller {
             emit(f, corners);
         }
         normalise_offsets(m);
-        out_.changes = changes_in_sequence(out_.changes, inherit_attributes(m, mesh_, descent));
+        out_.changes = changes_in_sequence(out_.changes, inherit_attributes(m, mesh_, provenance));
         out_.filled = fillings.size();
         out_.fans += faces.size() - fillings.size();
     }

@@ -1,8 +1,8 @@
 #include "geometry/triangulate/triangulate.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/edit/redrawn_faces.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -96,7 +96,7 @@ PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
         drawn.end_face(f);
     }
     normalise_offsets(out);
-    result.changes = inherit_attributes(out, mesh, drawn.descent);
+    result.changes = inherit_attributes(out, mesh, drawn.provenance);
     result.mesh = std::move(out);
     return result;
 }

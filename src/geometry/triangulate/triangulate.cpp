@@ -1,11 +1,11 @@
 #include "geometry/triangulate/triangulate.hpp"
 
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
+#include "base/math/predicates.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
-#include "mesh/lineage.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/provenance.hpp"
 #include "mesh/quad_diagonal.hpp"
+#include "parallel/parallel.hpp"
 
 namespace facetmill {
 
@@ -165,9 +165,9 @@ TriangulateResult triangulate(const Mesh& mesh) {
     out.positions = mesh.positions;
     out.wedge_vertex = mesh.wedge_vertex;
     out.corners.resize(std::size_t{count} * 3);
-    Descent descent;
-    descent.vertices.identity = descent.wedges.identity = true;
-    descent.faces.resize(count);
+    MeshProvenance provenance;
+    provenance.vertices.identity = provenance.wedges.identity = true;
+    provenance.faces.resize(count);
     struct Counts {
         std::size_t cut = 0, fan = 0;
     };
@@ -185,7 +185,7 @@ TriangulateResult triangulate(const Mesh& mesh) {
                 for (const Triangle& t : cutter.triangles) {
                     for (std::size_t k = 0; k < 3; ++k)
                         out.corners[std::size_t{at} * 3 + k] = mesh.corners[mesh.face_begin(f) + t[k]];
-                    descent.faces[at++] = f;
+                    provenance.faces[at++] = f;
                 }
             }
             return here;
@@ -196,7 +196,7 @@ TriangulateResult triangulate(const Mesh& mesh) {
         1024);
     result.cut = counts.cut;
     result.fans = counts.fan;
-    result.changes = inherit_attributes(out, mesh, descent);
+    result.changes = inherit_attributes(out, mesh, provenance);
     return result;
 }
 

@@ -1,7 +1,7 @@
 #include "geometry/tubes/chains.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <set>

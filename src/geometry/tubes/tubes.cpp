@@ -1,9 +1,9 @@
 #include "geometry/tubes/tubes.hpp"
 
 #include "base/error.hpp"
-#include "base/memory.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/tubes/chains.hpp"
+#include "parallel/memory.hpp"
 
 #include <algorithm>
 #include <array>

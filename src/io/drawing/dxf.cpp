@@ -1,6 +1,6 @@
 #include "io/drawing/drawing.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 
 namespace facetmill::io {
 

@@ -1,5 +1,5 @@
 #include "base/error.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "io/drawing/drawing.hpp"
 #include "io/drawing/drawing_fields.hpp"
 

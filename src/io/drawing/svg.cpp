@@ -1,7 +1,7 @@
 #include "io/drawing/drawing.hpp"
 
-#include "base/markup.hpp"
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/markup.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "io/footprint/footprint.hpp"
 
 #include "base/json.hpp"
-#include "base/numbers.hpp"
-#include "base/portable_math.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
+#include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>

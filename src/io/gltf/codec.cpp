@@ -1,21 +1,21 @@
 // A glTF file as a Scene and back: its document, its materials, and one part per node with triangles.
 
+#include "base/fast_json.hpp"
 #include "base/hash.hpp"
-#include "base/memory.hpp"
 #include "base/progress.hpp"
-#include "base/quick_json.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
-#include "io/gltf/container.hpp"
-#include "io/gltf/instances.hpp"
-#include "io/gltf/lines.hpp"
-#include "io/gltf/mesh.hpp"
-#include "io/gltf/nodes.hpp"
-#include "io/gltf/patch.hpp"
-#include "io/gltf/points.hpp"
-#include "io/gltf/shorten.hpp"
-#include "io/image_files.hpp"
+#include "io/gltf/document/container.hpp"
+#include "io/gltf/document/nodes.hpp"
+#include "io/gltf/document/shorten.hpp"
+#include "io/gltf/read/instances.hpp"
+#include "io/gltf/read/lines.hpp"
+#include "io/gltf/read/mesh.hpp"
+#include "io/gltf/read/points.hpp"
+#include "io/gltf/write/patch.hpp"
+#include "io/images/image_files.hpp"
+#include "parallel/memory.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ void check_asset(const Json& document) {
     if (document.is_object() && is_gltf_1(document))
         throw Error(ErrorKind::malformed, "E-VERSION", "expected glTF 2.x, found glTF 1.0",
                     hint_for_version_1);
-    const Place asset = Place(document, "").at("asset");
+    const JsonCursor asset = JsonCursor(document, "").at("asset");
     const std::string version = asset.at("version").text(), least = asset.text_or("minVersion", "2.0");
     if (version.rfind("2.", 0) != 0)
         asset.at("version").fail(fmt::format("expected glTF 2.x, found \"{}\"", version), "E-VERSION",
@@ -69,7 +69,7 @@ void check_asset(const Json& document) {
                 "E-EXTENSION");
 }
 
-Material read_material(const Place& place, std::size_t index) {
+Material read_material(const JsonCursor& place, std::size_t index) {
     Material material;
     material.name = place.text_or("name", "");
     material.double_sided = place.boolean_or("doubleSided", false);
@@ -119,7 +119,7 @@ void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>&
     std::size_t count = 0, first = 0;
     for (std::size_t n = 0; n < frames.size(); ++n) {
         if (frames[n].mesh < 0) continue;
-        const Place mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
+        const JsonCursor mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
         if (has_triangles(mesh) || is_of_lines(mesh)) continue;
         if (count++ == 0) first = n;
     }
@@ -164,7 +164,7 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
     double bytes = 0; // of copies: a node costs few bytes of JSON
     auto all = placements(source.json(), frames);
     stand_at_largest_instances(source, frames, all);
-    ShareOfSteps steps(std::vector<double>(all.size(), 1));
+    ProgressSteps steps(std::vector<double>(all.size(), 1));
     for (const auto& placement : all) {
         warn_of_instancing(placement, log);
         Part part;
@@ -205,9 +205,9 @@ bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
     bool points = false;
     for (const NodeFrame& frame : frames) {
         if (frame.mesh < 0) continue;
-        const Place mesh = item(document, "meshes", static_cast<std::size_t>(frame.mesh));
+        const JsonCursor mesh = item(document, "meshes", static_cast<std::size_t>(frame.mesh));
         if (has_triangles(mesh)) return false;
-        const Place primitives = mesh.at("primitives");
+        const JsonCursor primitives = mesh.at("primitives");
         for (std::size_t i = 0; i < primitives.size(); ++i) points |= makes_points(primitives.at(i));
     }
     return points;
@@ -234,7 +234,7 @@ bool has_embedded_images(const Json& document) {
 /// Whether points have morph targets, which are not read.
 bool points_have_targets(const Json& document) {
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
-        const Place primitives = item(document, "meshes", m).at("primitives");
+        const JsonCursor primitives = item(document, "meshes", m).at("primitives");
         for (std::size_t i = 0; i < primitives.size(); ++i)
             if (makes_points(primitives.at(i)) && primitives.at(i).find("targets")) return true;
     }
@@ -300,7 +300,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     document->name = input.name();
     document->json = std::string(chunks.json);
     Json json = parse_document(document->json);
-    const Discarded after(json);
+    const ScopedDestroy after(json);
     check_asset(json);
     document->buffers = load_buffers(json, chunks.binary, input, log);
     document->files = load_images(json, input, log);
@@ -364,7 +364,7 @@ void peek(const Input& input, FileHeader& header) {
         // Most of a document, and nothing that is asked here.
         constexpr std::array<std::string_view, 2> unread{"accessors", "bufferViews"};
         Json json = parse_document(chunks_of(input).json, unread);
-        const Discarded after(json);
+        const ScopedDestroy after(json);
         check_asset(json);
         part_lines(json);
         const std::vector<Placement> placed = placements(json, node_frames(json));
@@ -479,7 +479,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
                    "EXT_mesh_manifold is not written under Draco, which renumbers what it names");
     claim_placements(patch);
     move_skins(patch, skin_moves);
-    ShareOfSteps steps({4, 1, 2, 3});
+    ProgressSteps steps({4, 1, 2, 3});
     const auto mesh_of_part = patch_meshes(patch);
     steps.next();
     const auto node_of_part = patch_nodes(patch, mesh_of_part);

@@ -1,9 +1,9 @@
 #include "io/obj/describe.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "io/flatten.hpp"
-#include "io/gltf/container.hpp"
-#include "io/gltf/textures.hpp"
+#include "io/gltf/contents/textures.hpp"
+#include "io/gltf/document/container.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -12,23 +12,23 @@
 
 namespace facetmill::io::obj {
 
-using gltf::Place;
+using gltf::JsonCursor;
 
 namespace {
 
 constexpr const char* no_map = "MTL has no map of it";
 
-std::optional<Place> extension(const Place& owner, const char* name) {
+std::optional<JsonCursor> extension(const JsonCursor& owner, const char* name) {
     const auto all = owner.find("extensions");
     return all ? all->find(name) : std::nullopt;
 }
 
-double number(const Place& owner, const char* key, double otherwise) {
+double number(const JsonCursor& owner, const char* key, double otherwise) {
     const auto value = owner.find(key);
     return value ? value->real() : otherwise;
 }
 
-Colour colour(const Place& owner, const char* key, const Colour& otherwise) {
+Colour colour(const JsonCursor& owner, const char* key, const Colour& otherwise) {
     const auto value = owner.find(key);
     if (!value) return otherwise;
     return {value->at(std::size_t{0}).real(), value->at(1).real(), value->at(2).real()};
@@ -56,9 +56,9 @@ class Describer {
         : material_(material), images_(images), losses_(losses), json_(images.json(material.document)) {}
 
     Description run() {
-        const Place place = gltf::item(json_, "materials", static_cast<std::size_t>(material_.index));
+        const JsonCursor place = gltf::item(json_, "materials", static_cast<std::size_t>(material_.index));
         static const Json nothing = Json::object();
-        const Place pbr = place.find("pbrMetallicRoughness").value_or(Place(nothing, "materials"));
+        const JsonCursor pbr = place.find("pbrMetallicRoughness").value_or(JsonCursor(nothing, "materials"));
         add_colour(place, pbr);
         out_.double_sided = material_.double_sided;
         add_opacity(place);
@@ -78,14 +78,14 @@ class Describer {
     void lose(const std::string& what, const std::string& why) { losses_.add(what, why, material_.name); }
 
     /// Of the images of a texture (that of WebP or KTX2 is in an extension), the first that is read.
-    const LibraryImages::Image* image_of(const std::string& key, const Place& texture) {
-        std::vector<Place> sources;
+    const LibraryImages::Image* image_of(const std::string& key, const JsonCursor& texture) {
+        std::vector<JsonCursor> sources;
         if (const auto source = texture.find("source")) sources.push_back(*source);
         if (const auto all = texture.find("extensions"))
             for (const auto& [name, _] : all->json().items())
                 if (const auto source = all->at(name.c_str()).find("source")) sources.push_back(*source);
         std::string why = "its image is not there";
-        for (const Place& source : sources) {
+        for (const JsonCursor& source : sources) {
             const auto* image =
                 images_.find(material_.document, source.index(gltf::count_of(json_, "images"), "image"));
             const bool is_read = image && (image->type == "image/png" || image->type == "image/jpeg");
@@ -99,11 +99,11 @@ class Describer {
     }
 
     /// MTL repeats an image in both directions or in none, and does not say how pixels are mixed.
-    bool is_clamped(const std::string& key, const Place& texture) {
+    bool is_clamped(const std::string& key, const JsonCursor& texture) {
         constexpr std::uint64_t nearest = 9728, repeat = 10497, clamp = 33071;
         const auto reference = texture.find("sampler");
         if (!reference) return false;
-        const Place sampler =
+        const JsonCursor sampler =
             gltf::item(json_, "samplers", reference->index(gltf::count_of(json_, "samplers"), "sampler"));
         const std::uint64_t s = sampler.natural_or("wrapS", repeat), t = sampler.natural_or("wrapT", repeat);
         if (s != t || (s != repeat && s != clamp))
@@ -115,7 +115,7 @@ class Describer {
 
     /// The statement that is read as owner[key]; none where there is no such texture, or MTL has no words for
     /// where it lies.
-    std::optional<Map> map(const Place& owner, const std::string& key) {
+    std::optional<Map> map(const JsonCursor& owner, const std::string& key) {
         const auto info = owner.find(key.c_str());
         if (!info) return {};
         Map map;
@@ -127,7 +127,7 @@ class Describer {
             return {};
         }
         if (moved && !take_transform(key, *moved, map)) return {};
-        const Place texture = gltf::item(
+        const JsonCursor texture = gltf::item(
             json_, "textures", info->at("index").index(gltf::count_of(json_, "textures"), "texture"));
         const auto* image = image_of(key, texture);
         if (!image) return {};
@@ -138,7 +138,7 @@ class Describer {
     }
 
     /// The inverse of what a reader does: 1 - t = s v + (1 - s - o).
-    bool take_transform(const std::string& key, const Place& moved, Map& map) {
+    bool take_transform(const std::string& key, const JsonCursor& moved, Map& map) {
         if (number(moved, "rotation", 0) != 0) {
             lose_texture(key, "it is rotated by KHR_texture_transform");
             return false;
@@ -153,7 +153,7 @@ class Describer {
     }
 
     /// Black beside a map would be read as white, and so the map is left out where the factor is black.
-    std::optional<Map> map_with(const Colour& factor, const Place& owner, const std::string& key) {
+    std::optional<Map> map_with(const Colour& factor, const JsonCursor& owner, const std::string& key) {
         if (owner.find(key.c_str()) && std::max({factor[0], factor[1], factor[2]}) == 0) {
             lose_texture(key, "its factor is black");
             return {};
@@ -165,7 +165,7 @@ class Describer {
         if (map) out_.maps[word] = *std::move(map);
     }
 
-    void add_colour(const Place& material, const Place& pbr) {
+    void add_colour(const JsonCursor& material, const JsonCursor& pbr) {
         const auto& base = material_.base_colour;
         out_.diffuse = {base[0], base[1], base[2]};
         alpha_ = base[3];
@@ -179,7 +179,7 @@ class Describer {
     }
 
     /// glTF says when alpha counts; in MTL it always does.
-    void add_opacity(const Place& material) {
+    void add_opacity(const JsonCursor& material) {
         const std::string mode = material.text_or("alphaMode", "OPAQUE");
         if (mode == "OPAQUE") return;
         const auto kd = out_.maps.find("kd");
@@ -198,7 +198,7 @@ class Describer {
         return image && image->alpha;
     }
 
-    void add_light(const Place& material) {
+    void add_light(const JsonCursor& material) {
         Colour emission = colour(material, "emissiveFactor", {0, 0, 0});
         if (const auto strong = extension(material, "KHR_materials_emissive_strength"))
             for (double& c : emission) c *= number(*strong, "emissiveStrength", 1);
@@ -206,7 +206,7 @@ class Describer {
         put("ke", map_with(emission, material, "emissiveTexture"));
     }
 
-    void add_relief(const Place& material) {
+    void add_relief(const JsonCursor& material) {
         auto normals = map(material, "normalTexture");
         if (normals) normals->strength = number(*material.find("normalTexture"), "scale", 1);
         put("norm", std::move(normals));
@@ -214,7 +214,7 @@ class Describer {
 
     /// An image for both map_Pr and map_Pm is read as glTF's, roughness in green and metalness in blue; for
     /// map_Pr alone, too, where there is no metal.
-    void add_surface(const Place& material, const Place& pbr) {
+    void add_surface(const JsonCursor& material, const JsonCursor& pbr) {
         const bool older = extension(material, "KHR_materials_pbrSpecularGlossiness").has_value();
         if (older && material.find("occlusionTexture")) lose_texture("occlusionTexture", no_map);
         if (older) return;
@@ -240,7 +240,7 @@ class Describer {
             lose_texture("occlusionTexture", no_map);
     }
 
-    static bool is_same_texture(const Place& material, const Place& pbr) {
+    static bool is_same_texture(const JsonCursor& material, const JsonCursor& pbr) {
         const Json &a = material.find("occlusionTexture")->json(),
                    &b = pbr.find("metallicRoughnessTexture")->json();
         return a.contains("index") && b.contains("index") && a["index"] == b["index"];
@@ -252,7 +252,7 @@ class Describer {
 
     /// A colour of highlights is read only where there is neither Pr nor Pm; the roughness is Phong's
     /// exponent then.
-    void add_highlights(const Place& material, const Place& pbr) {
+    void add_highlights(const JsonCursor& material, const JsonCursor& pbr) {
         const auto specular = extension(material, "KHR_materials_specular");
         if (!specular) return;
         if (specular->find("specularTexture")) lose_texture("specularTexture", no_map);
@@ -274,7 +274,7 @@ class Describer {
     }
 
     /// Extensions that nothing above reads, and their textures.
-    void note_extensions(const Place& material) {
+    void note_extensions(const JsonCursor& material) {
         const auto all = material.find("extensions");
         if (!all) return;
         for (const auto& [name, value] : all->json().items()) {

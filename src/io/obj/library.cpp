@@ -2,9 +2,9 @@
 // based materials (Pr, Pm, norm, map_RMA ...) after Exocortex, "Extending the MTL format for PBR", 2016.
 
 #include "base/hash.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "io/encoding.hpp"
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 #include "io/obj/materials.hpp"
 #include "io/text.hpp"
 

@@ -1,8 +1,8 @@
 #include "io/obj/library_images.hpp"
 
 #include "base/hash.hpp"
-#include "io/gltf/textures.hpp"
-#include "io/image_faults.hpp"
+#include "io/gltf/contents/textures.hpp"
+#include "io/images/image_faults.hpp"
 #include "io/material_document.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "base/json.hpp"
 #include "io/codec.hpp"
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 
 namespace facetmill::io::obj {
 

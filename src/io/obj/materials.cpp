@@ -3,8 +3,8 @@
 #include "io/obj/materials.hpp"
 
 #include "base/hash.hpp"
-#include "base/sorted_once.hpp"
-#include "io/image_files.hpp"
+#include "base/sort_unique.hpp"
+#include "io/images/image_files.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -301,7 +301,7 @@ Index MaterialMaker::index_of(const std::string& name, bool textured, std::vecto
         for (const char* other : {"ka", "ns", "disp", "decal", "refl", "ps"})
             if (textured && word == other && !repeats_colour) lost.push_back("map_" + word + " " + map.file);
     }
-    sort_once(lost);
+    sort_unique(lost);
     if (!lost.empty() && !known_.count({name, !textured}))
         warn(name, fmt::format("glTF cannot represent {}", fmt::join(lost, ", ")));
     return at->second;

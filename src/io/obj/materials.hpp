@@ -1,9 +1,9 @@
 #pragma once
 // The materials of an OBJ file: its .mtl libraries, and what their words mean in glTF.
 
+#include "io/images/pixels.hpp"
 #include "io/material_document.hpp"
 #include "io/obj/obj.hpp"
-#include "io/pixels.hpp"
 
 #include <array>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "io/obj/obj.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/not_finite.hpp"
 #include "io/text.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -288,7 +288,7 @@ class Joiner {
         out_.line_points.resize(all.line_points);
         out_.line_offsets.resize(all.lines + 1);
         std::vector<std::size_t> bad(chunks_.size(), SIZE_MAX);
-        Share::loop_tells();
+        ProgressScope::report_next_loop();
         parallel_for(
             chunks_.size(), [&](std::size_t c) { bad[c] = join_chunk(c); }, 1);
         for (const std::size_t corner : bad)
@@ -405,10 +405,10 @@ class Joiner {
 } // namespace
 
 Statements parse(const Input& input, const ReadSettings& settings) {
-    ShareOfSteps steps({5, 1});
+    ProgressSteps steps({5, 1});
     const auto texts = pieces(as_text(input.bytes()));
     std::vector<Chunk> chunks(texts.size());
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_for(
         texts.size(),
         [&](std::size_t c) {

@@ -1,14 +1,14 @@
-#include "base/once_each.hpp"
-#include "base/parallel.hpp"
-#include "base/words.hpp"
+#include "base/ordered_set.hpp"
+#include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
 #include "io/flatten.hpp"
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 #include "io/obj/materials.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
 #include "mesh/face.hpp"
+#include "parallel/parallel.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -517,7 +517,7 @@ int sniff(Span bytes) {
 /// The images that libraries name, there or not, used or not.
 void add_images(const Input& input, const std::vector<Event>& libraries, FileHeader& header) {
     ReadLog ignored; // reading the file will tell
-    OnceEach<std::filesystem::path> images;
+    OrderedSet<std::filesystem::path> images;
     for (const auto& [name, description] : read_libraries(input, libraries, ignored))
         for (const auto& [word, map] : description.maps)
             if (const auto path = map.relative.empty() ? std::nullopt : path_below(input, map.relative))
@@ -550,7 +550,7 @@ void for_each_use(std::string_view text, Take&& take) {
 }
 
 UsedMaterials used_materials(const Input& input) {
-    OnceEach<std::pair<std::string, bool>> used;
+    OrderedSet<std::pair<std::string, bool>> used;
     std::string name;
     bool seen[2] = {true, true};
     for_each_use(as_text(input.bytes()), [&](std::string_view word, std::string_view rest) {

@@ -1,6 +1,6 @@
 #include "io/obj/scene_library.hpp"
 
-#include "base/unique_names.hpp"
+#include "base/text/unique_names.hpp"
 #include "mesh/primitives_in_use.hpp"
 
 #include <algorithm>

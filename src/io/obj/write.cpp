@@ -1,4 +1,4 @@
-#include "base/once_each.hpp"
+#include "base/ordered_set.hpp"
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
 #include "io/obj/scene_library.hpp"
@@ -239,7 +239,7 @@ bool has_seams(const Mesh& mesh, const Attribute& a) {
 }
 
 void warn_of_lost_attributes(const Scene& scene, Written& written) {
-    OnceEach<std::string> lost;
+    OrderedSet<std::string> lost;
     for (const Part& part : scene.parts)
         for (const Attribute& a : part.mesh.attributes) {
             const bool colour = a.name == "COLOR_0" && a.domain == Domain::wedge;
@@ -278,9 +278,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     if (const auto name = library.file_name()) append(bytes, fmt::format("mtllib {}\n", *name));
     Offsets offsets;
     Index material = none;
-    ShareOfSteps parts(std::vector<double>(scene.parts.size(), 1));
+    ProgressSteps parts(std::vector<double>(scene.parts.size(), 1));
     for (const auto& part : scene.parts) {
-        ShareOfSteps steps({3, 1, 1, 4});
+        ProgressSteps steps({3, 1, 1, 4});
         const WorldMesh world(part);
         if (!settings.double_positions) require_floats(*world, fmt::format("part '{}'", part.name));
         const auto pool = [&](const char* name, int components) {
@@ -298,7 +298,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         steps.next();
         put_values(bytes, "vn", normal);
         steps.next();
-        const Share silent(nullptr); // it writes in pieces, by materials
+        const ProgressScope silent(nullptr); // it writes in pieces, by materials
         PartWriter writer(bytes, *world, library.names(), material);
         writer.faces(uv, normal, offsets);
         writer.lines(offsets);

@@ -132,7 +132,8 @@ class TextReader {
 
   private:
     void tell(std::int64_t item, std::size_t all) const {
-        if (item % 8192 == 0) Share::tell(1 - static_cast<double>(text_.left()) / static_cast<double>(all));
+        if (item % 8192 == 0)
+            ProgressScope::report(1 - static_cast<double>(text_.left()) / static_cast<double>(all));
     }
 
     void vertex() {
@@ -200,10 +201,10 @@ class BinaryReader {
         out_.check(vertices, faces, 0, bytes_.size() - at_, vertex_size, 4);
         const auto items = static_cast<std::size_t>(vertices + faces);
         std::size_t item = 0;
-        for (std::int64_t v = 0; v < vertices; ++v, Share::tell_item(++item, items)) vertex();
+        for (std::int64_t v = 0; v < vertices; ++v, ProgressScope::report_item(++item, items)) vertex();
         const bool colours = faces_have_colours(faces);
         std::vector<Index> corners;
-        for (std::int64_t f = 0; f < faces; ++f, Share::tell_item(++item, items))
+        for (std::int64_t f = 0; f < faces; ++f, ProgressScope::report_item(++item, items))
             face(corners, vertices, colours);
     }
 

@@ -97,7 +97,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Bytes bytes;
     append(bytes, fmt::format("{}{}OFF\n{}{} {} 0\n", colour ? "C" : "", normal ? "N" : "",
                               stated_comments(scene, "# "), rows.count(), world->face_count()));
-    ShareOfSteps steps({2, 3});
+    ProgressSteps steps({2, 3});
     put_rows(bytes, rows, colour, normal, settings.double_positions);
     steps.next();
     append_text(bytes, world->face_count(), [&](std::size_t begin, std::size_t end, std::string& out) {

@@ -1,8 +1,8 @@
 #include "io/ply/ply.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/text.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <atomic>
@@ -100,7 +100,7 @@ std::vector<Column> Body::Reader::read_ascii(const Element& e) {
         } else
             std::visit([&](auto& v) { v.reserve(e.count); }, columns[p].values);
     }
-    for (std::size_t i = 0; i < e.count; ++i, Share::tell_item(i, e.count))
+    for (std::size_t i = 0; i < e.count; ++i, ProgressScope::report_item(i, e.count))
         for (std::size_t p = 0; p < columns.size(); ++p) {
             const Property& property = e.properties[p];
             const char* const name = property.name.c_str();
@@ -148,7 +148,7 @@ bool Body::Reader::read_equal(const Element& e, std::vector<Column>& columns) {
     }
     if (stride > 0 && e.count > room / stride) return false;
 
-    ShareOfSteps steps({1, 3});
+    ProgressSteps steps({1, 3});
     std::atomic<bool> equal{true};
     parallel_chunks(e.count, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = 0; p < places.size(); ++p) {
@@ -168,7 +168,7 @@ bool Body::Reader::read_equal(const Element& e, std::vector<Column>& columns) {
         columns[p].each = places[p].each;
         std::visit([&](auto& v) { v.resize(e.count * places[p].each); }, columns[p].values);
     }
-    Share::loop_tells();
+    ProgressScope::report_next_loop();
     parallel_chunks(e.count, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = 0; p < places.size(); ++p)
             std::visit(
@@ -189,7 +189,7 @@ void Body::Reader::read_unequal(const Element& e, std::vector<Column>& columns) 
     const Span bytes = input.bytes();
     for (std::size_t p = 0; p < columns.size(); ++p)
         if (e.properties[p].list) columns[p].offsets.assign(1, 0);
-    for (std::size_t i = 0; i < e.count; ++i, Share::tell_item(i, e.count))
+    for (std::size_t i = 0; i < e.count; ++i, ProgressScope::report_item(i, e.count))
         for (std::size_t p = 0; p < columns.size(); ++p) {
             const Property& property = e.properties[p];
             std::int64_t n = 1;

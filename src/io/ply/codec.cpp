@@ -1,6 +1,6 @@
 #include "io/codec.hpp"
 
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 #include "io/material_document.hpp"
 #include "io/ply/ply.hpp"
 #include "io/ply/table.hpp"

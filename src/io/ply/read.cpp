@@ -1,4 +1,3 @@
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/attributes.hpp"
 #include "io/material_document.hpp"
@@ -6,6 +5,7 @@
 #include "io/ply/table.hpp"
 #include "io/ply/textures.hpp"
 #include "io/text.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -270,7 +270,7 @@ Scene Builder::read() {
     for (const Element& e : header.elements)
         lengths.push_back(static_cast<double>(e.count * e.properties.size()));
     lengths.push_back(std::accumulate(lengths.begin(), lengths.end(), 1.0) / 2); // the mesh of it
-    ShareOfSteps steps(lengths);
+    ProgressSteps steps(lengths);
     for (const Element& e : header.elements) {
         Table table{&e, body.read(e), std::vector<bool>(e.properties.size(), false)};
         Table* place = e.name == "vertex"      ? &vertices_

@@ -1,7 +1,7 @@
 #include "io/ply/table.hpp"
 
-#include "base/parallel.hpp"
 #include "io/attributes.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "io/ply/textures.hpp"
 
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 
 #include <fmt/format.h>
 

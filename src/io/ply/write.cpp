@@ -1,9 +1,9 @@
 #include "io/ply/ply.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
 #include "io/stated.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <bit>
@@ -215,7 +215,7 @@ void put_columns(std::string& out, const std::vector<Out>& columns, std::size_t 
 }
 
 void write_ascii(Bytes& bytes, const Layout& l) {
-    ShareOfSteps steps({2, 3});
+    ProgressSteps steps({2, 3});
     append_text(bytes, l.rows(), [&](std::size_t begin, std::size_t end, std::string& out) {
         for (std::size_t i = begin; i < end; ++i) {
             put_columns(out, l.vertex, i, true);

@@ -1,13 +1,13 @@
 #include "io/stl/stl.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "io/not_finite.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
-#include "mesh/places.hpp"
+#include "mesh/position_hash.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <atomic>
@@ -168,7 +168,7 @@ class TextReader {
             text_.next_line();
             read_solid(part.mesh);
             check_count(input, settings, part.mesh.positions.size());
-            const Share silent(nullptr); // where the text ends tells how far all is
+            const ProgressScope silent(nullptr); // where the text ends tells how far all is
             index_by_position(part.mesh, settings);
             scene.parts.push_back(std::move(part));
         }
@@ -198,7 +198,7 @@ class TextReader {
 
     void read_facet(Mesh& mesh) {
         if (mesh.positions.size() % (3 * 8192) == 0)
-            Share::tell(1 - static_cast<double>(text_.left()) / static_cast<double>(all_));
+            ProgressScope::report(1 - static_cast<double>(text_.left()) / static_cast<double>(all_));
         text_.rest_of_line(); // the normal
         expect("outer");
         expect("loop");

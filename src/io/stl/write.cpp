@@ -1,10 +1,10 @@
 #include "io/stl/stl.hpp"
 
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "io/stated.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <cstring>
@@ -132,7 +132,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Bytes bytes;
     if (settings.ascii) {
-        ShareOfSteps steps(std::vector<double>(scene.parts.size(), 1));
+        ProgressSteps steps(std::vector<double>(scene.parts.size(), 1));
         for (const auto& part : scene.parts) {
             const WorldMesh world(part);
             require_floats(*world, fmt::format("part '{}'", part.name));

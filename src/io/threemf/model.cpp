@@ -1,6 +1,6 @@
 #include "io/threemf/model.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>

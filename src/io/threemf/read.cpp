@@ -1,13 +1,13 @@
 #include "io/threemf/threemf.hpp"
 
-#include "base/memory.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "io/attributes.hpp"
 #include "io/material_document.hpp"
 #include "io/text.hpp"
 #include "io/threemf/model.hpp"
 #include "io/threemf/zip.hpp"
+#include "parallel/memory.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

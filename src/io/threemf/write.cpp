@@ -1,7 +1,7 @@
 #include "io/threemf/threemf.hpp"
 
-#include "base/once_each.hpp"
-#include "base/words.hpp"
+#include "base/ordered_set.hpp"
+#include "base/text/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
@@ -286,7 +286,7 @@ class ModelWriter {
 
     void tell_what_is_lost() {
         std::set<std::pair<std::string, Domain>> told;
-        OnceEach<std::string> missed;
+        OrderedSet<std::string> missed;
         for (const Part& part : scene_.parts)
             for (const Attribute& a : part.mesh.attributes) {
                 const bool kept =

@@ -1,7 +1,7 @@
 #include "io/threemf/zip.hpp"
 
 #include "base/error.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "io/packing.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "io/gltf/container.hpp"
-#include "io/image_files.hpp"
+#include "io/gltf/document/container.hpp"
+#include "io/images/image_files.hpp"
 #include "io/tileset/tileset.hpp"
 
 namespace facetmill::io::tileset {

@@ -1,7 +1,7 @@
 #include "io/tileset/files.hpp"
 
-#include "io/gltf/container.hpp"
-#include "io/image_files.hpp"
+#include "io/gltf/document/container.hpp"
+#include "io/images/image_files.hpp"
 
 #include <fmt/format.h>
 

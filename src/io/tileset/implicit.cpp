@@ -1,6 +1,6 @@
 #include "io/tileset/implicit.hpp"
 
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 
 #include <array>
 #include <bit>

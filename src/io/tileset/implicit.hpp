@@ -25,6 +25,6 @@ struct ImplicitContents {
 };
 /// tile: has implicitTiling. replaces: a tile is shown only where none is below it. Throws malformed (E-GLTF,
 /// E-TILESET, E-JSON, E-URI), missing (E-FILE), and limit (E-LIMIT) for more tiles than files could hold.
-ImplicitContents read_implicit(const gltf::Place& tile, bool replaces, const Input& tileset);
+ImplicitContents read_implicit(const gltf::JsonCursor& tile, bool replaces, const Input& tileset);
 
 } // namespace facetmill::io::tileset

@@ -1,15 +1,15 @@
 #include "base/hash.hpp"
-#include "base/memory.hpp"
 #include "base/progress.hpp"
 #include "geometry/edit/equal_wedges.hpp"
 #include "io/convert.hpp"
-#include "io/gltf/container.hpp"
+#include "io/gltf/document/container.hpp"
 #include "io/gltf/gltf.hpp"
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 #include "io/tileset/files.hpp"
 #include "io/tileset/implicit.hpp"
 #include "io/tileset/tileset.hpp"
 #include "mesh/transform.hpp"
+#include "parallel/memory.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -19,13 +19,13 @@ namespace facetmill::io::tileset {
 
 namespace {
 
-using gltf::Place;
+using gltf::JsonCursor;
 
-[[noreturn]] void not_read(const Place& place, const char* what) {
+[[noreturn]] void not_read(const JsonCursor& place, const char* what) {
     place.fail(fmt::format("{} are not read", what), "E-TILESET", "load the files of its tiles one by one");
 }
 
-Transform transform_of(const Place& tile) {
+Transform transform_of(const JsonCursor& tile) {
     Transform t;
     const auto matrix = tile.find("transform");
     if (!matrix) return t;
@@ -46,7 +46,7 @@ class Contents {
   public:
     explicit Contents(const Input& input)
         : input_(input), json_(gltf::parse_document(as_text(input.bytes()))) {
-        const Place tileset(json_, "");
+        const JsonCursor tileset(json_, "");
         if (const auto required = tileset.find("extensionsRequired"); required && required->size() > 0)
             not_read(*required, "tilesets that require extensions");
         visit(tileset.at("root"), {}, true);
@@ -56,7 +56,7 @@ class Contents {
 
   private:
     /// Nesting is as deep as that of the JSON, which is limited.
-    void visit(const Place& tile, const Transform& above, bool replaces) {
+    void visit(const JsonCursor& tile, const Transform& above, bool replaces) {
         const Transform here = above * transform_of(tile);
         const std::string refine = tile.text_or("refine", replaces ? "REPLACE" : "ADD");
         if (refine != "REPLACE" && refine != "ADD")
@@ -72,12 +72,12 @@ class Contents {
             visit(children->at(i), here, refine == "REPLACE");
     }
 
-    void add(const Place& content, const Transform& here) {
-        const Place uri = content.at("uri");
+    void add(const JsonCursor& content, const Transform& here) {
+        const JsonCursor uri = content.at("uri");
         all.push_back({uri.text(), uri.path(), here});
     }
 
-    void add_implicit(const Place& tile, const Transform& here, bool replaces) {
+    void add_implicit(const JsonCursor& tile, const Transform& here, bool replaces) {
         ImplicitContents found = read_implicit(tile, replaces, input_);
         for (std::string& uri : found.uris) all.push_back({std::move(uri), tile.path() + ".content", here});
         subtrees.insert(subtrees.end(), found.files.begin(), found.files.end());
@@ -160,7 +160,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         Part all;
         double bytes = 0;                     // of all files, some perhaps more than once
         constexpr double memory_per_byte = 4; // as of other meshes
-        ShareOfSteps steps(std::vector<double>(contents.size() + 1, 1));
+        ProgressSteps steps(std::vector<double>(contents.size() + 1, 1));
         for (const Content& content : contents) {
             Scene tile = read_tile(input, content, settings, log);
             bytes += static_cast<double>(log.files.back().bytes);

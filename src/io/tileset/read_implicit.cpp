@@ -1,4 +1,4 @@
-#include "io/gltf/container.hpp"
+#include "io/gltf/document/container.hpp"
 #include "io/tileset/files.hpp"
 #include "io/tileset/implicit.hpp"
 
@@ -9,12 +9,12 @@ namespace facetmill::io::tileset {
 
 namespace {
 
-using gltf::Place;
+using gltf::JsonCursor;
 
 constexpr std::size_t most_places = std::size_t{1} << 22; // of a subtree
 constexpr std::size_t most_contents = std::size_t{1} << 22;
 
-[[noreturn]] void too_many(const Place& place) {
+[[noreturn]] void too_many(const JsonCursor& place) {
     place.fail("has more tiles than are read", "E-LIMIT", "load some of its tiles");
 }
 
@@ -38,8 +38,8 @@ struct Scheme {
     std::vector<std::string> contents; ///< templates
     std::string subtrees;
 
-    explicit Scheme(const Place& tile) {
-        const Place implicit = tile.at("implicitTiling");
+    explicit Scheme(const JsonCursor& tile) {
+        const JsonCursor implicit = tile.at("implicitTiling");
         const std::string scheme = implicit.at("subdivisionScheme").text();
         if (scheme != "QUADTREE" && scheme != "OCTREE")
             implicit.at("subdivisionScheme").fail("expected QUADTREE or OCTREE", "E-TILESET");
@@ -64,7 +64,7 @@ struct Scheme {
 
   private:
     /// Without all names, tiles would have files in common.
-    std::string text_of(const Place& uri) const {
+    std::string text_of(const JsonCursor& uri) const {
         const std::string text = uri.text();
         for (const char* name : {"{level}", "{x}", "{y}", "{z}"})
             if (text.find(name) == std::string::npos && (dimensions == 3 || name != std::string_view("{z}")))
@@ -87,12 +87,12 @@ Coordinates child_of(const Coordinates& at, std::size_t levels, std::size_t mort
 /// One bit for each of some places.
 class Availability {
   public:
-    Availability(const Place& place, std::size_t count, const std::vector<Span>& views) {
+    Availability(const JsonCursor& place, std::size_t count, const std::vector<Span>& views) {
         if (const auto constant = place.find("constant")) {
             constant_ = constant->natural(1) == 1;
             return;
         }
-        const Place bitstream = place.at("bitstream");
+        const JsonCursor bitstream = place.at("bitstream");
         bits_ = views[bitstream.index(views.size(), "bufferViews")];
         if (bits_.size() < (count + 7) / 8)
             bitstream.fail(
@@ -137,7 +137,7 @@ struct Subtree {
 
 class ImplicitReader {
   public:
-    ImplicitReader(const Place& tile, bool replaces, const Input& tileset)
+    ImplicitReader(const JsonCursor& tile, bool replaces, const Input& tileset)
         : tile_(tile), scheme_(tile), replaces_(replaces), tileset_(tileset) {}
 
     ImplicitContents run() {
@@ -157,13 +157,13 @@ class ImplicitReader {
         std::vector<Span> buffers, views;
         const Json& json = subtree.json;
         for (std::size_t b = 0; b < gltf::count_of(json, "buffers"); ++b) {
-            const Place buffer = gltf::item(json, "buffers", b);
+            const JsonCursor buffer = gltf::item(json, "buffers", b);
             const auto uri = buffer.find("uri");
             if (uri) found_.files.push_back(file_below(file, uri->text(), uri->path()));
             buffers.push_back(uri ? found_.files.back().bytes() : subtree.binary);
         }
         for (std::size_t v = 0; v < gltf::count_of(json, "bufferViews"); ++v) {
-            const Place view = gltf::item(json, "bufferViews", v);
+            const JsonCursor view = gltf::item(json, "bufferViews", v);
             const Span buffer = buffers[view.at("buffer").index(buffers.size(), "buffers")];
             const std::uint64_t from = view.natural_or("byteOffset", 0);
             const std::uint64_t bytes = view.at("byteLength").natural();
@@ -177,7 +177,7 @@ class ImplicitReader {
     void visit(const Subtree& subtree, const Input& file, const Coordinates& root,
                std::deque<Coordinates>& subtrees) {
         const std::vector<Span> views = views_of(subtree, file);
-        const Place json(subtree.json, "");
+        const JsonCursor json(subtree.json, "");
         const std::size_t levels = scheme_.subtree_levels, all = scheme_.places_above(levels);
         const Availability tiles(json.at("tileAvailability"), all, views);
         const Availability below(json.at("childSubtreeAvailability"), scheme_.places_in_level(levels), views);
@@ -209,7 +209,7 @@ class ImplicitReader {
             }
     }
 
-    const Place tile_;
+    const JsonCursor tile_;
     Scheme scheme_;
     bool replaces_;
     const Input& tileset_;
@@ -218,7 +218,7 @@ class ImplicitReader {
 
 } // namespace
 
-ImplicitContents read_implicit(const Place& tile, bool replaces, const Input& tileset) {
+ImplicitContents read_implicit(const JsonCursor& tile, bool replaces, const Input& tileset) {
     return ImplicitReader(tile, replaces, tileset).run();
 }
 

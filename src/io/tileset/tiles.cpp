@@ -2,7 +2,7 @@
 
 #include "base/json.hpp"
 #include "io/convert.hpp"
-#include "io/image_files.hpp"
+#include "io/images/image_files.hpp"
 #include "io/tileset/implicit.hpp"
 
 #include <algorithm>

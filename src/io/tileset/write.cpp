@@ -1,14 +1,14 @@
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/pyramid/pyramid.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/attributes.hpp"
-#include "io/gltf/container.hpp"
-#include "io/gltf/textures.hpp"
-#include "io/image_files.hpp"
+#include "io/gltf/contents/textures.hpp"
+#include "io/gltf/document/container.hpp"
+#include "io/images/image_files.hpp"
 #include "io/tileset/tiles.hpp"
 #include "io/tileset/tileset.hpp"
 #include "mesh/skin.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -82,7 +82,7 @@ class TilesetWriter {
     }
 
     Written run(const Scene& scene) {
-        ShareOfSteps steps({1, 12, 6});
+        ProgressSteps steps({1, 12, 6});
         Mesh mesh = as_one(scene, written_);
         if (mesh.face_count() == 0)
             throw Error(ErrorKind::stage, "E-EMPTY", "a tileset needs at least one face");
@@ -94,7 +94,7 @@ class TilesetWriter {
         steps.next();
         std::vector<TreeTile> tiles(pyramid.size());
         std::vector<Written> written(pyramid.size());
-        Share::loop_tells();
+        ProgressScope::report_next_loop();
         parallel_for(
             tiles.size(),
             [&](std::size_t t) {

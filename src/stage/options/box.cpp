@@ -2,7 +2,7 @@
 
 #include "stage/options/numbers.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "mesh/transform.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "stage/options/cap.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "mesh/placement.hpp"
 
 #include <fmt/format.h>

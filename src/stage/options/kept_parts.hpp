@@ -2,7 +2,7 @@
 // What a stage that cuts the parts of a scene left of them: of many parts it is normal that some stay whole
 // and others go, and worth a warning only when that is so of all.
 
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "mesh/scene.hpp"
 #include "options/fields.hpp"
 

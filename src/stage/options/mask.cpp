@@ -1,6 +1,6 @@
 #include "stage/options/mask.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

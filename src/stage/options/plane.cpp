@@ -2,8 +2,8 @@
 
 #include "stage/options/numbers.hpp"
 
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
+#include "base/math/numbers.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

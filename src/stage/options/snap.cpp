@@ -1,6 +1,6 @@
 #include "stage/options/snap.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/cut/cut.hpp"
 #include "mesh/float32_ulp.hpp"
 

@@ -1,6 +1,6 @@
-#include "base/words.hpp"
-#include "cells/clean_cells.hpp"
-#include "cells/inspect_cells.hpp"
+#include "base/text/words.hpp"
+#include "cells/process/clean_cells.hpp"
+#include "cells/process/inspect_cells.hpp"
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
@@ -26,7 +26,7 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
         settings.budget = budget;
         CleanResult r = clean(std::move(part.mesh), settings);
         budget = r.budget;
-        if (r.short_of_memory) context.tell_unrepeatable();
+        if (r.short_of_memory) context.mark_uncacheable();
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);

@@ -1,5 +1,5 @@
-#include "cells/gather.hpp"
-#include "cells/inspect_cells.hpp"
+#include "cells/partition/gather.hpp"
+#include "cells/process/inspect_cells.hpp"
 #include "stage/bind_pose.hpp"
 #include "stage/both_sides.hpp"
 #include "stage/options/box.hpp"

@@ -1,7 +1,7 @@
-#include "base/readable_numbers.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
-#include "geometry/clean/combine.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
+#include "geometry/boolean/combine.hpp"
 #include "geometry/cut/cap_paint.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/transform.hpp"
@@ -237,7 +237,7 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     for (std::size_t i = 1; i < meshes.size() && !unites; ++i) forgot_groups |= forget_groups(meshes[i]);
     const Index first_cut = unites ? 0 : largest_number(part.mesh, cut_id_attribute);
     CombineResult r = facetmill::combine(std::move(meshes), {operation, unites ? none : Index{1}});
-    if (r.short_of_memory) context.tell_unrepeatable();
+    if (r.short_of_memory) context.mark_uncacheable();
     if (r.failure) fail(*r.failure, all, r.short_of_memory);
     tag(r.mesh, r.mesh_of_face, unites, first_cut);
     CombinedPart report{part.name, {}, r.mesh.face_count(), r.cut_faces, r.covered_faces, 0};

@@ -1,8 +1,8 @@
 #include "stages/crumple/cells.hpp"
 
-#include "cells/crumple_source.hpp"
-#include "cells/inspect_cells.hpp"
-#include "cells/split_source.hpp"
+#include "cells/process/crumple_source.hpp"
+#include "cells/process/inspect_cells.hpp"
+#include "cells/process/split_source.hpp"
 #include "stage/world_outline.hpp"
 #include "stages/crumple/report.hpp"
 

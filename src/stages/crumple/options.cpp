@@ -96,7 +96,7 @@ CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, do
     // avoids intersections takes positions as float32 in any case.
     if (o.self_intersections == CrumpleOptions::Intersections::allow && whole > 0 &&
         0.5 * float32_ulp(scene.bounds()) > amplitude / 100)
-        s.places = PlaceRounding::far;
+        s.places = PositionRounding::far;
     return s;
 }
 

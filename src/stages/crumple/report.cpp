@@ -1,7 +1,7 @@
 #include "stages/crumple/report.hpp"
 
-#include "base/numbers.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/math/numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "mesh/face.hpp"
 #include "mesh/placement.hpp"
 

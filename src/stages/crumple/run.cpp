@@ -1,6 +1,6 @@
-#include "base/memory.hpp"
 #include "base/progress.hpp"
 #include "geometry/edit/moved.hpp"
+#include "parallel/memory.hpp"
 #include "stage/grid_faces.hpp"
 #include "stage/stage.hpp"
 #include "stages/crumple/cells.hpp"
@@ -69,7 +69,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
     std::vector<CrumpledPart> works;
     std::vector<CrumpleSheet> sheets;
     MaskOfParts masks(scene, o.mask, o.caps);
-    ShareOfSteps steps({1, o.self_intersections != Intersections::allow ? 9.0 : 0.5, 1});
+    ProgressSteps steps({1, o.self_intersections != Intersections::allow ? 9.0 : 0.5, 1});
     context.for_each_part(scene, [&](Part& part) {
         settings.amplitude = amplitude(part);
         settings.to_world = part.transform;

@@ -1,6 +1,6 @@
 #include "stages/generate/options.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
 

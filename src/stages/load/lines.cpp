@@ -1,7 +1,7 @@
 #include "stages/load/lines.hpp"
 
-#include "base/sorted_once.hpp"
-#include "base/words.hpp"
+#include "base/sort_unique.hpp"
+#include "base/text/words.hpp"
 #include "geometry/tubes/tubes.hpp"
 #include "mesh/power_scale.hpp"
 
@@ -32,7 +32,7 @@ double thickness_of(const Length& given, const Scene& scene, const std::vector<L
 /// One primitive for each material that occurs, in the order of the scene's.
 void set_materials(Mesh& mesh, std::vector<Index> face_material) {
     std::vector<Index> used(face_material);
-    sort_once(used);
+    sort_unique(used);
     if (used == std::vector{none}) return;
     for (const Index m : used) mesh.primitives.push_back({m, {}, {}});
     if (used.size() < 2) return;

@@ -1,9 +1,9 @@
-#include "base/glob.hpp"
 #include "base/hash.hpp"
 #include "base/progress.hpp"
-#include "base/spelling.hpp"
-#include "base/words.hpp"
-#include "cells/kept_partition.hpp"
+#include "base/text/glob.hpp"
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
+#include "cells/partition/kept_partition.hpp"
 #include "io/convert.hpp"
 #include "io/stated.hpp"
 #include "mesh/power_scale.hpp"
@@ -80,7 +80,7 @@ void verify(const LoadOptions& o, const Value& given, Problems& problems) {
                  suggestion(o.format, io::names_of_readers()));
 }
 
-io::ReadSettings read_settings(const LoadOptions& o, const Places& places) {
+io::ReadSettings read_settings(const LoadOptions& o, const Folders& places) {
     io::ReadSettings settings;
     settings.weld = o.weld;
     if (o.unit != Unit::unknown) settings.unit = o.unit;
@@ -99,7 +99,7 @@ void warn_of_guess(const std::string& what_has, Unit unit, Context& context) {
 }
 
 void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
-    ShareOfSteps steps({11, 1});
+    ProgressSteps steps({11, 1});
     auto [more, log] =
         read_recorded(path, read_settings(o, context.places()), io::codec_named(o.format), context);
     steps.next();
@@ -122,7 +122,7 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
         for (std::size_t i = 0; i < files.size(); ++i) {
             const double all = static_cast<double>(files.size() * o.path.size()),
                          before = static_cast<double>(files.size() * at + i);
-            const Share share(before / all, (before + 1) / all);
+            const ProgressScope share(before / all, (before + 1) / all);
             load_file(scene, files[i], o, context);
         }
     }
@@ -202,7 +202,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
 
 StageFiles files(const LoadOptions& o) { return {o.path, {}, o.asset_root}; }
 
-io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path, const Places& places) {
+io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path, const Folders& places) {
     return io::file_header(io::Input::open(path), read_settings(o, places), io::codec_named(o.format));
 }
 

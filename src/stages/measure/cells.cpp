@@ -1,6 +1,6 @@
 #include "stages/measure/cells.hpp"
 
-#include "cells/measure_cells.hpp"
+#include "cells/process/measure_cells.hpp"
 #include "stages/measure/report.hpp"
 
 #include <algorithm>

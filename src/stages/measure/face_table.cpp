@@ -1,6 +1,6 @@
 #include "stages/measure/face_table.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/measure/measure.hpp"
 #include "io/csv.hpp"
 

@@ -1,7 +1,7 @@
 #include "stages/measure/options.hpp"
 
 #include "base/refusal.hpp"
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "options/mark_at.hpp"
 #include "stages/measure/face_table.hpp"
 

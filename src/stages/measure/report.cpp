@@ -1,8 +1,8 @@
 #include "stages/measure/report.hpp"
 
-#include "base/portable_math.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/measure/statistics_fields.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"

@@ -44,7 +44,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
 /// What deviation is from; null where none is asked for.
 std::unique_ptr<FaceTree> other_surface(const MeasureOptions& o, const Scene& scene, Context& context) {
     if (is_from_load(o)) {
-        context.tell_unrepeatable(); // the scene as loaded is no part of what a result is known by
+        context.mark_uncacheable(); // the scene as loaded is no part of what a result is known by
         return std::make_unique<FaceTree>(surface_as_loaded(context), FaceTree::Use::near);
     }
     if (!o.with) return nullptr;

@@ -1,4 +1,4 @@
-#include "base/unique_names.hpp"
+#include "base/text/unique_names.hpp"
 #include "mesh/skin.hpp"
 #include "stage/stage.hpp"
 #include "stages/merge/help.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Attributes that no material looks at.
 
-#include "io/gltf/tidy.hpp"
+#include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/scene.hpp"
 
 #include <functional>

@@ -71,7 +71,7 @@ void add_look(Palette& palette, Index material, const io::PlainLook& look) {
 
 /// By material of the scene.
 std::map<Index, io::PlainLook> plain_looks(const Scene& scene,
-                                           const std::vector<io::DocumentTidy>& documents) {
+                                           const std::vector<io::DocumentOptimizer>& documents) {
     std::map<Index, io::PlainLook> looks;
     for (Index m = 0; m < scene.materials.size(); ++m) {
         const Material& material = scene.materials[m];
@@ -86,7 +86,7 @@ std::map<Index, io::PlainLook> plain_looks(const Scene& scene,
 
 } // namespace
 
-PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentTidy>& documents,
+PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& documents,
                             const std::vector<std::size_t>& parts, std::size_t least) {
     const std::map<Index, io::PlainLook> looks = plain_looks(scene, documents);
     std::map<Key, Palette> palettes;

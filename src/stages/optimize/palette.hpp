@@ -1,7 +1,7 @@
 #pragma once
 // Materials of plain colours as pixels of one.
 
-#include "io/gltf/tidy.hpp"
+#include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/scene.hpp"
 
 #include <set>
@@ -18,7 +18,7 @@ inline constexpr std::size_t most_looks = 512;
 
 /// Gives parts without texture coordinates, whose primitives have plain materials, a palette's, where at
 /// least `least` different looks of one kind meet in it. Marks the parts as changed. parts: by their numbers.
-PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentTidy>& documents,
+PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& documents,
                             const std::vector<std::size_t>& parts, std::size_t least);
 
 } // namespace facetmill::optimize_stage

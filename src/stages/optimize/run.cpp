@@ -1,7 +1,7 @@
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/edit/equal_wedges.hpp"
-#include "io/gltf/tidy.hpp"
+#include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
 #include "stage/stage.hpp"
@@ -440,7 +440,7 @@ class Optimizing {
     const OptimizeOptions& o_;
     Context& context_;
     OptimizeReport& report_;
-    std::vector<io::DocumentTidy> tidies_;
+    std::vector<io::DocumentOptimizer> tidies_;
     std::vector<io::TidyRequest> requests_;
     std::vector<bool> bound_;
 };

@@ -1,7 +1,7 @@
 #include "geometry/orient/orient.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "mesh/placement.hpp"
 #include "stage/stage.hpp"
 #include "stages/orient/help.hpp"

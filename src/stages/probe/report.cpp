@@ -1,7 +1,7 @@
 #include "stages/probe/report.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/measure/statistics_fields.hpp"
 #include "io/csv.hpp"
 

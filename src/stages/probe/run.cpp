@@ -181,7 +181,7 @@ LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, const Ques
 
 Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& report) {
     warn_of_bind_pose(scene, context);
-    ShareOfSteps steps({1, 2, 2});
+    ProgressSteps steps({1, 2, 2});
     const Questions q = questions_of(scene, o, context);
     const FaceTree tree(surface_of(q.surface, filled_surface));
     steps.next();

@@ -1,6 +1,6 @@
 #include "stages/render/measured.hpp"
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
 #include "mesh/placement.hpp"
 

@@ -1,7 +1,7 @@
 #include "stages/render/options.hpp"
 
-#include "base/portable_math.hpp"
-#include "base/spelling.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/text/spelling.hpp"
 #include "geometry/quantities/quantities.hpp"
 #include "options/lists.hpp"
 #include "options/mark_at.hpp"

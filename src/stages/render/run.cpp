@@ -1,9 +1,9 @@
 #include "base/progress.hpp"
-#include "base/readable_numbers.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "io/gltf/looks.hpp"
-#include "io/gltf/pose.hpp"
-#include "io/png.hpp"
+#include "io/gltf/contents/resolved_materials.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
+#include "io/images/png.hpp"
 #include "stage/as_loaded.hpp"
 #include "stage/read_recorded.hpp"
 #include "stages/render/help.hpp"
@@ -15,24 +15,25 @@ namespace facetmill::render_stage {
 
 namespace {
 
-std::shared_ptr<const MaterialLooks> looks_of(const RenderOptions& o, const Scene& scene, Context& context) {
+std::shared_ptr<const ResolvedMaterials> looks_of(const RenderOptions& o, const Scene& scene,
+                                                  Context& context) {
     if (o.colours != Paint::material || !o.attribute.empty()) return {};
     std::vector<Diagnostic> warnings;
-    auto looks = io::LookReader().looks(scene, warnings);
+    auto materials = io::MaterialResolver().materials(scene, warnings);
     for (const auto& w : warnings) context.warn(w.id, "render: " + w.message, w.hint);
-    return looks;
+    return materials;
 }
 
 /// Two scenes seen by one camera, which sees all of both, from where the first is seen. Numbers of the second
 /// have the colours of the first's.
 Picture both(const PictureSettings& first, const Scene& a, const Scene& b,
-             const std::shared_ptr<const MaterialLooks>& looks_b) {
+             const std::shared_ptr<const ResolvedMaterials>& looks_b) {
     PictureSettings settings = first;
     Camera camera = camera_of(a, settings);
     settings.camera = camera;
     PictureSettings second = settings;
     second.shows = {};
-    second.looks = looks_b;
+    second.materials = looks_b;
     camera.seen.add(camera_of(b, second).seen);
     settings.camera = second.camera = camera;
     const Picture left = picture_of(a, settings);
@@ -139,12 +140,12 @@ void warn_of_crowd(const Scene& scene, const PictureSettings& settings, Context&
 Picture taken(const RenderOptions& o, const Scene& given, const Subject& subject, Context& context) {
     const Scene& scene = subject.own ? *subject.own : given;
     PictureSettings common = settings_of(o, given, subject.quantity, context);
-    common.looks = looks_of(o, scene, context);
+    common.materials = looks_of(o, scene, context);
     if (subject.quantity && subject.quantity->compares) widen_to_floats(scene, common);
     if (!o.zoom && !o.at) warn_of_crowd(scene, common, context);
     const Shots shots = shots_of(o, scene, common);
     std::vector<Picture> pictures;
-    ShareOfSteps steps(std::vector<double>(shots.settings.size(), 1));
+    ProgressSteps steps(std::vector<double>(shots.settings.size(), 1));
     const auto looks_of_other = subject.other ? looks_of(o, *subject.other, context) : nullptr;
     for (const auto& settings : shots.settings) {
         pictures.push_back(subject.other ? both(settings, scene, *subject.other, looks_of_other)
@@ -221,7 +222,7 @@ void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
-    ShareOfSteps steps({9, 1});
+    ProgressSteps steps({9, 1});
     const Subject subject = subject_of(o, scene, context);
     const Picture picture = taken(o, scene, subject, context);
     steps.next();

@@ -1,6 +1,6 @@
 #include "stages/section/options.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "io/drawing/drawing.hpp"
 #include "options/mark_at.hpp"
 

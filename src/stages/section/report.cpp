@@ -1,7 +1,7 @@
 #include "stages/section/report.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "io/drawing/drawing_fields.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "base/progress.hpp"
-#include "cells/inspect_cells.hpp"
-#include "cells/section_cells.hpp"
+#include "cells/process/inspect_cells.hpp"
+#include "cells/process/section_cells.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "stage/bind_pose.hpp"
 #include "stage/world_outline.hpp"
@@ -105,7 +105,7 @@ io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& s
 void write_drawings(const SectionOptions& o, const io::Drawing& drawing, Context& context) {
     for (const auto& path : o.path) {
         const std::string text = io::drawing_for(path.text, drawing);
-        const Share silent(nullptr);
+        const ProgressScope silent(nullptr);
         context.output(path.text, std::as_bytes(std::span(text)));
     }
 }

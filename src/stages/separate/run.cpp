@@ -1,4 +1,4 @@
-#include "base/unique_names.hpp"
+#include "base/text/unique_names.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "stages/separate/help.hpp"
 #include "stages/separate/options.hpp"

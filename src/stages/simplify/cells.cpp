@@ -1,7 +1,7 @@
 #include "stages/simplify/cells.hpp"
 
-#include "base/words.hpp"
-#include "cells/hierarchy.hpp"
+#include "base/text/words.hpp"
+#include "cells/hierarchy/hierarchy.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/transform.hpp"
 #include "stages/simplify/parts.hpp"

@@ -1,8 +1,8 @@
 #include "stages/simplify/parts.hpp"
 
 #include "base/progress.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/edit/moved.hpp"
 #include "mesh/equal_meshes.hpp"
@@ -135,14 +135,14 @@ class Simplifier {
         report_.parts.reserve(scene_.parts.size() * (o_.lods ? o_.lods->ratios.size() : 1));
         const bool shared = shares_by_error(o_) && scene_.parts.size() > 1;
         const double measuring = !measures() ? 0.2 : o_.certify ? 5 : 2; // beside what is collapsed
-        ShareOfSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
+        ProgressSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
         share_target();
         steps.next();
         std::vector<Part> levels;
         context_.for_each_part(scene_, [&](Part& part) {
             const auto number = static_cast<std::size_t>(&part - scene_.parts.data());
             const bool has_results = !results_[number].empty();
-            ShareOfSteps of_part({has_results ? 0.0 : 1.0, measuring});
+            ProgressSteps of_part({has_results ? 0.0 : 1.0, measuring});
             if (!has_results) simplify_set(set_of(number));
             of_part.next();
             settle(part, number, levels);
@@ -287,9 +287,9 @@ class Simplifier {
             !o_.lods && (max_error_ || all.self_intersections != SimplifySettings::Intersections::ignore);
         if (o_.lods) all.self_intersections = SimplifySettings::Intersections::ignore;
         std::vector<SharingMeshes> sharing;
-        ShareOfSteps steps({1, 9});
+        ProgressSteps steps({1, 9});
         {
-            ShareOfSteps of_sets(std::vector<double>(sets.size(), 1));
+            ProgressSteps of_sets(std::vector<double>(sets.size(), 1));
             for (const Set& set : sets) {
                 if (!more) note_before(set);
                 sharing.push_back(sharing_meshes(set, more));
@@ -336,7 +336,7 @@ class Simplifier {
 
     /// Notes what is compared with the results.
     void note_before(const Set& set) {
-        ShareOfSteps steps(std::vector<double>(set.size(), 1));
+        ProgressSteps steps(std::vector<double>(set.size(), 1));
         for (const std::size_t p : set) {
             const bool is_first = measures() && measured_as_[p] == p;
             if (is_first) {
@@ -355,7 +355,7 @@ class Simplifier {
 
     /// Sets the results of the parts of a set, one for each level.
     void simplify_set(const Set& set) {
-        ShareOfSteps steps({1, 9});
+        ProgressSteps steps({1, 9});
         note_before(set);
         steps.next();
         if (const std::size_t as = work_as_[set.front()]; as != set.front()) {
@@ -393,7 +393,7 @@ class Simplifier {
     void settle(Part& part, std::size_t number, std::vector<Part>& levels) {
         part.mesh = {};
         const Part base = part;
-        ShareOfSteps steps(std::vector<double>(results_[number].size(), 1));
+        ProgressSteps steps(std::vector<double>(results_[number].size(), 1));
         for (std::size_t i = 0; i < results_[number].size(); ++i) {
             Part level = base;
             if (i > 0) level.name += fmt::format(".lod{}", i);
@@ -441,7 +441,7 @@ class Simplifier {
                 if (!entry.joint_with) entry.joint_with.emplace();
                 entry.joint_with->push_back(scene_.parts[p].name);
             }
-        ShareOfSteps steps({changes_topology() ? 1.0 : 0.0, 9});
+        ProgressSteps steps({changes_topology() ? 1.0 : 0.0, 9});
         if (changes_topology()) entry.topology = {before_[number].properties, inspect(part)};
         steps.next();
         if (measures()) {

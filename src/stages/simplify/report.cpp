@@ -1,7 +1,7 @@
 #include "stages/simplify/report.hpp"
 
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "stages/split/cells.hpp"
 
-#include "cells/split_source.hpp"
+#include "cells/process/split_source.hpp"
 #include "stages/split/report.hpp"
 
 #include <cmath>

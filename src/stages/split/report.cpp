@@ -1,7 +1,7 @@
 #include "stages/split/report.hpp"
 
-#include "base/portable_math.hpp"
-#include "base/words.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/text/words.hpp"
 
 #include <fmt/format.h>
 

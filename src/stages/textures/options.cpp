@@ -1,6 +1,6 @@
 #include "stages/textures/options.hpp"
 
-#include "io/ktx_workers.hpp"
+#include "io/images/ktx_workers.hpp"
 #include "options/mark_at.hpp"
 
 #include <cstdlib>

@@ -1,9 +1,9 @@
 #include "base/hash.hpp"
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "base/readable_numbers.hpp"
-#include "io/ktx_workers.hpp"
-#include "io/pixels.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "io/images/ktx_workers.hpp"
+#include "io/images/pixels.hpp"
+#include "parallel/parallel.hpp"
 #include "stages/textures/help.hpp"
 #include "stages/textures/work.hpp"
 
@@ -31,7 +31,7 @@ struct Job {
     ImageState before;
     io::ImageUse use;
     std::vector<std::pair<std::size_t, std::size_t>> places; ///< documents and their images
-    Worked worked;
+    ProcessedImage processed_image;
 };
 
 /// The materials of each document that parts use which are left out.
@@ -97,14 +97,14 @@ void work(std::vector<Job>& jobs, const TexturesOptions& o) {
             pixels += more;
         }
         const auto all = static_cast<double>(jobs.size());
-        const Share share(static_cast<double>(begin) / all, static_cast<double>(end) / all);
-        Share::loop_tells();
+        const ProgressScope share(static_cast<double>(begin) / all, static_cast<double>(end) / all);
+        ProgressScope::report_next_loop();
         parallel_for(
             end - begin,
             [&](std::size_t i) {
                 Job& job = jobs[begin + i];
                 try {
-                    job.worked = worked(job.image->bytes, job.before, job.use, o);
+                    job.processed_image = processed_image(job.image->bytes, job.before, job.use, o);
                 } catch (const Error& error) {
                     throw about_image(error, job.image->name);
                 }
@@ -118,14 +118,14 @@ void put_back(Scene& scene, const std::vector<Job>& jobs) {
     std::vector<std::map<std::size_t, io::Bytes>> replaced(scene.documents.size());
     for (const Job& job : jobs)
         for (const auto& [document, image] : job.places)
-            if (!job.worked.bytes.empty()) replaced[document][image] = job.worked.bytes;
+            if (!job.processed_image.bytes.empty()) replaced[document][image] = job.processed_image.bytes;
     for (std::size_t d = 0; d < replaced.size(); ++d)
         if (!replaced[d].empty()) scene.documents[d] = io::with_images(*scene.documents[d], replaced[d]);
 }
 
 void tell(const std::vector<Job>& jobs, Context& context, TexturesReport& report) {
     for (const Job& job : jobs) {
-        const Worked& w = job.worked;
+        const ProcessedImage& w = job.processed_image;
         const bool resized = w.before.width != w.after.width || w.before.height != w.after.height;
         const bool converted = w.before.format != w.after.format;
         report.resized += resized;
@@ -203,7 +203,7 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
     std::vector<Job> jobs = jobs_of(images);
     work(jobs, o);
     put_back(scene, jobs);
-    if (wants_ktx2(o)) context.tell_unrepeatable(); // another version of the program may write other bytes
+    if (wants_ktx2(o)) context.mark_uncacheable(); // another version of the program may write other bytes
     tell(jobs, context, report);
     return scene;
 }

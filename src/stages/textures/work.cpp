@@ -1,9 +1,9 @@
 #include "stages/textures/work.hpp"
 
-#include "io/encode_image.hpp"
-#include "io/image_files.hpp"
-#include "io/ktx_workers.hpp"
-#include "io/resize_image.hpp"
+#include "io/images/encode_image.hpp"
+#include "io/images/image_files.hpp"
+#include "io/images/ktx_workers.hpp"
+#include "io/images/resize_image.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -95,8 +95,8 @@ Reason reason_against_ktx2(const ImageState& image, const io::ImageUse& use) {
     return {};
 }
 
-Worked kept(const ImageState& state, std::string why, bool warn) {
-    Worked out{state, state, {}, std::move(why), warn};
+ProcessedImage kept(const ImageState& state, std::string why, bool warn) {
+    ProcessedImage out{state, state, {}, std::move(why), warn};
     return out;
 }
 
@@ -124,8 +124,8 @@ ImageState state_of(const io::Bytes& bytes) {
     return state;
 }
 
-Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
-              const TexturesOptions& o) {
+ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
+                               const TexturesOptions& o) {
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
     ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);
@@ -144,7 +144,7 @@ Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageU
     const auto [width, height] = size_for(before, s);
     const bool smaller = width != before.width || height != before.height;
     if (!smaller && format == before.format) {
-        Worked out = kept(before, why, warn);
+        ProcessedImage out = kept(before, why, warn);
         if (o.repack) out.bytes = io::repacked_image(bytes);
         if (!out.bytes.empty()) out.after.bytes = out.bytes.size();
         return out;
@@ -161,12 +161,12 @@ Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageU
     const io::PixelKind kind = kind_of(use);
     const bool coverage = kind == io::PixelKind::colours && use.coverage && !io::is_opaque(*image);
     if (smaller) image = io::resized_image(*image, width, height, kind, coverage);
-    Worked out{before,
-               {format, width, height, 0},
-               format == "ktx2" ? encoded_ktx2(*std::move(image), use, s, o)
-                                : encoded(*image, format, s, kind),
-               why,
-               warn};
+    ProcessedImage out{before,
+                       {format, width, height, 0},
+                       format == "ktx2" ? encoded_ktx2(*std::move(image), use, s, o)
+                                        : encoded(*image, format, s, kind),
+                       why,
+                       warn};
     if (!smaller && format != "png" && format != "ktx2" && out.bytes.size() >= before.bytes)
         return kept(before, fmt::format("it would not be smaller as {}", format), false);
     out.after.bytes = out.bytes.size();

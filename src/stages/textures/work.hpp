@@ -1,7 +1,7 @@
 #pragma once
 // What textures does to one image.
 
-#include "io/gltf/textures.hpp"
+#include "io/gltf/contents/textures.hpp"
 #include "stages/textures/options.hpp"
 
 namespace facetmill::textures_stage {
@@ -12,7 +12,7 @@ struct ImageState {
     std::size_t width = 0, height = 0, bytes = 0;
 };
 
-struct Worked {
+struct ProcessedImage {
     ImageState before, after;
     io::Bytes bytes;   ///< empty: the image stays as it is
     std::string why;   ///< it stays, where anything was asked of it; else empty
@@ -23,7 +23,7 @@ struct Worked {
 ImageState state_of(const io::Bytes& bytes);
 
 /// The image, whose state_of is `before`, scaled and written as the options of its role say, or why it stays.
-Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
-              const TexturesOptions& o);
+ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
+                               const TexturesOptions& o);
 
 } // namespace facetmill::textures_stage

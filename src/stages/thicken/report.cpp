@@ -1,6 +1,6 @@
 #include "stages/thicken/report.hpp"
-#include "base/readable_numbers.hpp"
-#include "base/words.hpp"
+#include "base/text/readable_numbers.hpp"
+#include "base/text/words.hpp"
 #include "mesh/unit_text.hpp"
 
 #include <fmt/format.h>

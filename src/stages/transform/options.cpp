@@ -1,6 +1,6 @@
 #include "stages/transform/options.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
 

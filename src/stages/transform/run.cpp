@@ -1,4 +1,4 @@
-#include "cells/inspect_cells.hpp"
+#include "cells/process/inspect_cells.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/placement.hpp"
 #include "stages/transform/help.hpp"

@@ -1,6 +1,6 @@
 #include "geometry/triangulate/triangulate.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "stage/stage.hpp"

@@ -1,6 +1,6 @@
 #include "stages/validate/cells.hpp"
 
-#include "cells/inspect_cells.hpp"
+#include "cells/process/inspect_cells.hpp"
 
 #include <fmt/format.h>
 

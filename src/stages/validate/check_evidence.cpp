@@ -1,6 +1,6 @@
 #include "stages/validate/check_evidence.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "stages/validate/document_contents.hpp"
 
 #include "base/json.hpp"
-#include "io/pixels.hpp"
+#include "io/images/pixels.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "stages/validate/failed_copy.hpp"
 
 #include "io/codec.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "options/mark_at.hpp"
 #include "stages/validate/check_evidence.hpp"
 

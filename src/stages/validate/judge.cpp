@@ -52,12 +52,12 @@ class Judge {
             take(std::move(limit.check), std::move(failure), verdict);
         }
         if (s_.per == Per::scene) {
-            const Share all_of_it(0, 1);
+            const ProgressScope all_of_it(0, 1);
             with_parts(scene, selected, [&](const Scene& all) {
                 judge(all, {"", "", "", selected, nullptr});
             });
         }
-        ShareOfSteps steps(lengths_of(scene, selected));
+        ProgressSteps steps(lengths_of(scene, selected));
         if (s_.per == Per::part)
             for (const std::size_t i : selected) {
                 with_parts(scene, {&i, 1}, [&](const Scene& one) {
@@ -92,7 +92,7 @@ class Judge {
     }
 
     void judge(const Scene& scene, const Subject& subject) {
-        ShareOfSteps steps({3, 1});
+        ProgressSteps steps({3, 1});
         auto checks = evaluate(s_.assertions, properties_of(scene, subject), context_.name());
         steps.next();
         for (std::size_t i = 0; i < checks.size(); ++i) {
@@ -156,7 +156,7 @@ class Judge {
         std::size_t number = 0;
         for (Mesh& mesh : separated(part.mesh, components.of_face, components.count)) {
             const auto count = static_cast<double>(components.count), before = static_cast<double>(number);
-            const Share share(before / count, (before + 1) / count);
+            const ProgressScope share(before / count, (before + 1) / count);
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = part.name;
             one.parts[0].mesh = std::move(mesh);

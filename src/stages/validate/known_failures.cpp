@@ -1,7 +1,7 @@
 #include "stages/validate/known_failures.hpp"
 
 #include "base/json.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "report/contents.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Failures that are known and waived, so that a gate can be introduced on old assets.
 
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "report/record.hpp"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "stages/validate/scene_limits.hpp"
 
-#include "base/glob.hpp"
-#include "base/random.hpp"
-#include "base/words.hpp"
+#include "base/math/random.hpp"
+#include "base/text/glob.hpp"
+#include "base/text/words.hpp"
 #include "report/contents.hpp"
 #include "stage/assertions.hpp"
 #include "stages/validate/check_evidence.hpp"

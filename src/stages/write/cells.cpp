@@ -1,9 +1,9 @@
 #include "stages/write/cells.hpp"
 
-#include "base/words.hpp"
-#include "cells/write_cells.hpp"
-#include "cells/write_tiles.hpp"
-#include "io/output_files.hpp"
+#include "base/text/words.hpp"
+#include "cells/write/write_cells.hpp"
+#include "cells/write/write_tiles.hpp"
+#include "io/outputs/output_files.hpp"
 #include "io/packing.hpp"
 #include "mesh/power_scale.hpp"
 #include "stages/write/file.hpp"

@@ -1,11 +1,11 @@
 #include "stages/write/file.hpp"
 
 #include "base/progress.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/normals/tangents.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
-#include "io/gltf/tidy.hpp"
+#include "io/gltf/optimize/document_optimizer.hpp"
 #include "io/packing.hpp"
 #include "io/read_back.hpp"
 
@@ -174,7 +174,7 @@ bool needs_full(double rounding, const Box& bounds, Context& context) {
 }
 
 std::vector<std::optional<int>> normal_map_uvs(const Scene& scene) {
-    std::vector<std::optional<io::DocumentTidy>> documents(scene.documents.size());
+    std::vector<std::optional<io::DocumentOptimizer>> documents(scene.documents.size());
     std::vector<std::optional<int>> uvs;
     for (const Material& material : scene.materials) {
         uvs.emplace_back();
@@ -254,7 +254,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
     RunState& run = context.run();
     const io::Outputs::File* main = nullptr;
     const std::size_t first = run.record.outputs.size();
-    ShareOfSteps steps({1, 3});
+    ProgressSteps steps({1, 3});
     for (const auto& file : written.files) {
         if (main && path == "-") {
             context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output beside the mesh",

@@ -1,9 +1,9 @@
 #include "stages/write/lattice.hpp"
 
-#include "base/numbers.hpp"
-#include "base/parallel.hpp"
+#include "base/math/numbers.hpp"
 #include "mesh/first_of_equal.hpp"
-#include "mesh/places.hpp"
+#include "mesh/position_hash.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>

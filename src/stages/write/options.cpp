@@ -1,6 +1,6 @@
 #include "stages/write/options.hpp"
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
 #include "options/mark_at.hpp"

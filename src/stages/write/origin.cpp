@@ -1,6 +1,6 @@
 #include "stages/write/origin.hpp"
 
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
 

@@ -1,6 +1,6 @@
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/progress.hpp"
-#include "base/words.hpp"
+#include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
@@ -205,7 +205,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
     tell_lines(scene, out, o, *codec, context);
     if (out.face_count() == 0) check_points(out, o, *codec, context);
-    ShareOfSteps steps({1, 4, 5});
+    ProgressSteps steps({1, 4, 5});
     say_of_triangles(out, o, *codec, context);
     if (o.triangulate && codec->can.polygons) make_triangles(out, lent);
     give_normals(out, lent, o, context);

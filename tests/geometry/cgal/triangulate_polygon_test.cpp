@@ -1,6 +1,6 @@
 #include "geometry/cgal/triangulate_polygon.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "support/catch.hpp"
 
 #include <map>

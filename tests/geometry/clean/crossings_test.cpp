@@ -5,7 +5,7 @@
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "geometry/clean/clean.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/inspect.hpp"

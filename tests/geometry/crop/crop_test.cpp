@@ -1,7 +1,7 @@
 #include "geometry/crop/crop.hpp"
 
-#include "base/portable_math.hpp"
-#include "base/random.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/random.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
@@ -194,11 +194,11 @@ TEST_CASE("a footprint finds points as the plain rule does", "[geometry]") {
         const Vec2 p{uniform(hashed(1, i)) * 7 - 2.5, uniform(hashed(2, i)) * 5 - 2.5};
         const auto place = footprint.locate(p);
         CHECK(place == polygon::locate(p, spans));
-        CHECK((place == polygon::Place::inside) == polygon::inside_by_angles(p, spans));
+        CHECK((place == polygon::PointLocation::inside) == polygon::inside_by_angles(p, spans));
     }
-    CHECK(footprint.locate({3, 0}) == polygon::Place::on_vertex);
-    CHECK(footprint.locate({3.5, 1}) == polygon::Place::on_edge);
-    CHECK(footprint.locate({4, 0.25}) == polygon::Place::on_edge);
+    CHECK(footprint.locate({3, 0}) == polygon::PointLocation::on_vertex);
+    CHECK(footprint.locate({3.5, 1}) == polygon::PointLocation::on_edge);
+    CHECK(footprint.locate({4, 0.25}) == polygon::PointLocation::on_edge);
 }
 
 namespace {

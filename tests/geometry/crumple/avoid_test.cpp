@@ -1,5 +1,5 @@
 // Crumpling that keeps faces apart, and correlated noise.
-#include "base/numbers.hpp"
+#include "base/math/numbers.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/generate/generate.hpp"
 #include "geometry/intersect/self_intersections.hpp"

@@ -44,7 +44,7 @@ TEST_CASE("the noise belongs to the place: -0 is 0, and float32 decides", "[geom
 
 TEST_CASE("far places are of 40 bits: what float32 cannot tell apart is, what rounding moved is not",
           "[geometry]") {
-    using enum PlaceRounding;
+    using enum PositionRounding;
     const double northing = 5e6;
     CHECK(noise_key(1, {0, northing, 2}) == noise_key(1, {0, northing + 0.01, 2}));
     CHECK(noise_key(1, {0, northing, 2}, far) != noise_key(1, {0, northing + 0.01, 2}, far));

@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/deviation/area_samples.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "mesh/shapes.hpp"

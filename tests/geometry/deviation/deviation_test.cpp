@@ -1,11 +1,11 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/surface.hpp"
+#include "parallel/parallel.hpp"
 #include "support/meshes.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "geometry/edit/equal_wedges.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

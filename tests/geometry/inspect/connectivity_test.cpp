@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/inspect/connectivity.hpp"
 #include "mesh/shapes.hpp"
 

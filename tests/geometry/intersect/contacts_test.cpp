@@ -1,10 +1,10 @@
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "oracle/insides_oracle.hpp"
+#include "parallel/parallel.hpp"
 
 using namespace facetmill;
 using namespace facetmill::test;

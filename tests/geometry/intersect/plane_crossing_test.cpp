@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/intersect/plane_crossing.hpp"
 
 #include <gmpxx.h>

@@ -1,11 +1,11 @@
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/intersect/plain_stars.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "oracle/cgal_oracle.hpp"
+#include "parallel/parallel.hpp"
 
 using namespace facetmill;
 using namespace facetmill::test;

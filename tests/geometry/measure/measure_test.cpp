@@ -1,13 +1,13 @@
 #include "support/catch.hpp"
 #include "support/measure.hpp"
 
-#include "base/allocation_cap.hpp"
-#include "base/parallel.hpp"
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/measure/measure.hpp"
 #include "geometry/thicken/thicken.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/allocation_cap.hpp"
+#include "parallel/parallel.hpp"
 #include "support/meshes.hpp"
 #include "support/polygons.hpp"
 

@@ -1,8 +1,8 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/measure/shape_histograms.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/meshes.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "geometry/normals/normals.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

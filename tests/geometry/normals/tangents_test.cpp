@@ -9,7 +9,7 @@
 #include "support/gltf.hpp"
 #include "support/images.hpp"
 
-#include "io/png.hpp"
+#include "io/images/png.hpp"
 
 using namespace facetmill;
 

@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/predicates.hpp"
-#include "base/random.hpp"
+#include "base/math/predicates.hpp"
+#include "base/math/random.hpp"
 #include "geometry/polygon/certain_triangulation.hpp"
 
 #include <algorithm>

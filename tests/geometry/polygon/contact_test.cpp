@@ -1,7 +1,7 @@
 // How rings meet themselves and each other, against all pairs of their edges.
 #include "support/catch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "support/polygons.hpp"
 

@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/portable_math.hpp"
-#include "base/random.hpp"
+#include "base/math/portable_math.hpp"
+#include "base/math/random.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "support/polygons.hpp"
 
@@ -11,41 +11,41 @@ using namespace facetmill::test;
 
 TEST_CASE("the crossing rule counts shared ends once", "[geometry]") {
     const std::vector<Vec2> diamond{{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
-    CHECK(locate({0, 0}, diamond) == Place::inside);   // the ray meets the corner (1, 0)
-    CHECK(locate({-2, 0}, diamond) == Place::outside); // ... and two corners
-    CHECK(locate({-2, 1}, diamond) == Place::outside); // ... and only the tip
-    CHECK(locate({-2, -1}, diamond) == Place::outside);
+    CHECK(locate({0, 0}, diamond) == PointLocation::inside);   // the ray meets the corner (1, 0)
+    CHECK(locate({-2, 0}, diamond) == PointLocation::outside); // ... and two corners
+    CHECK(locate({-2, 1}, diamond) == PointLocation::outside); // ... and only the tip
+    CHECK(locate({-2, -1}, diamond) == PointLocation::outside);
     const std::vector<Vec2> steps{{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}, {0, 2}};
-    CHECK(locate({0.5, 1}, steps) == Place::inside); // the ray runs along an edge
-    CHECK(locate({-1, 1}, steps) == Place::outside);
+    CHECK(locate({0.5, 1}, steps) == PointLocation::inside); // the ray runs along an edge
+    CHECK(locate({-1, 1}, steps) == PointLocation::outside);
 }
 
 TEST_CASE("edges and corners are told apart", "[geometry]") {
-    CHECK(locate({1, 0}, l_shape()) == Place::on_edge);
-    CHECK(locate({1, 1.5}, l_shape()) == Place::on_edge);
-    CHECK(locate({1, 2}, l_shape()) == Place::on_vertex);
-    CHECK(locate({1, 1}, l_shape()) == Place::on_vertex);
-    CHECK(locate({1.5, 1.5}, l_shape()) == Place::outside);
-    CHECK(locate({1, std::nextafter(0, 1)}, l_shape()) == Place::inside);
+    CHECK(locate({1, 0}, l_shape()) == PointLocation::on_edge);
+    CHECK(locate({1, 1.5}, l_shape()) == PointLocation::on_edge);
+    CHECK(locate({1, 2}, l_shape()) == PointLocation::on_vertex);
+    CHECK(locate({1, 1}, l_shape()) == PointLocation::on_vertex);
+    CHECK(locate({1.5, 1.5}, l_shape()) == PointLocation::outside);
+    CHECK(locate({1, std::nextafter(0, 1)}, l_shape()) == PointLocation::inside);
 }
 
 TEST_CASE("holes are outside, whatever their orientation", "[geometry]") {
     for (const auto& hole : {square(1, 1, 2), reversed(square(1, 1, 2))}) {
         const auto rings = rings_of({square(0, 0, 4), hole});
-        CHECK(locate({2, 2}, rings) == Place::outside);
-        CHECK(locate({0.5, 2}, rings) == Place::inside);
-        CHECK(locate({1, 2}, rings) == Place::on_edge);
+        CHECK(locate({2, 2}, rings) == PointLocation::outside);
+        CHECK(locate({0.5, 2}, rings) == PointLocation::inside);
+        CHECK(locate({1, 2}, rings) == PointLocation::on_edge);
     }
-    CHECK(locate({2, 2}, keyhole()) == Place::outside);
-    CHECK(locate({0.5, 2}, keyhole()) == Place::inside);
+    CHECK(locate({2, 2}, keyhole()) == PointLocation::outside);
+    CHECK(locate({0.5, 2}, keyhole()) == PointLocation::inside);
 }
 
 TEST_CASE("half planes of a convex ring", "[geometry]") {
-    CHECK(locate_convex({1, 1}, square(0, 0, 2)) == Place::inside);
-    CHECK(locate_convex({1, 1}, reversed(square(0, 0, 2))) == Place::inside);
-    CHECK(locate_convex({1, 0}, square(0, 0, 2)) == Place::on_edge);
-    CHECK(locate_convex({3, 0}, square(0, 0, 2)) == Place::outside); // along an edge, beyond it
-    CHECK(locate_convex({2, 2}, square(0, 0, 2)) == Place::on_vertex);
+    CHECK(locate_convex({1, 1}, square(0, 0, 2)) == PointLocation::inside);
+    CHECK(locate_convex({1, 1}, reversed(square(0, 0, 2))) == PointLocation::inside);
+    CHECK(locate_convex({1, 0}, square(0, 0, 2)) == PointLocation::on_edge);
+    CHECK(locate_convex({3, 0}, square(0, 0, 2)) == PointLocation::outside); // along an edge, beyond it
+    CHECK(locate_convex({2, 2}, square(0, 0, 2)) == PointLocation::on_vertex);
 }
 
 TEST_CASE("angle sums are whole turns", "[geometry]") {
@@ -73,14 +73,15 @@ TEST_CASE("all forms of containment agree", "[geometry]") {
     int inside = 0;
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const Vec2 p{3 * uniform(hashed(1, i)) - 1.5, 3 * uniform(hashed(2, i)) - 1.5};
-        const bool in = locate(p, oval) == Place::inside;
+        const bool in = locate(p, oval) == PointLocation::inside;
         inside += in;
-        CHECK((locate_convex(p, oval) == Place::inside) == in);
+        CHECK((locate_convex(p, oval) == PointLocation::inside) == in);
         CHECK(inside_by_angles(p, rings_of({oval})) == in);
         CHECK(inside_by_angles(Vec3{p.x, p.y, p.x - 2 * p.y}, lifted) == in);
-        CHECK((locate(p, holed) == Place::inside) ==
-              ((locate(p, square(-1, -1, 2)) == Place::inside) != (locate(p, l_shape()) == Place::inside)));
-        CHECK(inside_by_angles(p, rings_of({keyhole()})) == (locate(p, keyhole()) == Place::inside));
+        CHECK((locate(p, holed) == PointLocation::inside) ==
+              ((locate(p, square(-1, -1, 2)) == PointLocation::inside) !=
+               (locate(p, l_shape()) == PointLocation::inside)));
+        CHECK(inside_by_angles(p, rings_of({keyhole()})) == (locate(p, keyhole()) == PointLocation::inside));
     }
     CHECK(inside > 500);
 }

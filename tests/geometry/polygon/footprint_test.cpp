@@ -1,6 +1,6 @@
 #include "geometry/polygon/footprint.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "support/catch.hpp"
 #include "support/polygons.hpp"
 

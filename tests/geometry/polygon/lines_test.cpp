@@ -47,7 +47,7 @@ TEST_CASE("inside and outside make up the line", "[geometry]") {
             for (const auto& part : clip_line(a, b, rings, keep)) {
                 sum += part.to - part.from;
                 const Vec2 middle = a + (b - a) * ((part.from + part.to) / 2);
-                CHECK((locate(middle, rings) == Place::inside) == (keep == Keep::inside));
+                CHECK((locate(middle, rings) == PointLocation::inside) == (keep == Keep::inside));
             }
         CHECK(sum == Approx(1));
     }
@@ -58,13 +58,13 @@ TEST_CASE("hatching covers area over spacing", "[geometry]") {
     HatchSettings settings{.spacing = 0.01, .direction = {0.6, 0.8}};
     const auto lines = hatch(rings, settings);
     CHECK(total(lines) * settings.spacing == Approx(12).epsilon(1e-3));
-    for (const auto& s : lines) CHECK(locate((s.a + s.b) * 0.5, rings) == Place::inside);
+    for (const auto& s : lines) CHECK(locate((s.a + s.b) * 0.5, rings) == PointLocation::inside);
 }
 
 TEST_CASE("hatching outside fills the frame but for the polygon", "[geometry]") {
     const auto lines = hatch(rings_of({square(0, 0, 4)}), {.spacing = 0.5, .keep = Keep::outside});
     CHECK(total(lines) * 0.5 == Approx(25 - 16).epsilon(0.1));
-    for (const auto& s : lines) CHECK(locate((s.a + s.b) * 0.5, square(0, 0, 4)) != Place::inside);
+    for (const auto& s : lines) CHECK(locate((s.a + s.b) * 0.5, square(0, 0, 4)) != PointLocation::inside);
 }
 
 TEST_CASE("hatch lines pass through multiples of the spacing and run back and forth", "[geometry]") {

@@ -1,7 +1,7 @@
 // Our polygon maths against CGAL's, on small integer polygons, where every degeneracy turns up.
 #include "support/catch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "oracle/cgal_oracle.hpp"
 
@@ -22,10 +22,11 @@ std::vector<Vec2> lattice_polygon(std::uint64_t seed) {
     return ring;
 }
 
-Place place_of(int side, const Vec2& p, const std::vector<Vec2>& ring) {
-    if (side > 0) return Place::inside;
-    if (side < 0) return Place::outside;
-    return std::find(ring.begin(), ring.end(), p) != ring.end() ? Place::on_vertex : Place::on_edge;
+PointLocation place_of(int side, const Vec2& p, const std::vector<Vec2>& ring) {
+    if (side > 0) return PointLocation::inside;
+    if (side < 0) return PointLocation::outside;
+    return std::find(ring.begin(), ring.end(), p) != ring.end() ? PointLocation::on_vertex
+                                                                : PointLocation::on_edge;
 }
 
 } // namespace

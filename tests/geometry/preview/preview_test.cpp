@@ -1,8 +1,8 @@
 #include "geometry/preview/preview.hpp"
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/measure.hpp"
 #include "support/run_stage.hpp"
 
@@ -110,8 +110,8 @@ TEST_CASE("a preview keeps colours and materials apart", "[geometry]") {
 }
 
 TEST_CASE("a preview lays textures on as their materials say", "[geometry]") {
-    auto looks = std::make_shared<MaterialLooks>(1);
-    Texture& texture = (*looks)[0].base_texture;
+    auto materials = std::make_shared<ResolvedMaterials>(1);
+    Texture& texture = (*materials)[0].base_texture;
     texture.image = texture_image(1, 1, {255, 0, 0, 255}, false, 16);
     texture.transform = {2, 0, 10, 0, 1, 0};
     Mesh mesh = shapes::uv_cube();
@@ -120,7 +120,7 @@ TEST_CASE("a preview lays textures on as their materials say", "[geometry]") {
     Scene scene = scene_of(mesh);
     scene.materials.resize(1);
     PreviewSettings settings;
-    settings.looks = looks;
+    settings.materials = materials;
     const Preview laid_on = preview_of(scene, settings);
     const Attribute* uv = laid_on.mesh.find("TEXCOORD_0", Domain::wedge);
     REQUIRE(uv);

@@ -1,11 +1,11 @@
 #include "geometry/pyramid/pyramid.hpp"
 
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 

@@ -1,9 +1,9 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/quantities/quantities.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/run_stage.hpp"
 
 #include <algorithm>

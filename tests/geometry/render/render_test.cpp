@@ -1,11 +1,11 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/render/font.hpp"
 #include "geometry/render/legend.hpp"
 #include "geometry/render/render.hpp"
 #include "geometry/render/srgb.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/run_stage.hpp"
 
 using namespace facetmill;

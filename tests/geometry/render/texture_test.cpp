@@ -50,7 +50,7 @@ PictureSettings front(MaterialLook look) {
     s.width = s.height = 100;
     s.from = Vec3{0, 0, 1};
     s.edges = EdgeLines::no;
-    s.looks = std::make_shared<const MaterialLooks>(MaterialLooks{std::move(look)});
+    s.materials = std::make_shared<const ResolvedMaterials>(ResolvedMaterials{std::move(look)});
     return s;
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("what blends lies over each other by depth, in whatever order it comes
     // Red over green over blue, each half transparent: 1/2 red, 1/4 green, 1/8 blue.
     Scene scene;
     scene.up = UpAxis::y;
-    MaterialLooks looks(3);
+    ResolvedMaterials looks(3);
     for (const std::size_t i : {1U, 0U, 2U}) {
         Scene one = textured_square();
         for (Vec3& p : one.parts[0].mesh.positions) p.z = -0.1 * static_cast<double>(i);
@@ -203,7 +203,7 @@ TEST_CASE("what blends lies over each other by depth, in whatever order it comes
     }
     scene.materials.resize(3);
     PictureSettings s = front({});
-    s.looks = std::make_shared<const MaterialLooks>(looks);
+    s.materials = std::make_shared<const ResolvedMaterials>(looks);
     s.ground = {0, 0, 0};
     const Rgba pixel = rgba_at(picture_of(scene, s), 50, 50);
     CHECK(pixel[0] == srgb_of(0.5f));
@@ -237,7 +237,7 @@ TEST_CASE("emissive textures glow, occlusion textures darken the surroundings' l
     s.shading = Shading::one_sided;
     for (auto& mesh : {&turned.parts[0].mesh}) std::reverse(mesh->corners.begin(), mesh->corners.end());
     const auto middle = [&](const MaterialLook& look) {
-        s.looks = std::make_shared<const MaterialLooks>(MaterialLooks{look});
+        s.materials = std::make_shared<const ResolvedMaterials>(ResolvedMaterials{look});
         return rgba_at(picture_of(turned, s), 50, 50)[0];
     };
     CHECK(middle({}) == srgb_of(0.16f));

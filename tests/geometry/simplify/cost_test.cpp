@@ -1,7 +1,7 @@
 // The costs of edges four at a time, against those one by one.
 #include "support/catch.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/simplify/cost.hpp"
@@ -164,7 +164,7 @@ TEST_CASE("costs four at a time are those one by one", "[geometry]") {
 TEST_CASE("passes that meet their goal tell that all is done", "[geometry][simplify]") {
     State s = priced(shapes::icosphere(3), false);
     test::Heard heard;
-    const Share share(&heard);
+    const ProgressScope share(&heard);
     Goal goal;
     goal.faces = s.rings.live_faces / 2;
     run_passes(s, goal);

@@ -1,6 +1,6 @@
 // Simplification of surfaces whose borders touch without being welded.
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/simplify/simplify.hpp"

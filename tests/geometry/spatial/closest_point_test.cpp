@@ -1,10 +1,10 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "support/meshes.hpp"
 
 #include <limits>

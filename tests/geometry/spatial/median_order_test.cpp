@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "base/parallel.hpp"
 #include "geometry/spatial/median_order.hpp"
+#include "parallel/parallel.hpp"
 #include "support/meshes.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/thicken/moved_surface.hpp"
 #include "geometry/thicken/thicken.hpp"

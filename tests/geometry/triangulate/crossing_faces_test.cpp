@@ -1,7 +1,7 @@
 // Faces that cross themselves, against the sum of the angles that their edges subtend.
 #include "support/catch.hpp"
 
-#include "base/random.hpp"
+#include "base/math/random.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"

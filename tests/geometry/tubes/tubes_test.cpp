@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/tubes/tubes.hpp"

@@ -1,6 +1,6 @@
 #include "io/footprint/footprint.hpp"
 
-#include "base/portable_math.hpp"
+#include "base/math/portable_math.hpp"
 #include "io/drawing/drawing.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

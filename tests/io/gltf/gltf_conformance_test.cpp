@@ -1,7 +1,7 @@
 // Other people's readers on what we write: the Khronos validator, and draco_decoder for what it cannot look
 // into.
 #include "io/codec.hpp"
-#include "io/outputs.hpp"
+#include "io/outputs/outputs.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"

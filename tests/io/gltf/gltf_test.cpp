@@ -1,7 +1,7 @@
-#include "base/allocation_cap.hpp"
 #include "io/codec.hpp"
 #include "io/gltf/draco/quantise.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/allocation_cap.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/gltf.hpp"

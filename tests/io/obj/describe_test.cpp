@@ -1,7 +1,7 @@
 // Materials of glTF as an MTL library with images beside it: what is read from one is written so that it is
 // read the same again, and what it cannot say is said.
 #include "base/hash.hpp"
-#include "io/gltf/textures.hpp"
+#include "io/gltf/contents/textures.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"

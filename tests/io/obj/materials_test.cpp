@@ -1,6 +1,6 @@
 // MTL libraries as glTF materials, with their textures.
 #include "io/convert.hpp"
-#include "io/pixels.hpp"
+#include "io/images/pixels.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"

@@ -2,7 +2,7 @@
 
 #include "geometry/inspect/inspect.hpp"
 #include "io/convert.hpp"
-#include "io/gltf/container.hpp"
+#include "io/gltf/document/container.hpp"
 #include "io/read_back.hpp"
 #include "io/tileset/frame.hpp"
 #include "mesh/shapes.hpp"

@@ -1,7 +1,7 @@
 #include "io/gltf/draco/dequantise.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

@@ -4,11 +4,11 @@
 
 #include "io/gltf/gltf.hpp"
 
-#include "base/allocation_cap.hpp"
 #include "base/hash.hpp"
-#include "base/memory.hpp"
-#include "base/parallel.hpp"
 #include "base/progress.hpp"
+#include "parallel/allocation_cap.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -519,7 +519,7 @@ std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
 }
 
 DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings) {
-    ShareOfSteps steps({3, 10, 6});
+    ProgressSteps steps({3, 10, 6});
     const Settled settled = settle_all(given, settings, true);
     const DracoInput& input = settled.input;
     ::draco::Mesh mesh;

@@ -1,6 +1,6 @@
 #include "io/gltf/draco/quantise.hpp"
 
-#include "base/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,42 @@
+#pragma once
+// JSON as files mostly have it, read, written and given up several times as fast as by the library.
+
+#include "base/json.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace facetmill {
+
+/// The value that a JSON text stands for, the same as the library gives. None for a text that is no JSON, for
+/// one that is nested deeper than `deepest` levels, and for the rare ones that only the library reads: a byte
+/// order mark, perhaps numbers next to zero. The library says what is wrong, if anything is. Its time grows
+/// with the square of an object's members, that of this with their number.
+/// unread: members of the outermost object that are checked like the others; of them, arrays and objects come
+/// out empty.
+std::optional<Json> fast_json(std::string_view text, int deepest = 256,
+                              std::span<const std::string_view> unread = {});
+
+/// The text of a value in one line, the same as json.dump(-1, ' ', false, Json::error_handler_t::replace). It
+/// recurses, as the library does.
+std::string fast_text(const Json& json);
+
+/// Makes a value null. The library moves all that is below a value to a list first, lest it recurse; this
+/// recurses.
+void destroy(Json& json);
+
+/// Discards a value where its scope ends.
+class ScopedDestroy {
+  public:
+    explicit ScopedDestroy(Json& json) : json_(json) {}
+    ~ScopedDestroy() { destroy(json_); }
+    ScopedDestroy(const ScopedDestroy&) = delete;
+    ScopedDestroy& operator=(const ScopedDestroy&) = delete;
+
+  private:
+    Json& json_;
+};
+
+} // namespace facetmill

@@ -1,0 +1,35 @@
+#pragma once
+// Signs decided exactly, for the layers that do not see CGAL.
+
+#include "base/math/vec.hpp"
+
+namespace facetmill {
+
+/// The filter's two thresholds, for those who have the products at hand. The sign of left - right, the
+/// products of rounded differences, is sure when |left - right| exceeds orientation_error * (|left| +
+/// |right|), Shewchuk's (3 + 16 e) e with e = 2^-53, and also orientation_smallest, below which products may
+/// have lost bits.
+inline constexpr double orientation_error = 3.3306690738754716e-16;
+inline constexpr double orientation_smallest = 1e-290;
+
+/// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 when they turn left. Exact for
+/// finite coordinates of any size: a floating-point filter, then exact expansions (J. R. Shewchuk, "Adaptive
+/// precision floating-point arithmetic and fast robust geometric predicates", 1997), and integers where those
+/// would overflow or underflow.
+int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
+
+/// True when the three points lie on one line (or two coincide), exactly: all three of their axis projections
+/// do.
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// True when the three points have one coordinate along axis k: all of their plane is there.
+constexpr bool is_level(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t k) {
+    return a[k] == b[k] && b[k] == c[k];
+}
+
+/// On which side of the plane through a, b, c the point d lies: 1 when on the side that (b - a) x (c - a)
+/// points to, -1 on the other, 0 on the plane. Exact for finite coordinates of any size, decided like
+/// orientation_2d.
+int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+} // namespace facetmill

@@ -1,0 +1,26 @@
+#pragma once
+// Values in the order in which they came first, each once.
+
+#include <set>
+#include <vector>
+
+namespace facetmill {
+
+/// T: ordered by <. Adding takes the logarithm of the count.
+template <class T>
+class OrderedSet {
+  public:
+    /// Whether the value is new.
+    bool add(const T& value) {
+        if (!known_.insert(value).second) return false;
+        all_.push_back(value);
+        return true;
+    }
+    const std::vector<T>& all() const { return all_; }
+
+  private:
+    std::set<T> known_;
+    std::vector<T> all_;
+};
+
+} // namespace facetmill

@@ -1,0 +1,23 @@
+#pragma once
+// Values in order, each once.
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace facetmill {
+
+/// Sorts the values by < and keeps one of those that are equal.
+template <class T>
+void sort_unique(std::vector<T>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+template <class T>
+std::vector<T> sorted_once(std::vector<T> values) {
+    sort_unique(values);
+    return values;
+}
+
+} // namespace facetmill

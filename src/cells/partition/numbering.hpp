@@ -1,0 +1,40 @@
+#pragma once
+// Numbers for the vertices of all cells, each vertex once.
+
+#include "cells/partition/partition.hpp"
+
+#include <unordered_map>
+
+namespace facetmill::cells {
+
+/// Numbers vertices while the cells go by, in the order of the leaves. Of those that cells share it knows
+/// only what cells to come may still have.
+class Numbering {
+  public:
+    explicit Numbering(const Tree& tree) : tree_(tree) {}
+
+    struct Numbers {
+        std::vector<std::uint64_t> of; ///< [vertices]
+        std::vector<Index> fresh;      ///< those that no cell had before, ascending: numbers in a row
+    };
+    /// The cell must be that of the next leaf.
+    Numbers next(const Cell& cell);
+    std::uint64_t count() const { return count_; } ///< so far
+
+  private:
+    struct Vertex {
+        std::uint64_t name;
+        Vec3 position;
+        bool operator==(const Vertex&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Vertex& v) const;
+    };
+
+    const Tree& tree_;
+    std::uint32_t leaf_ = 0;
+    std::uint64_t count_ = 0;
+    std::vector<std::unordered_map<Vertex, std::uint64_t, Hash>> known_; ///< by the depth of their home
+};
+
+} // namespace facetmill::cells

@@ -1,0 +1,14 @@
+#pragma once
+// glTF as rows, see cells/sources/rows.hpp.
+
+#include "cells/sources/face_source.hpp"
+
+namespace facetmill::cells {
+
+bool is_gltf(const io::Input& input);
+/// Why a glTF cannot be read face by face, in words; none when it can. Throws malformed.
+std::optional<std::string> why_gltf_not_streamed(const io::Input& input);
+/// Of all placed meshes.
+std::uint64_t gltf_faces(const io::Input& input);
+
+} // namespace facetmill::cells

@@ -1,0 +1,13 @@
+#pragma once
+// STL: places are what makes vertices. A binary file is read as it is, text becomes rows.
+
+#include "cells/sources/face_source.hpp"
+
+namespace facetmill::cells {
+
+bool is_text_stl(const io::Input& input);
+/// A binary file. Throws as open_faces.
+std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
+                                     FaceSource::Contents contents);
+
+} // namespace facetmill::cells

@@ -1,0 +1,58 @@
+#pragma once
+// A text file of any size, read item by item through a window of memory that moves along it.
+
+#include "cells/storage/stream.hpp"
+#include "io/text.hpp"
+
+namespace facetmill::cells {
+
+class TextWindow {
+  public:
+    /// From byte `begin`, which is in line `line`, to the end of the file. id, comment: see io::Text. sum:
+    /// gets all bytes from `begin` on; may be null. name must outlive the window.
+    TextWindow(const ReadFile& file, std::uint64_t begin, std::uint64_t end, const std::string& name,
+               const char* id, char comment, Sha256* sum, std::int64_t line = 1);
+
+    /// Calls parse(io::Text&) where the last item ended. Items that the window does not hold whole are
+    /// parsed again, so parse has no effects but on what it sets anew. Throws as parse; limit (E-SIZE) for
+    /// an item that is larger than a window may be.
+    template <class Parse>
+    void item(Parse&& parse) {
+        if (text_.left() < low && left_ > 0) move(usual);
+        while (true) {
+            io::Text attempt = text_;
+            try {
+                parse(attempt);
+            } catch (const Error&) {
+                if (attempt.left() > 0 || left_ == 0) throw;
+            }
+            if (attempt.left() > 0 || left_ == 0) {
+                text_ = attempt;
+                return;
+            }
+            move(2 * (text_.left() + usual));
+        }
+    }
+    bool at_end() {
+        bool end = false;
+        item([&](io::Text& text) { end = text.at_end(); });
+        return end;
+    }
+    /// Bytes that are not parsed yet: what the file can still hold.
+    std::uint64_t left() const { return text_.left() + left_; }
+    const io::Text& text() const { return text_; } ///< for the line, and for messages
+
+  private:
+    static constexpr std::size_t usual = std::size_t{1} << 20, low = usual / 8;
+    void move(std::size_t size);
+
+    const std::string& name_;
+    const char* id_;
+    char comment_;
+    Stream stream_;
+    std::uint64_t left_; ///< behind the window
+    std::vector<char> window_;
+    io::Text text_;
+};
+
+} // namespace facetmill::cells

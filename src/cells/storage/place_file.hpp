@@ -1,0 +1,40 @@
+#pragma once
+// Which cell of a grid each face is in, in the order of the faces, as temporary data: one or two bytes for a
+// face where faces that follow each other are near each other.
+
+#include "cells/storage/block_file.hpp"
+
+namespace facetmill::cells {
+
+class PlaceFile {
+  public:
+    /// Throws output (E-WRITE, E-SPACE).
+    explicit PlaceFile(const std::filesystem::path& scratch) : scratch_(scratch), file_(scratch) {}
+    /// Throws output (E-WRITE, E-SPACE).
+    void add(std::size_t place);
+
+    /// What was added, in its order.
+    class Reader {
+      public:
+        /// Throws output (E-SCRATCH): there are no more, or the next is not below `end`.
+        std::size_t next(std::size_t end);
+
+      private:
+        friend class PlaceFile;
+        Reader(std::filesystem::path scratch, std::shared_ptr<const ReadFile> file, std::uint64_t size)
+            : scratch_(std::move(scratch)), file_(std::move(file)), bytes_(*file_, 0, size) {}
+        std::filesystem::path scratch_;
+        std::shared_ptr<const ReadFile> file_;
+        Stream bytes_;
+        std::uint64_t last_ = 0;
+    };
+    /// Nothing can be added afterwards.
+    Reader finish() { return {scratch_, file_.finish(), size_}; }
+
+  private:
+    std::filesystem::path scratch_;
+    ScratchFile file_;
+    std::uint64_t last_ = 0, size_ = 0;
+};
+
+} // namespace facetmill::cells

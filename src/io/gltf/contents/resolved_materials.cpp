@@ -1,0 +1,231 @@
+#include "io/gltf/contents/resolved_materials.hpp"
+
+#include "io/gltf/contents/textures.hpp"
+
+#include "base/math/portable_math.hpp"
+#include "io/gltf/document/accessor.hpp"
+#include "io/gltf/document/container.hpp"
+#include "io/images/pixels.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+using namespace gltf;
+
+/// The looks of one document, while its JSON is at hand.
+class LookBuilder {
+  public:
+    LookBuilder(MaterialResolver& reader, MaterialResolver::OfDocument& known,
+                std::vector<Diagnostic>& warnings)
+        : reader_(reader), known_(known), warnings_(warnings), json_(parse_document(known.document->json)),
+          source_(json_, known.document->buffers) {}
+
+    MaterialLook look(const Material& material) {
+        const JsonCursor place = item(json_, "materials", static_cast<std::size_t>(material.index));
+        MaterialLook look;
+        for (std::size_t c = 0; c < 4; ++c)
+            look.base[c] = static_cast<float>(std::clamp(material.base_colour[c], 0.0, 1.0));
+        if (const auto pbr = place.find("pbrMetallicRoughness"))
+            look.base_texture = texture(*pbr, "baseColorTexture", true);
+        if (const auto old = extension(place, "KHR_materials_pbrSpecularGlossiness")) {
+            numbers(*old, "diffuseFactor", look.base);
+            look.base_texture = texture(*old, "diffuseTexture", true);
+        }
+        look.normal_texture = texture(place, "normalTexture", false);
+        look.normal_scale = factor(place, "normalTexture", "scale");
+        look.occlusion_texture = texture(place, "occlusionTexture", false);
+        look.occlusion_strength = std::clamp(factor(place, "occlusionTexture", "strength"), 0.0f, 1.0f);
+        look.emissive_texture = texture(place, "emissiveTexture", true);
+        numbers(place, "emissiveFactor", look.emissive);
+        if (const auto strong = extension(place, "KHR_materials_emissive_strength"))
+            for (float& c : look.emissive) c *= number_or(*strong, "emissiveStrength", 1);
+        const std::string mode = place.text_or("alphaMode", "OPAQUE");
+        look.alpha = mode == "MASK"    ? MaterialLook::Alpha::mask
+                     : mode == "BLEND" ? MaterialLook::Alpha::blend
+                                       : MaterialLook::Alpha::opaque;
+        // What cannot be seen at all is no picture; MeshLab writes "Tr 1" for what is opaque.
+        if (look.alpha == MaterialLook::Alpha::blend && look.base[3] == 0)
+            look.alpha = MaterialLook::Alpha::opaque;
+        look.cutoff = number_or(place, "alphaCutoff", 0.5f);
+        look.unlit = extension(place, "KHR_materials_unlit").has_value();
+        return look;
+    }
+
+  private:
+    static std::optional<JsonCursor> extension(const JsonCursor& place, const char* name) {
+        const auto all = place.find("extensions");
+        return all ? all->find(name) : std::nullopt;
+    }
+
+    static float number_or(const JsonCursor& place, const char* key, float otherwise) {
+        const auto value = place.find(key);
+        return value ? static_cast<float>(value->real()) : otherwise;
+    }
+
+    static float factor(const JsonCursor& material, const char* texture, const char* key) {
+        const auto place = material.find(texture);
+        return place ? number_or(*place, key, 1) : 1;
+    }
+
+    template <std::size_t N>
+    static void numbers(const JsonCursor& place, const char* key, std::array<float, N>& out) {
+        const auto values = place.find(key);
+        for (std::size_t i = 0; values && i < N; ++i) out[i] = static_cast<float>(values->at(i).real());
+    }
+
+    /// No mesh has as many as 256 sets, so that a larger number stays one that is not there.
+    static int set_of(std::uint64_t number) { return static_cast<int>(std::min<std::uint64_t>(number, 255)); }
+
+    /// The texture that owner[key] names; none when there is none.
+    Texture texture(const JsonCursor& owner, const char* key, bool srgb) {
+        const auto info = owner.find(key);
+        if (!info) return {};
+        Texture out;
+        out.set = set_of(info->natural_or("texCoord", 0));
+        if (const auto moved = extension(*info, "KHR_texture_transform")) transform(*moved, out);
+        const JsonCursor place =
+            item(json_, "textures", info->at("index").index(count_of(json_, "textures"), "texture"));
+        if (const auto sampler = place.find("sampler"))
+            sample(item(json_, "samplers", sampler->index(count_of(json_, "samplers"), "sampler")), out);
+        auto image = place.find("source");
+        if (const auto webp = extension(place, "EXT_texture_webp")) image = webp->find("source");
+        if (!image) {
+            warn(place.path(), "its image is of an unsupported kind",
+                 "convert the image to PNG, JPEG or WebP");
+            return {};
+        }
+        out.image = decoded(image->index(count_of(json_, "images"), "image"), srgb);
+        return out;
+    }
+
+    /// T R S of the specification, as two rows.
+    static void transform(const JsonCursor& moved, Texture& out) {
+        std::array<float, 2> offset{0, 0}, scale{1, 1};
+        numbers(moved, "offset", offset);
+        numbers(moved, "scale", scale);
+        const auto turned = moved.find("rotation");
+        const double angle = turned ? turned->real() : 0;
+        const double c = cosine(angle), s = sine(angle), sx = scale[0], sy = scale[1];
+        out.transform = {c * sx, s * sy, offset[0], -s * sx, c * sy, offset[1]};
+        out.set = set_of(moved.natural_or("texCoord", static_cast<std::uint64_t>(out.set)));
+    }
+
+    static void sample(const JsonCursor& sampler, Texture& out) {
+        constexpr std::uint64_t nearest = 9728, repeat = 10497, clamp = 33071, mirror = 33648;
+        const auto wrap = [&](const char* key) {
+            const std::uint64_t value = sampler.natural_or(key, repeat);
+            return value == clamp    ? TextureWrap::clamp
+                   : value == mirror ? TextureWrap::mirror
+                                     : TextureWrap::repeat;
+        };
+        out.wrap_u = wrap("wrapS");
+        out.wrap_v = wrap("wrapT");
+        out.nearest = sampler.natural_or("magFilter", 0) == nearest;
+    }
+
+    std::shared_ptr<const TextureImage> decoded(std::size_t index, bool srgb) {
+        const auto [place, fresh] = known_.images.try_emplace({index, srgb});
+        if (fresh) place->second = read_image(index, srgb);
+        return place->second;
+    }
+
+    std::shared_ptr<const TextureImage> read_image(std::size_t index, bool srgb) {
+        constexpr int max_side = 4096;
+        const JsonCursor place = item(json_, "images", index);
+        const std::optional<Bytes> bytes = bytes_of_image(place);
+        if (!bytes) return nullptr; // told when the file was read
+        const auto size = image_size(*bytes);
+        if (size && reader_.bytes_ + texture_bytes(size->first, size->second, max_side) > reader_.most_) {
+            warn(index, fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20),
+                 "textures: 1024 before the picture makes them smaller");
+            return nullptr;
+        }
+        if (size && size->first > max_pixels / std::max<std::size_t>(1, size->second)) {
+            warn(index, fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second),
+                 "make the image smaller where it was made, to 8192 x 8192 at most");
+            return nullptr;
+        }
+        auto pixels = decoded_image(*bytes);
+        if (!pixels) {
+            warn(index, "it is broken, or neither PNG nor JPEG nor WebP", "export the image again");
+            return nullptr;
+        }
+        auto image = texture_image(static_cast<int>(pixels->width), static_cast<int>(pixels->height),
+                                   std::move(pixels->rgba), srgb, max_side);
+        reader_.bytes_ += image->bytes();
+        return image;
+    }
+
+    std::optional<Bytes> bytes_of_image(const JsonCursor& place) {
+        if (const auto uri = place.find("uri")) {
+            if (is_data_uri(uri->text())) return data_uri_bytes(uri->text());
+            const auto file = known_.document->files.find(uri->text());
+            if (file == known_.document->files.end()) return {};
+            return file->second;
+        }
+        const Span view = source_.view(place.at("bufferView"));
+        return Bytes(view.begin(), view.end());
+    }
+
+    void warn(const std::string& place, const std::string& why, const std::string& hint) {
+        warnings_.push_back({Severity::warning, "W-TEXTURE", fmt::format("{}: not drawn: {}", place, why),
+                             file_mark(known_.document->name),
+                             hint + "; the plain colour is drawn in its place"});
+    }
+    /// Of an image: its place in the document and, where it has one, its name.
+    void warn(std::size_t index, const std::string& why, const std::string& hint) {
+        const std::string place = fmt::format("images[{}]", index);
+        const std::string name = name_of_image(json_["images"][index], index);
+        warn(name == place ? place : fmt::format("{} ({})", place, name), why, hint);
+    }
+
+    MaterialResolver& reader_;
+    MaterialResolver::OfDocument& known_;
+    std::vector<Diagnostic>& warnings_;
+    Json json_;
+    Source source_;
+};
+
+void MaterialResolver::drop_others(const Scene& scene) {
+    std::erase_if(documents_, [&](const auto& known) {
+        return std::none_of(scene.documents.begin(), scene.documents.end(),
+                            [&](const auto& document) { return document.get() == known.first; });
+    });
+    bytes_ = 0;
+    for (const auto& [_, known] : documents_)
+        for (const auto& [key, image] : known.images)
+            if (image) bytes_ += image->bytes();
+}
+
+std::shared_ptr<const ResolvedMaterials> MaterialResolver::materials(const Scene& scene,
+                                                                     std::vector<Diagnostic>& warnings) {
+    drop_others(scene);
+    auto all = std::make_shared<ResolvedMaterials>();
+    std::map<const Document*, LookBuilder> builders;
+    for (const Material& material : scene.materials) {
+        MaterialLook& look = all->emplace_back();
+        for (std::size_t c = 0; c < 4; ++c) look.base[c] = static_cast<float>(material.base_colour[c]);
+        if (material.document < 0 || material.index < 0) continue;
+        const auto& document = scene.documents[static_cast<std::size_t>(material.document)];
+        OfDocument& known = documents_[document.get()];
+        known.document = document;
+        if (const auto found = known.materials.find(material.index); found != known.materials.end()) {
+            look = found->second;
+            continue;
+        }
+        try { // the document is as a file had it, and reading looks no further than meshes
+            const auto builder = builders.try_emplace(document.get(), *this, known, warnings).first;
+            look = builder->second.look(material);
+        } catch (const Error& error) {
+            for (const Diagnostic& d : error.diagnostics())
+                warnings.push_back({Severity::warning, "W-TEXTURE", "not drawn: " + d.message,
+                                    file_mark(document->name), d.hint});
+        }
+        known.materials[material.index] = look;
+    }
+    return all;
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,88 @@
+#pragma once
+// Accessors of a glTF document as typed arrays. Nothing in the document is believed: every range is checked
+// against the bytes that are there, and what would need more memory than the bytes justify is refused.
+
+#include "io/bytes.hpp"
+#include "io/codec.hpp"
+#include "io/gltf/document/json.hpp"
+#include "mesh/mesh.hpp"
+
+#include <map>
+
+namespace facetmill::io::gltf {
+
+/// glTF's names for number types.
+enum ComponentType : int {
+    int8 = 5120,
+    uint8 = 5121,
+    int16 = 5122,
+    uint16 = 5123,
+    uint32 = 5125,
+    float32 = 5126
+};
+
+/// Bytes of one number; 0 for an unknown type.
+std::size_t size_of(int component_type);
+/// Numbers of an element ("VEC3" 3, "MAT4" 16); 0 for an unknown name.
+int components_of(std::string_view type);
+/// An empty array of that type.
+AttributeData empty_data(int component_type);
+/// The glTF type of an array's numbers; 0 for those glTF has none for (float64, int32).
+int component_type_of(const AttributeData& data);
+
+/// A parsed document and its buffers, with the buffer views that had to be decompressed.
+class Source {
+  public:
+    /// added: views that are in no buffer yet, by index.
+    Source(const Json& document, const std::vector<Bytes>& buffers,
+           const std::map<std::size_t, Bytes>* added = nullptr)
+        : json_(&document), buffers_(&buffers), added_(added) {}
+
+    const Json& json() const { return *json_; }
+    /// The bytes of a buffer view, decompressed when it is under meshopt's extensions.
+    Span view(const JsonCursor& reference);
+    Span view(std::size_t index);
+    /// True when the view is of a buffer without any bytes, which is legal as long as nothing reads it.
+    bool without_bytes(std::size_t index) const;
+    /// Bytes of a range of a buffer, checked. owner has "buffer", "byteOffset" and "byteLength".
+    Span range(const JsonCursor& owner) const;
+    /// Accounts for memory that few bytes of the file ask for. Throws limit (E-MEMORY) when it is too much in
+    /// all.
+    void need(double bytes);
+
+    const Decodings* decoded = nullptr; ///< those that are known already
+
+  private:
+    const Json* json_;
+    const std::vector<Bytes>* buffers_;
+    const std::map<std::size_t, Bytes>* added_;
+    std::map<std::size_t, Bytes> decompressed_;
+    double needed_ = 0;
+};
+
+/// What an accessor says of itself, checked for what can be checked without its bytes.
+struct Accessor {
+    JsonCursor place;
+    std::size_t count;
+    int component_type;
+    int components;
+    bool normalised;
+};
+/// The accessor that reference names. Throws malformed (E-GLTF).
+Accessor accessor(const Source& source, const JsonCursor& reference);
+
+/// All numbers of an accessor, element by element, sparse replacements applied. Throws malformed (E-GLTF,
+/// E-BUFFER) and limit (E-LIMIT, when an accessor without bytes asks for more than 256 MiB of zeros).
+AttributeData decode(Source& source, const Accessor& accessor);
+/// The indices of a primitive, each below count. Throws malformed (E-INDEX).
+std::vector<Index> decode_indices(Source& source, const JsonCursor& reference, std::size_t count);
+
+/// meshopt's two extensions, which differ in name only as far as both are written.
+inline constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+/// The object of EXT_meshopt_compression or KHR_meshopt_compression in a buffer or a view.
+std::optional<JsonCursor> meshopt_extension(const JsonCursor& owner);
+/// Decompresses what a buffer view's object of either extension says. Throws malformed (E-MESHOPT; also for
+/// streams that the library is too old for), limit (E-MEMORY).
+Bytes decode_meshopt(Source& source, const JsonCursor& extension);
+
+} // namespace facetmill::io::gltf

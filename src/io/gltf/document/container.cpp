@@ -1,0 +1,348 @@
+#include "io/gltf/document/container.hpp"
+
+#include "base/hash.hpp"
+#include "base/ordered_set.hpp"
+#include "io/gltf/document/accessor.hpp"
+#include "io/images/image_files.hpp"
+#include "parallel/memory.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <set>
+#include <sys/stat.h>
+#include <system_error>
+#include <tiny_gltf.h>
+#include <unistd.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+constexpr std::uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
+
+std::uint32_t word(Span bytes, std::size_t at) {
+    return static_cast<std::uint32_t>(little_endian(bytes, at, 4));
+}
+
+void put_word(Bytes& out, std::uint64_t value) {
+    for (std::size_t i = 0; i < 4; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i) & 255));
+}
+
+[[noreturn]] void fail(std::size_t at, const std::string& message) {
+    throw Error(ErrorKind::malformed, "E-GLB", fmt::format("at byte {}: {}", at, message));
+}
+
+void put_chunk(Bytes& out, std::uint32_t kind, Span data, std::byte padding) {
+    put_word(out, (data.size() + 3) / 4 * 4);
+    put_word(out, kind);
+    out.insert(out.end(), data.begin(), data.end());
+    while (out.size() % 4 != 0) out.push_back(padding);
+}
+
+} // namespace
+
+bool is_glb(Span bytes) { return bytes.size() >= 4 && word(bytes, 0) == magic; }
+
+Chunks split_glb(Span bytes) {
+    if (bytes.size() < 12) fail(bytes.size(), "the GLB header is cut short");
+    const std::uint32_t version = word(bytes, 4), length = word(bytes, 8);
+    if (version != 2)
+        throw Error(ErrorKind::malformed, "E-VERSION",
+                    fmt::format("at byte 4: expected GLB version 2, found version {}", version),
+                    version == 1 ? hint_for_version_1 : "");
+    if (length > bytes.size())
+        fail(8, fmt::format("the file says that it has {} bytes, but it has {}", length, bytes.size()));
+    Chunks chunks;
+    for (std::size_t at = 12, number = 0; at < length; ++number) {
+        if (length - at < 8) {
+            if (number > 0) break; // stray padding after the last chunk
+            fail(at, "a chunk header is cut short");
+        }
+        const std::uint32_t size = word(bytes, at), kind = word(bytes, at + 4);
+        if (size > length - at - 8) fail(at, fmt::format("a chunk of {} bytes goes beyond the end", size));
+        const Span data = bytes.subspan(at + 8, size);
+        if (number == 0) {
+            if (kind != json_chunk) fail(at, "the first chunk is not JSON");
+            chunks.json = as_text(data);
+        } else if (kind == binary_chunk && !chunks.binary) {
+            chunks.binary = data;
+        }
+        at += 8 + std::size_t{size};
+    }
+    if (chunks.json.empty()) fail(12, "there is no JSON chunk");
+    return chunks;
+}
+
+Bytes join_glb(std::string_view json, Span binary) {
+    const std::uint64_t total =
+        12 + 8 + (json.size() + 3) / 4 * 4 + (binary.empty() ? 0 : 8 + (binary.size() + 3) / 4 * 4);
+    if (total > UINT32_MAX)
+        throw Error(ErrorKind::limit, "E-SIZE",
+                    fmt::format("a GLB cannot be larger than 4 GiB, and this one would have {} bytes", total),
+                    "write .gltf, use Draco, or split the scene");
+    Bytes out;
+    out.reserve(static_cast<std::size_t>(total));
+    put_word(out, magic);
+    put_word(out, 2);
+    put_word(out, total);
+    put_chunk(out, json_chunk, std::as_bytes(std::span(json.data(), json.size())), std::byte{' '});
+    if (!binary.empty()) put_chunk(out, binary_chunk, binary, std::byte{0});
+    return out;
+}
+
+// --- The only user of tinygltf. It resolves buffers: it knows data URIs and asks our callbacks for files. It
+// is handed one buffer at a time and never the document itself, because its parser keeps references
+// unchecked, refuses buffers that only EXT_meshopt_compression needs, and its model loses what it does not
+// know (64-bit integers, nulls, empty objects). Images never reach it.
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What the callbacks may read: one file, already checked, and at most so many bytes of it.
+struct Neighbour {
+    fs::path path;
+    std::size_t bytes = 0;
+    int error = 0; ///< an errno: why it could not be read
+};
+
+bool file_exists(const std::string&, void* user) {
+    std::error_code ignored;
+    return fs::is_regular_file(static_cast<const Neighbour*>(user)->path, ignored);
+}
+
+std::string same_path(const std::string& path, void*) { return path; }
+
+/// Closes what was opened for reading, where an error of close tells nothing.
+struct OpenNeighbour {
+    const int fd;
+    ~OpenNeighbour() { ::close(fd); }
+};
+
+/// At most so many bytes of the file; what kept it from being read is an errno, 0 for nothing.
+int read_prefix(const fs::path& path, std::size_t most, std::vector<unsigned char>& out) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return errno;
+    const OpenNeighbour closing{fd};
+    int why = 0;
+    struct stat about {};
+    if (::fstat(fd, &about) != 0) why = errno;
+    // glTF allows files longer than byteLength; tinygltf does not. The file may be sparse: its size costs
+    // nothing.
+    if (why == 0) out.resize(std::min(static_cast<std::size_t>(about.st_size), most));
+    for (std::size_t at = 0; why == 0 && at < out.size();) {
+        const ssize_t got = ::read(fd, out.data() + at, std::min(out.size() - at, std::size_t{1} << 30));
+        if (got > 0) at += static_cast<std::size_t>(got);
+        if (got < 0 && errno != EINTR) why = errno;
+        if (got == 0) out.resize(at); // it has become shorter
+    }
+    return why;
+}
+
+bool read_file(std::vector<unsigned char>* out, std::string* error, const std::string&, void* user) {
+    auto& neighbour = *static_cast<Neighbour*>(user);
+    neighbour.error = read_prefix(neighbour.path, neighbour.bytes, *out);
+    if (neighbour.error != 0) *error = "cannot be read";
+    return neighbour.error == 0;
+}
+
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
+
+[[maybe_unused]] bool file_size(std::size_t* out, std::string*, const std::string&, void* user) {
+    *out = static_cast<const Neighbour*>(user)->bytes;
+    return true;
+}
+
+/// tinygltf's callbacks; newer ones ask for the size first.
+template <class Callbacks>
+Callbacks callbacks_for(Neighbour& neighbour) {
+    Callbacks callbacks{};
+    callbacks.FileExists = file_exists;
+    callbacks.ExpandFilePath = same_path;
+    callbacks.ReadWholeFile = read_file;
+    callbacks.WriteWholeFile = write_nothing;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = file_size;
+    callbacks.user_data = &neighbour;
+    return callbacks;
+}
+
+int hex(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+std::string percent_decoded(std::string_view uri) {
+    std::string out;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && hex(uri[i + 1]) >= 0 && hex(uri[i + 2]) >= 0) {
+            out += static_cast<char>(hex(uri[i + 1]) * 16 + hex(uri[i + 2]));
+            i += 2;
+        } else {
+            out += uri[i];
+        }
+    }
+    return out;
+}
+
+Bytes resolve_with_tinygltf(const JsonCursor& buffer, const std::string& uri, Neighbour neighbour) {
+    const Json document = {{"asset", {{"version", "2.0"}}},
+                           {"buffers", {{{"uri", uri}, {"byteLength", neighbour.bytes}}}}};
+    const std::string text = document.dump();
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(neighbour));
+    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
+                             const unsigned char*, int, void*) { return true; },
+                          nullptr);
+    tinygltf::Model model;
+    std::string error, warning;
+    const bool loaded =
+        text.size() <= UINT32_MAX &&
+        loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                   "", tinygltf::NO_REQUIRE);
+    if (neighbour.error != 0)
+        throw Error(ErrorKind::missing, "E-FILE",
+                    fmt::format("{}.uri: the file \"{}\" cannot be read: {}", buffer.path(),
+                                neighbour.path.string(), std::strerror(neighbour.error)));
+    if (!loaded || model.buffers.size() != 1)
+        buffer.fail(fmt::format("expected {} bytes, and {} does not hold as many", neighbour.bytes,
+                                is_data_uri(uri) ? "the data URI" : "the file \"" + uri + "\""),
+                    "E-BUFFER");
+    const auto& data = model.buffers[0].data;
+    Bytes bytes(data.size());
+    if (!data.empty()) std::memcpy(bytes.data(), data.data(), data.size());
+    return bytes;
+}
+
+Bytes load_uri(const JsonCursor& buffer, const std::string& uri, std::size_t length, const Input& input,
+               ReadLog& log) {
+    if (is_data_uri(uri)) return resolve_with_tinygltf(buffer, uri, {{}, length});
+    const fs::path path = buffer_path(buffer, uri, input);
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored))
+        throw Error(ErrorKind::missing, "E-FILE",
+                    fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path.string()));
+    const auto size = fs::file_size(path, ignored);
+    if (!ignored)
+        require_memory(2.0 * static_cast<double>(std::min<std::uintmax_t>(size, length)),
+                       fmt::format("reading '{}'", path.string()), "use a machine with more memory");
+    Bytes bytes = resolve_with_tinygltf(buffer, uri, {path, length});
+    // One that is longer than the buffer is not read to its end.
+    const bool whole = !ignored && size == bytes.size();
+    log.files.push_back({path, bytes.size(), whole ? sha256(bytes) : std::string()});
+    return bytes;
+}
+
+bool is_fallback(const JsonCursor& buffer) {
+    const auto meshopt = meshopt_extension(buffer);
+    return meshopt && meshopt->boolean_or("fallback", false);
+}
+
+} // namespace
+
+bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
+
+Bytes data_uri_bytes(std::string_view uri) {
+    Bytes bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : uri.substr(std::min(uri.size(), uri.find(',') + 1))) {
+        const int six = c >= 'A' && c <= 'Z'   ? c - 'A'
+                        : c >= 'a' && c <= 'z' ? c - 'a' + 26
+                        : c >= '0' && c <= '9' ? c - '0' + 52
+                        : c == '+'             ? 62
+                        : c == '/'             ? 63
+                                               : -1;
+        if (six < 0) continue;
+        bits = bits << 6 | static_cast<std::uint32_t>(six);
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes.push_back(static_cast<std::byte>(bits >> count & 0xff));
+    }
+    return bytes;
+}
+
+std::optional<fs::path> decoded_path(std::string_view uri) {
+    for (const char c : uri) { // a scheme ends at a colon before any slash
+        if (c == ':') return std::nullopt;
+        if (c == '/') break;
+    }
+    const std::string text = percent_decoded(uri);
+    if (text.empty() || text.find('\0') != std::string::npos || text.find('\\') != std::string::npos)
+        return std::nullopt;
+    const fs::path path = fs::path(text).lexically_normal();
+    if (path.is_absolute() || path == "." || !path.has_filename()) return std::nullopt;
+    return path;
+}
+
+fs::path buffer_path(const JsonCursor& buffer, const std::string& uri, const Input& input) {
+    const auto relative = decoded_path(uri);
+    const auto path = relative ? path_below(input, *relative) : std::nullopt;
+    if (path) return *path;
+    const std::string hint = hint_for_asset_root(input, relative);
+    throw Error(ErrorKind::malformed, "E-URI",
+                fmt::format("{}.uri: \"{}\" is not a file in the document's directory", buffer.path(), uri),
+                hint.empty() ? "only relative URIs to files beside or below the glTF are read" : hint);
+}
+
+std::vector<fs::path> neighbours(const Json& document, const char* list) {
+    OrderedSet<fs::path> all;
+    for (std::size_t i = 0; i < count_of(document, list); ++i) {
+        const JsonCursor place = item(document, list, i);
+        const auto uri = place.find("uri");
+        if (!uri || is_data_uri(uri->text()) || is_fallback(place)) continue;
+        if (const auto path = decoded_path(uri->text())) all.add(*path);
+    }
+    return all.all();
+}
+
+std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk, const Input& input,
+                                ReadLog& log) {
+    std::vector<Bytes> buffers(count_of(document, "buffers"));
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const JsonCursor buffer = item(document, "buffers", i);
+        const std::size_t length = buffer.at("byteLength").natural();
+        const auto uri = buffer.find("uri");
+        if (is_fallback(buffer)) continue;
+        if (uri) {
+            buffers[i] = load_uri(buffer, uri->text(), length, input, log);
+        } else if (i == 0 && binary_chunk) {
+            if (length > binary_chunk->size())
+                buffer.fail(fmt::format("expected {} bytes, and the binary chunk has {}", length,
+                                        binary_chunk->size()),
+                            "E-BUFFER");
+            buffers[i].assign(binary_chunk->begin(),
+                              binary_chunk->begin() + static_cast<std::ptrdiff_t>(length));
+        }
+        // A buffer without data is legal as long as nothing reads from it; whoever does says so.
+    }
+    return buffers;
+}
+
+std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log) {
+    std::map<std::string, Bytes> files;
+    for (std::size_t i = 0; i < count_of(document, "images"); ++i) {
+        const auto uri = item(document, "images", i).find("uri");
+        if (!uri || is_data_uri(uri->text()) || files.count(uri->text())) continue;
+        auto bytes = read_image(input, decoded_path(uri->text()), uri->text(), uri->path(), log);
+        if (bytes) files[uri->text()] = *std::move(bytes);
+    }
+    return files;
+}
+
+void drop_unnamed_files(std::map<std::string, Bytes>& files, const Json& document) {
+    std::set<std::string> named;
+    for (std::size_t i = 0; i < count_of(document, "images"); ++i)
+        if (const Json& image = document["images"][i]; image.contains("uri") && image["uri"].is_string())
+            named.insert(image["uri"].get<std::string>());
+    std::erase_if(files, [&](const auto& file) { return !named.contains(file.first); });
+}
+
+} // namespace facetmill::io::gltf

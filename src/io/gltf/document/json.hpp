@@ -1,0 +1,118 @@
+#pragma once
+// A glTF document as JSON, read with the place in every message: "accessors[3].count: expected ...".
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace facetmill::io::gltf {
+
+/// Parses a document. Throws malformed: E-JSON with the byte where the text stops being JSON, or when it is
+/// nested deeper than 256 levels (the JSON library writes and copies recursively).
+/// unread: lists of the document that are checked, and may be left empty.
+Json parse_document(std::string_view text, std::span<const std::string_view> unread = {});
+/// The document as text; invalid UTF-8 in names that came from elsewhere is replaced, never written.
+std::string to_string(const Json& document);
+
+/// A value of the document and where it stands. Every access checks and throws malformed (E-GLTF).
+class JsonCursor {
+  public:
+    JsonCursor(const Json& json, std::string path) : json_(&json) {
+        if (!path.empty()) above_ = std::make_shared<const std::string>(std::move(path));
+    }
+
+    const Json& json() const { return *json_; }
+    std::string path() const; ///< "accessors[3].count"
+
+    /// A member of an object; none when absent.
+    std::optional<JsonCursor> find(const char* key) const;
+    JsonCursor at(const char* key) const; ///< a required member
+    JsonCursor at(std::size_t i) const;   ///< an item of an array
+    std::size_t size() const;             ///< items of an array
+
+    std::uint64_t natural(std::uint64_t max = UINT64_MAX) const;  ///< an integer from 0 to max
+    std::size_t index(std::size_t count, const char* what) const; ///< a reference to one of count things
+    double real() const;
+    bool boolean() const;
+    std::string text() const;
+
+    std::uint64_t natural_or(const char* key, std::uint64_t otherwise) const;
+    std::string text_or(const char* key, std::string otherwise) const;
+    bool boolean_or(const char* key, bool otherwise) const;
+
+    [[noreturn]] void fail(const std::string& message, const char* id = "E-GLTF",
+                           std::string hint = {}) const;
+
+    /// From an object to a member, by its key in the document, or from an array to an item.
+    struct Step {
+        const std::string* key = nullptr;
+        std::size_t item = 0;
+    };
+    /// A step below another.
+    JsonCursor(const JsonCursor& from, const Step& step, const Json& json);
+
+  private:
+    friend std::size_t count_of(const Json& document, const char* name);
+    friend JsonCursor item(const Json& document, const char* name, std::size_t i);
+
+    using Member = Json::object_t::value_type;
+
+    explicit JsonCursor(const Json& document) : json_(&document) {}
+
+    [[noreturn]] void expected(const char* what) const;
+    const Member* member(const char* key) const;
+
+    const Json* json_;
+    std::array<Step, 6> steps_{}; // spelled only where somebody asks: most values are as they should be
+    std::size_t step_count_ = 0;
+    std::shared_ptr<const std::string> above_; // the path of the value from which they lead here; none: ""
+};
+
+/// An object of these members: key, value, key, value ... An initialiser list would copy each value, and ask
+/// of each whether it is a pair. The keys differ.
+template <class... Members>
+Json object_of(Members&&... members) {
+    Json object = Json::object();
+    auto& all = object.get_ref<Json::object_t&>();
+    all.reserve(sizeof...(members) / 2);
+    const auto add = [&all]<class Value, class... Rest>(const auto& self, const char* key, Value&& value,
+                                                        Rest&&... rest) -> void {
+        all.emplace_back(key, Json(std::forward<Value>(value)));
+        if constexpr (sizeof...(rest) > 0) self(self, std::forward<Rest>(rest)...);
+    };
+    add(add, std::forward<Members>(members)...);
+    return object;
+}
+
+/// A top-level array of the document ("accessors"), or none when it is absent.
+std::optional<JsonCursor> list(const Json& document, const char* name);
+/// Length of a top-level array, 0 when absent.
+std::size_t count_of(const Json& document, const char* name);
+/// Item i of a top-level array; i must have been checked against count_of.
+JsonCursor item(const Json& document, const char* name, std::size_t i);
+/// The index below count that owner[key] is; none for anything else. For documents of which nothing but the
+/// meshes was checked.
+std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count = SIZE_MAX);
+
+/// Whether "extensionsUsed" has the extension.
+bool uses_extension(const Json& document, std::string_view name);
+/// Puts a name into a top-level list of names ("extensionsUsed"), which is made when missing; one that is
+/// there stays where it is.
+void add_name(Json& document, const char* list, const std::string& name);
+/// Takes a name out of such a list, which may then be empty.
+void remove_name(Json& document, const char* list, const std::string& name);
+/// Leaves what materials need: nothing stands or moves in the document any more. Returns which lists that say
+/// more than where meshes stand had entries.
+std::vector<std::string> keep_materials_only(Json& document);
+/// Erases a top-level array that is empty, as glTF allows none.
+void erase_empty(Json& document, const char* list);
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,197 @@
+// Animations, instances and bind matrices, each accessor in a view of its own, so that meshopt can compress
+// them: rotations by its filter QUATERNION, translations, scales of animations and morph weights by
+// EXPONENTIAL, all else without loss.
+
+#include "io/gltf/document/accessor.hpp"
+#include "io/gltf/numbers/compress.hpp"
+#include "io/gltf/numbers/quantise.hpp"
+#include "io/gltf/write/patch.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <span>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+constexpr int finest = -1000; ///< the exponent at which the largest number has all bits
+
+class Streams {
+  public:
+    explicit Streams(Patch& patch)
+        : builder_(patch.builder), json_(patch.builder.json()), filters_(patch.settings.meshopt.filters) {}
+
+    void run();
+
+  private:
+    Attribute numbers(std::size_t accessor);
+    void store(Json& reference, const std::string& path, int exponent = finest);
+    std::optional<Stored> stored(std::size_t accessor, const std::string& path, int exponent);
+    void store_animation(Json& animation);
+    void store_instances(Json& attributes, bool on_grid);
+    bool on_grid(const Json& node) const;
+
+    Builder& builder_;
+    Json& json_;
+    bool filters_;
+    std::map<std::string, std::size_t> made_; ///< by accessor and what it is for
+};
+
+/// Bits of translations and scales of animations and of morph weights, over their greatest extent: half a
+/// step is below a hundred-thousandth.
+constexpr int path_bits = 16;
+
+/// Numbers that round to some from 0 to 1 in 65535ths, plainly, where that takes less than the stream of
+/// floats would.
+std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
+    std::vector<std::uint16_t> all;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double x = std::floor(a.value(i, 0) * 65535 + 0.5);
+        if (a.components != 1 || !(x >= 0 && x <= 65535)) return {};
+        all.push_back(static_cast<std::uint16_t>(x));
+    }
+    const Packing packing{"ATTRIBUTES", floats.filter, sizeof(float), all.size()};
+    constexpr std::size_t json_bytes = 160; // that the extension's object takes
+    const Span bytes = std::as_bytes(std::span(all));
+    if (encode_meshopt(floats.bytes, packing, 0).size() + json_bytes <= bytes.size()) return {};
+    return Stored{
+        {{"componentType", int(uint16)}, {"normalized", true}, {"count", all.size()}, {"type", "SCALAR"}},
+        {bytes.begin(), bytes.end()}};
+}
+
+Attribute Streams::numbers(std::size_t index) {
+    const Json reference = index;
+    const Accessor a =
+        accessor(builder_.current(), JsonCursor(reference, fmt::format("accessors[{}]", index)));
+    return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(builder_.current(), a)};
+}
+
+std::optional<Stored> Streams::stored(std::size_t index, const std::string& path, int exponent) {
+    const Json& given = json_["accessors"][index];
+    if (!given.contains("bufferView") || given.contains("sparse")) return {};
+    if (builder_.current().without_bytes(given["bufferView"].get<std::size_t>())) return {};
+    const Attribute numbers = this->numbers(index);
+    const bool floats = given["componentType"] == int(float32);
+    std::optional<Stored> coded;
+    if (filters_ && floats && path == "rotation" && numbers.components == 4) coded = quaternions(numbers);
+    if (filters_ && floats && (path == "translation" || path == "weights"))
+        coded = exponential(numbers, exponent_of_range(numbers, path_bits), false);
+    if (filters_ && floats && path == "place")
+        coded = exponential(numbers, std::max(exponent, finest_exponent(numbers)), false);
+    if (coded && path == "weights")
+        if (auto fewer = shorts(numbers, *coded)) return fewer;
+    if (coded) return coded;
+    // Only vertex data may have gaps.
+    const std::size_t size = size_of(given["componentType"].get<int>());
+    if (size * static_cast<std::size_t>(numbers.components) % 4 != 0) return {};
+    Stored plainly = plain(numbers.data, numbers.components, numbers.normalised, false);
+    for (const char* key : {"min", "max"})
+        if (given.contains(key)) plainly.accessor[key] = given[key];
+    return plainly;
+}
+
+/// Points the reference at a new accessor for what it is used.
+void Streams::store(Json& reference, const std::string& path, int exponent) {
+    const auto index = reference.get<std::size_t>();
+    if (index >= count_of(json_, "accessors")) return;
+    const std::string key = fmt::format("{} {} {}", index, path, exponent);
+    auto known = made_.find(key);
+    if (known == made_.end()) {
+        std::size_t made = index;
+        if (auto better = stored(index, path, exponent)) {
+            for (const char* member : {"name", "extras"})
+                if (json_["accessors"][index].contains(member))
+                    better->accessor[member] = json_["accessors"][index][member];
+            made = builder_.add_stored(std::move(*better), 0);
+            builder_.release({{"attributes", {{"old", index}}}});
+        }
+        known = made_.emplace(key, made).first;
+    }
+    reference = known->second;
+}
+
+void Streams::store_animation(Json& animation) {
+    std::map<std::size_t, std::string> paths; // by sampler; empty where several disagree
+    for (const Json& channel : animation["channels"]) {
+        const std::string path = channel["target"].value("path", "");
+        const auto sampler = channel["sampler"].get<std::size_t>();
+        const auto [at, first] = paths.emplace(sampler, path == "scale" ? "translation" : path);
+        if (!first && at->second != (path == "scale" ? "translation" : path)) at->second.clear();
+    }
+    for (std::size_t s = 0; s < animation["samplers"].size(); ++s) {
+        Json& sampler = animation["samplers"][s];
+        store(sampler["input"], "");
+        const bool cubic = sampler.value("interpolation", "LINEAR") == "CUBICSPLINE";
+        store(sampler["output"], cubic ? "" : paths[s]);
+    }
+}
+
+void Streams::run() {
+    for (std::size_t a = 0; a < count_of(json_, "animations"); ++a) {
+        Json animation = json_["animations"][a];
+        store_animation(animation);
+        json_["animations"][a] = std::move(animation);
+    }
+    for (std::size_t s = 0; s < count_of(json_, "skins"); ++s) {
+        if (!json_["skins"][s].contains("inverseBindMatrices")) continue;
+        Json reference = json_["skins"][s]["inverseBindMatrices"];
+        store(reference, "");
+        json_["skins"][s]["inverseBindMatrices"] = reference;
+    }
+    const Json::json_pointer instances("/extensions/EXT_mesh_gpu_instancing/attributes");
+    for (std::size_t n = 0; n < count_of(json_, "nodes"); ++n) {
+        if (!json_["nodes"][n].contains(instances)) continue;
+        Json attributes = json_["nodes"][n][instances];
+        store_instances(attributes, on_grid(json_["nodes"][n]));
+        json_["nodes"][n][instances] = std::move(attributes);
+    }
+}
+
+/// Whether positions of the node's mesh are numbers of steps.
+bool Streams::on_grid(const Json& node) const {
+    if (!node.contains("mesh")) return false;
+    const Json& primitives = json_["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
+    return std::all_of(primitives.begin(), primitives.end(), [&](const Json& primitive) {
+        const Json::json_pointer positions("/attributes/POSITION");
+        return primitive.contains(positions) &&
+               json_["accessors"][primitive[positions].get<std::size_t>()]["componentType"] != int(float32);
+    });
+}
+
+/// A place is told within a quarter of a step of the grid, as long as a step is in the smallest instance.
+void Streams::store_instances(Json& attributes, bool on_grid) {
+    int step = finest, of_scale = finest;
+    if (on_grid && filters_) {
+        double least = attributes.contains("SCALE") ? HUGE_VAL : 1;
+        if (attributes.contains("SCALE")) {
+            const Attribute scales = numbers(attributes["SCALE"].get<std::size_t>());
+            for (std::size_t i = 0; i < scales.size(); ++i)
+                for (int c = 0; c < 3; ++c)
+                    if (const double s = std::abs(scales.value(i, c)); s > 0) least = std::min(least, s);
+        }
+        constexpr int bits = 16; // at most, of a position
+        if (least < HUGE_VAL) {
+            step = std::ilogb(least) - 1;
+            of_scale = step - bits;
+        }
+    }
+    for (auto& [name, reference] : attributes.items()) {
+        if (name == "ROTATION")
+            store(reference, "rotation");
+        else if (name == "TRANSLATION")
+            store(reference, "place", step);
+        else if (name == "SCALE")
+            store(reference, "place", of_scale);
+        else
+            store(reference, "");
+    }
+}
+
+} // namespace
+
+void store_streams(Patch& patch) {
+    if (patch.settings.meshopt.on) Streams(patch).run();
+}
+
+} // namespace facetmill::io::gltf

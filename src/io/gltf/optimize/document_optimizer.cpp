@@ -1,0 +1,382 @@
+#include "io/gltf/optimize/document_optimizer.hpp"
+
+#include "base/hash.hpp"
+#include "io/gltf/contents/textures.hpp"
+#include "io/gltf/document/builder.hpp"
+#include "io/gltf/document/container.hpp"
+#include "io/gltf/document/nodes.hpp"
+#include "io/gltf/gltf.hpp"
+
+#include <algorithm>
+
+namespace facetmill::io {
+
+using namespace gltf;
+
+namespace {
+
+using Visit = std::function<void(Json&)>;
+
+/// Calls visit for references in members of the objects of a list: list[i][key].
+void visit_members(Json& document, const char* list, const char* key, const Visit& visit) {
+    if (!document.contains(list)) return;
+    for (Json& item : document[list])
+        if (index_at(item, key)) visit(item[key]);
+}
+
+/// Textures are named by materials, "...Texture", by sets of feature ids, "texture", and by whatever reads
+/// channels of them.
+void visit_texture_references(Json& json, const Visit& visit) {
+    if (!json.is_structured()) return;
+    for (auto& [key, value] : json.items()) {
+        if (key == "extras") continue;
+        const bool texture = std::string_view(key).ends_with("Texture") || key == "texture" ||
+                             (value.is_object() && value.contains("channels"));
+        if (texture && index_at(value, "index")) visit(value["index"]);
+        visit_texture_references(value, visit);
+    }
+}
+
+void visit_image_references(Json& document, const Visit& visit) {
+    visit_members(document, "textures", "source", visit);
+    if (!document.contains("textures")) return;
+    for (Json& texture : document["textures"])
+        if (texture.is_object() && texture.contains("extensions"))
+            for (auto& [name, value] : texture["extensions"].items())
+                if (index_at(value, "source")) visit(value["source"]);
+}
+
+void visit_material_references(Json& document, const Visit& visit) {
+    if (!document.contains("meshes")) return;
+    for (Json& mesh : document["meshes"])
+        for (Json& primitive : mesh["primitives"])
+            if (index_at(primitive, "material")) visit(primitive["material"]);
+}
+
+void visit_sampler_references(Json& document, const Visit& visit) {
+    visit_members(document, "textures", "sampler", visit);
+}
+
+void each_number(Json& owner, const char* key, const Visit& visit) {
+    if (!owner.is_object() || !owner.contains(key) || !owner[key].is_array()) return;
+    for (Json& one : owner[key])
+        if (one.is_number_unsigned()) visit(one);
+}
+
+/// The nodes that are named for what they are and not as part of the hierarchy.
+void visit_named_nodes(Json& document, const Visit& visit) {
+    if (document.contains("skins"))
+        for (Json& skin : document["skins"]) {
+            each_number(skin, "joints", visit);
+            if (index_at(skin, "skeleton")) visit(skin["skeleton"]);
+        }
+    if (document.contains("animations"))
+        for (Json& animation : document["animations"])
+            for (Json& channel : animation["channels"])
+                if (index_at(channel["target"], "node")) visit(channel["target"]["node"]);
+    const Json::json_pointer lod("/extensions/MSFT_lod");
+    if (document.contains("nodes"))
+        for (Json& node : document["nodes"])
+            if (node.contains(lod)) each_number(node[lod], "ids", visit);
+}
+
+/// Calls with each node and scene, and the key of the nodes that it has.
+template <class Call>
+void each_parent(Json& document, Call&& call) {
+    for (const auto& [list, key] : {std::pair("nodes", "children"), {"scenes", "nodes"}})
+        if (document.contains(list))
+            for (Json& owner : document[list]) call(owner, key);
+}
+
+void visit_node_references(Json& document, const Visit& visit) {
+    visit_named_nodes(document, visit);
+    each_parent(document, [&](Json& owner, const char* key) { each_number(owner, key, visit); });
+}
+
+/// For each item, the first that is written as it is.
+std::vector<std::size_t> first_equal(const std::vector<std::string>& written) {
+    std::map<std::string, std::size_t> known;
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < written.size(); ++i)
+        first.push_back(known.try_emplace(written[i], i).first->second);
+    return first;
+}
+
+std::vector<std::string> texts_of(const Json& document, const char* list, bool keep_names) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < count_of(document, list); ++i) {
+        Json item = document[list][i];
+        if (!keep_names && item.is_object()) item.erase("name");
+        all.push_back(to_string(item));
+    }
+    return all;
+}
+
+/// What an image is: its bytes, and whatever else the document says of it.
+std::vector<std::string> image_texts(const Document& source, const Json& document) {
+    std::vector<std::string> all;
+    for (const Bytes& bytes : image_bytes(source, document)) {
+        Json said = document["images"][all.size()];
+        if (!bytes.empty() && said.is_object())
+            for (const char* key : {"name", "uri", "bufferView", "mimeType"}) said.erase(key);
+        all.push_back(to_string(said) + sha256(bytes));
+    }
+    return all;
+}
+
+void follow(const std::vector<std::size_t>& first, Json& reference) {
+    const auto old = reference.get<std::size_t>();
+    if (old < first.size()) reference = first[old];
+}
+
+/// Takes nodes out of a node's children or a scene's nodes.
+void drop_children(Json& owner, const char* key, const std::set<std::size_t>& dead) {
+    if (!owner.contains(key)) return;
+    Json left = Json::array();
+    for (const Json& one : owner[key])
+        if (!dead.contains(one.get<std::size_t>())) left.push_back(one);
+    owner[key] = std::move(left);
+    if (owner[key].empty()) owner.erase(key);
+}
+
+bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
+
+/// The nodes that are more than places, or are not in the scene, where nothing may get into them or out, and
+/// those below them.
+std::set<std::size_t> bound_nodes(Json& document) {
+    std::set<std::size_t> bound;
+    const auto frames = node_frames(document);
+    const bool all = count_of(document, "scenes") > 1 || has_unknown_extensions(document) ||
+                     uses_extension(document, "KHR_animation_pointer");
+    const std::vector<bool> shown = shown_nodes(document);
+    visit_named_nodes(document, [&](Json& r) { bound.insert(r.get<std::size_t>()); });
+    for (const std::size_t n : parents_first(frames)) {
+        const Json& node = document["nodes"][n];
+        const int parent = frames[n].parent;
+        if (all || !shown[n] || has_more(node) || node.contains("camera") || node.contains("weights") ||
+            (parent >= 0 && bound.contains(static_cast<std::size_t>(parent))))
+            bound.insert(n);
+    }
+    return bound;
+}
+
+/// The meshes that have more than triangles without morph targets.
+std::set<std::size_t> bound_meshes(const Json& document) {
+    std::set<std::size_t> bound;
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
+        const Json& mesh = document["meshes"][m];
+        bool more = has_more(mesh) || mesh.contains("weights");
+        for (const Json& primitive : mesh["primitives"])
+            more |= primitive.contains("targets") || !makes_triangles(JsonCursor(primitive, ""));
+        if (more) bound.insert(m);
+    }
+    return bound;
+}
+
+/// New numbers when the dead ones are gone.
+std::vector<int> numbers_without(std::size_t count, const std::set<std::size_t>& dead) {
+    std::vector<int> numbers;
+    int next = 0;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(dead.contains(i) ? -1 : next++);
+    return numbers;
+}
+
+} // namespace
+
+DocumentOptimizer::DocumentOptimizer(const Document& document)
+    : document_(document), json_(parse_document(document.json)), before_(json_) {
+    known_ = !has_unknown_extensions(json_) && !uses_extension(json_, "EXT_lights_image_based") &&
+             !uses_extension(json_, "KHR_animation_pointer");
+}
+
+std::vector<std::size_t> DocumentOptimizer::merge_equal(bool keep_names) {
+    const std::size_t count = count_of(json_, "materials");
+    std::vector<std::size_t> first(count);
+    for (std::size_t m = 0; m < count; ++m) first[m] = m;
+    const auto images = first_equal(image_texts(document_, json_));
+    visit_image_references(json_, [&](Json& r) { follow(images, r); });
+    const auto samplers = first_equal(texts_of(json_, "samplers", false));
+    visit_sampler_references(json_, [&](Json& r) { follow(samplers, r); });
+    const auto textures = first_equal(texts_of(json_, "textures", false));
+    visit_texture_references(json_, [&](Json& r) { follow(textures, r); });
+    if (uses_extension(json_, "KHR_materials_variants")) return first;
+    first = first_equal(texts_of(json_, "materials", keep_names));
+    visit_material_references(json_, [&](Json& r) { follow(first, r); });
+    return first;
+}
+
+std::size_t DocumentOptimizer::merge_equal_accessors() {
+    if (!known_) return 0;
+    std::vector<Bytes> buffers = document_.buffers;
+    buffers.insert(buffers.end(), added_.begin(), added_.end());
+    Source source(json_, buffers);
+    const std::size_t count = count_of(json_, "accessors");
+    std::vector<std::string> said(count);
+    std::map<std::string, std::size_t> alike;
+    for (std::size_t a = 0; a < count; ++a) {
+        Json item = json_["accessors"][a];
+        if (!item.contains("bufferView") || item.contains("sparse") || item.contains("name") ||
+            has_more(item) || source.without_bytes(item["bufferView"].get<std::size_t>()))
+            continue;
+        for (const char* key : {"bufferView", "byteOffset", "min", "max"}) item.erase(key);
+        const Json& view = json_["bufferViews"][json_["accessors"][a]["bufferView"].get<std::size_t>()];
+        said[a] = to_string(item) + to_string(view.value("target", Json()));
+        ++alike[said[a]];
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+        if (said[a].empty() || alike[said[a]] < 2) {
+            said[a] = std::to_string(a);
+            continue;
+        }
+        const Json reference = a;
+        const AttributeData data =
+            decode(source, accessor(source, JsonCursor(reference, "accessors[" + std::to_string(a) + "]")));
+        said[a] +=
+            std::visit([](const auto& numbers) { return sha256(std::as_bytes(std::span(numbers))); }, data);
+    }
+    const auto first = first_equal(said);
+    for (std::size_t a = 0; a < count; ++a) // whoever needs the bounds finds them
+        for (const char* key : {"min", "max"})
+            if (first[a] != a && json_["accessors"][a].contains(key))
+                json_["accessors"][first[a]][key] = json_["accessors"][a][key];
+    visit_accessor_references(json_, [&](Json& r) { follow(first, r); });
+    std::size_t merged = 0;
+    for (std::size_t a = 0; a < count; ++a) merged += first[a] != a;
+    return merged;
+}
+
+/// The least and greatest numbers of accessors, which glTF wants only of positions and of times.
+void DocumentOptimizer::drop_bounds() {
+    std::set<std::size_t> needed;
+    const auto need = [&](const Json& owner, const char* key) {
+        if (const auto index = index_at(owner, key)) needed.insert(*index);
+    };
+    for (std::size_t m = 0; m < count_of(json_, "meshes"); ++m)
+        for (const Json& primitive : json_["meshes"][m]["primitives"]) {
+            if (primitive.contains("attributes")) need(primitive["attributes"], "POSITION");
+            if (primitive.contains("targets"))
+                for (const Json& target : primitive["targets"]) need(target, "POSITION");
+        }
+    for (std::size_t a = 0; a < count_of(json_, "animations"); ++a)
+        for (const Json& sampler : json_["animations"][a]["samplers"]) need(sampler, "input");
+    for (std::size_t a = 0; a < count_of(json_, "accessors"); ++a)
+        for (const char* key : {"min", "max"})
+            if (!needed.contains(a)) json_["accessors"][a].erase(key);
+}
+
+std::set<std::size_t> DocumentOptimizer::unnamed(const char* list, References references,
+                                                 const std::set<std::size_t>& named) {
+    const auto without_name = [&](Json& document) {
+        std::set<std::size_t> dead;
+        for (std::size_t i = 0; i < count_of(document, list); ++i) dead.insert(i);
+        references(document, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
+        return dead;
+    };
+    std::set<std::size_t> dead = without_name(json_);
+    for (const std::size_t i : named) dead.erase(i);
+    if (!all_) // each list is erased from once, so that its numbers are still those of before
+        for (const std::size_t i : without_name(before_)) dead.erase(i);
+    return dead;
+}
+
+std::size_t DocumentOptimizer::erase(const char* list, References references,
+                                     const std::set<std::size_t>& dead) {
+    if (dead.empty()) return 0;
+    erase_items(json_[list], dead, [&](const Visit& visit) { references(json_, visit); });
+    if (json_[list].empty()) json_.erase(list);
+    return dead.size();
+}
+
+/// The emptied nodes that nothing needs, and then those above them; each is taken out of its parent and its
+/// scene.
+std::set<std::size_t> DocumentOptimizer::empty_nodes(const std::set<std::size_t>& emptied) {
+    std::set<std::size_t> named, dead;
+    visit_named_nodes(json_, [&](Json& r) { named.insert(r.get<std::size_t>()); });
+    const auto frames = node_frames(json_);
+    auto order = parents_first(frames);
+    std::reverse(order.begin(), order.end());
+    std::set<std::size_t> candidates = emptied;
+    for (const std::size_t n : order) {
+        if (!candidates.contains(n) || named.contains(n)) continue;
+        Json& node = json_["nodes"][n];
+        drop_children(node, "children", dead);
+        const bool needed = std::any_of(node.items().begin(), node.items().end(), [](const auto& member) {
+            static const std::set<std::string> places = {"name", "translation", "rotation", "scale",
+                                                         "matrix"};
+            return !places.contains(member.key());
+        });
+        if (needed) continue;
+        dead.insert(n);
+        if (frames[n].parent >= 0) candidates.insert(static_cast<std::size_t>(frames[n].parent));
+    }
+    return dead;
+}
+
+TidyNumbers DocumentOptimizer::erase_unused(const TidyRequest& request) {
+    TidyNumbers numbers;
+    all_ = request.all;
+    for (const std::size_t n : request.emptied)
+        for (const char* key : {"mesh", "weights"}) json_["nodes"][n].erase(key);
+    visit_mesh_references(json_, [&](Json& r) {
+        const auto equal = request.equal_meshes.find(r.get<std::size_t>());
+        if (equal != request.equal_meshes.end()) r = equal->second;
+    });
+    const std::size_t nodes = count_of(json_, "nodes"), meshes = count_of(json_, "meshes"),
+                      materials = count_of(json_, "materials");
+    std::set<std::size_t> dead_nodes, dead_meshes, dead_materials;
+    if (known_) {
+        dead_nodes = empty_nodes(request.emptied);
+        if (!dead_nodes.empty())
+            each_parent(json_, [&](Json& owner, const char* key) { drop_children(owner, key, dead_nodes); });
+        erased_.nodes += erase("nodes", visit_node_references, dead_nodes);
+        dead_meshes = unnamed("meshes", visit_mesh_references, request.meshes);
+        erased_.meshes += erase("meshes", visit_mesh_references, dead_meshes);
+        if (!uses_extension(json_, "KHR_materials_variants"))
+            dead_materials = unnamed("materials", visit_material_references, request.materials);
+        erased_.materials += erase("materials", visit_material_references, dead_materials);
+        const auto tidy = [&](const char* list, References references) {
+            return erase(list, references, unnamed(list, references, {}));
+        };
+        erased_.textures += tidy("textures", visit_texture_references);
+        erased_.samplers += tidy("samplers", visit_sampler_references);
+        erased_.images += tidy("images", visit_image_references);
+        erased_.accessors += tidy("accessors", visit_accessor_references);
+        tidy("bufferViews", visit_view_references);
+        if (all_) drop_bounds();
+    }
+    numbers.nodes = numbers_without(nodes, dead_nodes);
+    numbers.meshes = numbers_without(meshes, dead_meshes);
+    numbers.materials = numbers_without(materials, dead_materials);
+    return numbers;
+}
+
+std::shared_ptr<const Document> DocumentOptimizer::finish(const std::shared_ptr<const Document>& before) {
+    if (json_ == before_) return before;
+    auto out = std::make_shared<Document>(document_);
+    out->json = to_string(json_);
+    for (const Bytes& bytes : added_) out->buffers.push_back(bytes);
+    drop_unnamed_files(out->files, json_);
+    return out;
+}
+
+std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents) {
+    std::vector<bool> bound = animated_parts(scene);
+    std::vector<std::set<std::size_t>> nodes; // of each document, that are bound
+    std::vector<std::set<std::size_t>> meshes;
+    for (DocumentOptimizer& document : documents) {
+        nodes.push_back(bound_nodes(document.json_));
+        meshes.push_back(bound_meshes(document.json_));
+    }
+    for (std::size_t i = 0; i < bound.size(); ++i) {
+        const Part& part = scene.parts[i];
+        const auto d = static_cast<std::size_t>(part.document);
+        bound[i] = bound[i] || part.skinned ||
+                   (part.document >= 0 && part.node >= 0 &&
+                    nodes[d].contains(static_cast<std::size_t>(part.node))) ||
+                   (part.document >= 0 && part.source_mesh >= 0 &&
+                    meshes[d].contains(static_cast<std::size_t>(part.source_mesh)));
+    }
+    return bound;
+}
+
+} // namespace facetmill::io

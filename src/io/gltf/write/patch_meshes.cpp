@@ -1,0 +1,270 @@
+#include "io/gltf/encode/encode.hpp"
+#include "io/gltf/read/mesh.hpp"
+#include "io/gltf/write/patch.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+/// Parts that came from one mesh and still have the same one.
+struct Variant {
+    std::size_t example;   ///< a part
+    bool original = false; ///< nothing has changed: its primitives stay as they are
+    int mesh = -1;
+    std::size_t dropped_faces = 0;
+};
+
+/// Whether the primitive is among those that the part of its mesh has.
+bool is_of_part(const Json& primitive, bool lines) {
+    const JsonCursor place(primitive, "");
+    return lines ? makes_lines(place) : makes_triangles(place);
+}
+
+bool same_attribute(const Attribute& a, const Attribute& b) {
+    return a.name == b.name && a.domain == b.domain && a.role == b.role && a.components == b.components &&
+           a.normalised == b.normalised && a.data == b.data;
+}
+
+bool has_draco(const Json& primitive) {
+    return primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression");
+}
+
+/// Whether the view of the accessor is compressed by meshopt.
+bool has_meshopt(const Json& document, const Json& accessor) {
+    const Json& a = document["accessors"][accessor.get<std::size_t>()];
+    return a.contains("bufferView") &&
+           compression_of(document["bufferViews"][a["bufferView"].get<std::size_t>()]);
+}
+
+/// Triangles that meshopt can compress well: in an order for it, each attribute by itself.
+bool ready_for_meshopt(const Json& document, const Json& primitive) {
+    return primitive.contains("indices") && has_meshopt(document, primitive["indices"]) &&
+           has_meshopt(document, primitive["attributes"]["POSITION"]);
+}
+
+/// True when the primitives as they are in the document are what the settings ask for.
+bool stored_as_wanted(const Patch& patch, const Json& mesh) {
+    const TriangleOrder order = patch.settings.order;
+    const bool stays = order == TriangleOrder::automatic || order == TriangleOrder::keep;
+    for (const auto& primitive : mesh["primitives"]) {
+        const bool triangles = makes_triangles(JsonCursor(primitive, ""));
+        if (triangles && !stays) return false;
+        if (triangles && has_draco(primitive) != patch.settings.draco.on) return false;
+        if (triangles && patch.settings.meshopt.on && !ready_for_meshopt(patch.builder.json(), primitive))
+            return false;
+    }
+    const bool manifold = mesh.contains("extensions") && mesh["extensions"].contains("EXT_mesh_manifold");
+    return manifold || patch.settings.draco.on || !patch.settings.mesh_manifold;
+}
+
+bool is_original(Patch& patch, const Part& part) {
+    const auto mesh = static_cast<std::size_t>(part.source_mesh);
+    if (part.changed || !stored_as_wanted(patch, patch.builder.json()["meshes"][mesh])) return false;
+    const Mesh read = decode_mesh(patch.builder.source(), mesh).mesh;
+    return same_mesh(read, part.mesh, [&](Index there, Index here) {
+        if (here == none || here >= patch.scene.materials.size()) return there == here;
+        const Material& m = patch.scene.materials[here];
+        return m.document == patch.base && m.index == static_cast<int>(there);
+    });
+}
+
+EncodeSettings settings_for(Patch& patch, const Part& part) {
+    EncodeSettings s;
+    s.draco = patch.settings.draco;
+    const auto number = static_cast<std::size_t>(&part - &patch.scene.parts[0]);
+    s.draco.position_bits = patch.settings.grid_bits(number);
+    s.draco_step = patch.settings.lattice(number).step;
+    s.quantize = patch.settings.quantize;
+    s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
+    s.manifold = patch.settings.mesh_manifold;
+    s.whole_positions = patch.settings.whole_positions;
+    s.order = patch.settings.order;
+    if (s.order == TriangleOrder::automatic)
+        s.order = patch.settings.meshopt.on ? TriangleOrder::size : TriangleOrder::draw;
+    s.keep_exact = patch.settings.quantize.on;
+    s.points = patch.of_points;
+    s.name = part.name;
+    s.material = [&patch](Index m) { return patch_material(patch, m); };
+    // Numbers of features and tables mean something in one document only.
+    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d)
+        if (static_cast<int>(d) != patch.base)
+            for (const char* name : {"EXT_mesh_features", "EXT_structural_metadata"})
+                s.keep_features &= patch.scene.documents[d]->json.find(name) == std::string::npos;
+    s.columns.skinned = part.document < 0 || part.document == patch.base;
+    s.columns.quantised = uses_extension(patch.builder.json(), "KHR_mesh_quantization");
+    return s;
+}
+
+/// What EXT_mesh_manifold names of a mesh that has changed is of no use any more.
+void release_manifold(Patch& patch, const Json& extension) {
+    patch.builder.release_mesh(
+        {{"primitives", Json::array()}, {"extensions", {{"EXT_mesh_manifold", extension}}}});
+    const AttributeChange change{
+        "EXT_mesh_manifold", Domain::face, AttributeChange::Kind::dropped,
+        "it names the corners of a mesh that is written anew; mesh_manifold: true writes it again"};
+    auto& all = patch.written.changes;
+    if (!patch.settings.mesh_manifold && std::find(all.begin(), all.end(), change) == all.end())
+        all.push_back(change);
+}
+
+/// Extensions of the mesh are about the geometry that it had.
+void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
+    if (!mesh.contains("extensions")) return;
+    for (const auto& [name, value] : mesh["extensions"].items()) {
+        if (name == "EXT_mesh_manifold") { // ours: written again on request
+            release_manifold(patch, value);
+            continue;
+        }
+        patch.written.changes.push_back(
+            {name, Domain::face, AttributeChange::Kind::dropped, "an extension of a mesh that has changed"});
+        patch.warn(
+            "W-EXTENSION",
+            fmt::format("part '{}': the extension {} of its mesh is dropped, because the mesh has changed",
+                        part.name, name));
+    }
+    mesh.erase("extensions");
+}
+
+/// The mesh object for a part: `mesh` is what it was (or has only a name). Null when nothing is left of it.
+Json encoded_object(Patch& patch, Json mesh, Variant& variant) {
+    const Part& part = patch.scene.parts[variant.example];
+    EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
+    variant.dropped_faces = encoded.dropped_faces;
+    patch.written.cache.add(encoded.cache);
+    Json untouched = Json::array(); // points, and lines of which tubes were made
+    if (mesh.contains("primitives")) {
+        const bool lines = is_of_lines(JsonCursor(mesh, ""));
+        for (auto& primitive : mesh["primitives"])
+            if (!is_of_part(primitive, lines)) untouched.push_back(primitive);
+    }
+    for (auto& primitive : untouched) encoded.primitives.push_back(std::move(primitive));
+    if (encoded.primitives.empty()) return nullptr;
+    mesh["primitives"] = std::move(encoded.primitives);
+    drop_extensions(patch, mesh, part);
+    if (!encoded.extensions.is_null()) mesh["extensions"] = std::move(encoded.extensions);
+    if (mesh.contains("weights") && mesh["weights"].size() != encoded.targets) mesh.erase("weights");
+    return mesh;
+}
+
+/// Whether the variant is a level of detail of an earlier one: it stands for the same node.
+bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Variant& variant) {
+    const int node = scene.parts[variant.example].node;
+    return node >= 0 && std::any_of(variants.data(), &variant, [&](const Variant& earlier) {
+               return scene.parts[earlier.example].node == node;
+           });
+}
+
+/// All parts of one mesh of the patched document.
+void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& variants) {
+    const bool all_original =
+        std::all_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
+    if (all_original) {
+        for (auto& variant : variants) variant.mesh = static_cast<int>(mesh);
+        return;
+    }
+    Json& meshes = patch.builder.json()["meshes"];
+    const Json before = meshes[mesh];
+    bool slot_free =
+        std::none_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
+    const bool lines = is_of_lines(JsonCursor(before, ""));
+    if (slot_free)
+        for (const auto& primitive : before["primitives"])
+            if (is_of_part(primitive, lines)) patch.builder.release(primitive);
+    int copies = 0;
+    for (auto& variant : variants) {
+        if (variant.original) {
+            variant.mesh = static_cast<int>(mesh);
+            continue;
+        }
+        Json object = encoded_object(patch, before, variant);
+        if (object.is_null()) continue;
+        if (slot_free) {
+            patch.builder.json()["meshes"][mesh] = std::move(object);
+            variant.mesh = static_cast<int>(mesh);
+            slot_free = false;
+        } else {
+            variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
+            copies += !is_level(patch.scene, variants, variant);
+        }
+    }
+    if (copies > 0)
+        patch.warn("W-INSTANCES",
+                   fmt::format("the instances of meshes[{}] differ now: {} of them {} a mesh of {} own", mesh,
+                               copies, copies == 1 ? "has" : "have", copies == 1 ? "its" : "their"));
+}
+
+} // namespace
+
+bool same_mesh(const Mesh& a, const Mesh& b, const std::function<bool(Index, Index)>& same_material) {
+    const auto same_primitive = [&](const Primitive& p, const Primitive& q) {
+        return p.attributes == q.attributes && p.json == q.json && same_material(p.material, q.material);
+    };
+    return a.positions == b.positions && a.wedge_vertex == b.wedge_vertex && a.corners == b.corners &&
+           a.face_offsets == b.face_offsets && a.lines == b.lines && a.line_primitive == b.line_primitive &&
+           std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+                      same_attribute) &&
+           std::equal(a.primitives.begin(), a.primitives.end(), b.primitives.begin(), b.primitives.end(),
+                      same_primitive);
+}
+
+std::vector<int> patch_meshes(Patch& patch) {
+    const auto& parts = patch.scene.parts;
+    const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
+    std::vector<std::size_t> variant_of(parts.size());
+    std::map<std::pair<int, int>, std::vector<Variant>>
+        families; // by document and mesh; new parts stand alone
+    const auto key_of = [&](std::size_t i) {
+        const Part& p = parts[i];
+        const bool ours = p.document == patch.base && p.document >= 0 && p.source_mesh >= 0 &&
+                          static_cast<std::size_t>(p.source_mesh) < known_meshes;
+        if (ours || (p.document > 0 && p.source_mesh >= 0)) return std::pair(p.document, p.source_mesh);
+        return std::pair(-1, static_cast<int>(i));
+    };
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        auto& family = families[key_of(i)];
+        const auto same = std::find_if(family.begin(), family.end(), [&](const Variant& v) {
+            return parts[v.example].changed == parts[i].changed &&
+                   same_mesh(parts[v.example].mesh, parts[i].mesh, std::equal_to<>());
+        });
+        variant_of[i] = static_cast<std::size_t>(same - family.begin());
+        if (same == family.end())
+            family.push_back(
+                {i, key_of(i).first == patch.base && patch.base >= 0 && is_original(patch, parts[i])});
+    }
+    for (auto& [key, family] : families) {
+        if (key.first == patch.base && patch.base >= 0) {
+            patch_variants(patch, static_cast<std::size_t>(key.second), family);
+            continue;
+        }
+        for (auto& variant : family) {
+            Json object = encoded_object(patch, {{"name", parts[variant.example].name}}, variant);
+            if (!object.is_null())
+                variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
+        }
+    }
+    std::vector<int> mesh_of_part(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Variant& variant = families[key_of(i)][variant_of[i]];
+        mesh_of_part[i] = variant.mesh;
+        patch.written.dropped_faces += variant.dropped_faces;
+    }
+    return mesh_of_part;
+}
+
+void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part) {
+    std::set<std::size_t> dead;
+    for (const auto& placement : patch.placements) dead.insert(static_cast<std::size_t>(placement.mesh));
+    for (const int mesh : mesh_of_part)
+        if (mesh >= 0) dead.erase(static_cast<std::size_t>(mesh));
+    Json& json = patch.builder.json();
+    visit_mesh_references(json, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
+    if (dead.empty() || has_unknown_extensions(json)) return;
+    for (const std::size_t mesh : dead)
+        for (const auto& primitive : json["meshes"][mesh]["primitives"]) patch.builder.release(primitive);
+    erase_items(json["meshes"], dead, [&](const auto& visit) { visit_mesh_references(json, visit); });
+}
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,382 @@
+#include "io/gltf/read/instances.hpp"
+#include "io/gltf/write/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+/// The morph targets of the mesh at a node of the document; 0 where there is none.
+std::size_t target_count(const Json& document, const Json& node) {
+    if (!node.contains("mesh")) return 0;
+    const Json& first = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"][0];
+    return first.contains("targets") ? first["targets"].size() : 0;
+}
+
+/// Whether a channel animates the morph weights of a node that had targets and has none now. Warns of it.
+bool is_dead(Patch& patch, const JsonCursor& channel) {
+    const Json &document = patch.builder.json(), &source = patch.builder.source().json();
+    const JsonCursor target = channel.at("target");
+    if (target.text_or("path", "") != "weights" || !target.find("node")) return false;
+    const auto n = target.at("node").index(count_of(source, "nodes"), "node");
+    if (target_count(document, document["nodes"][n]) > 0 || target_count(source, source["nodes"][n]) == 0)
+        return false;
+    patch.warn("W-MORPH", fmt::format("nodes[{}] has no morph targets now: their animation is dropped", n));
+    return true;
+}
+
+/// Drops the animation of morph weights where the targets are gone, which glTF forbids, and animations that
+/// have nothing left to do.
+void drop_dead_weights(Patch& patch) {
+    Json& document = patch.builder.json();
+    const std::size_t count = count_of(document, "animations");
+    if (count == 0) return;
+    Json kept = Json::array();
+    for (std::size_t a = 0; a < count; ++a) {
+        Json animation = document["animations"][a], channels = Json::array();
+        const JsonCursor place = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < place.size(); ++c)
+            if (!is_dead(patch, place.at(c))) channels.push_back(animation["channels"][c]);
+        animation["channels"] = std::move(channels);
+        if (!animation["channels"].empty()) kept.push_back(std::move(animation));
+    }
+    document["animations"] = std::move(kept);
+    if (document["animations"].empty()) document.erase("animations");
+}
+
+void remove_mesh(Json& node) {
+    for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+}
+
+void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int part, int mesh) {
+    Json& json = patch.builder.json()["nodes"][node];
+    if (part < 0 || mesh < 0) return remove_mesh(json);
+    json["mesh"] = mesh;
+    if (placement.skinned && !patch.scene.parts[static_cast<std::size_t>(part)].skinned) json.erase("skin");
+    const std::size_t targets = target_count(patch.builder.json(), json);
+    if (json.contains("weights") && json["weights"].size() != targets) json.erase("weights");
+    const std::string& name = patch.scene.parts[static_cast<std::size_t>(part)].name;
+    if (name != placement.name) json["name"] = name;
+}
+
+/// Where the node of a part should be: where the part is, taken back by the instance that it stands at.
+Transform node_world(const Patch& patch, const Part& part) {
+    const auto found = patch.largest_instances.find(part.node);
+    if (part.document != patch.base || found == patch.largest_instances.end()) return part.transform;
+    const Transform& before = patch.frames[static_cast<std::size_t>(part.node)].world;
+    if (part.transform == before * found->second) return before;
+    const auto back = inverse(found->second);
+    return back ? part.transform * *back : part.transform;
+}
+
+/// Where each node of the document should be now: parts where they say, everything else where it was.
+std::vector<Transform> wanted_worlds(const Patch& patch) {
+    std::vector<Transform> worlds;
+    for (const auto& frame : patch.frames) worlds.push_back(frame.world);
+    for (std::size_t p = 0; p < patch.placements.size(); ++p) {
+        const auto& placement = patch.placements[p];
+        if (patch.claimed[p] < 0 || placement.node < 0) continue;
+        const Part& part = patch.scene.parts[static_cast<std::size_t>(patch.claimed[p])];
+        if (!part.skinned) worlds[static_cast<std::size_t>(placement.node)] = node_world(patch, part);
+    }
+    return worlds;
+}
+
+/// Gives a node a matrix in place of what it had.
+void set_matrix(Json& node, const Transform& local) {
+    for (const char* key : {"translation", "rotation", "scale", "matrix"}) node.erase(key);
+    if (!local.identity()) node["matrix"] = matrix(local);
+}
+
+/// The same but for the rounding of a product with an inverse.
+bool nearly_same(const Transform& a, const Transform& b) {
+    double most = 0, apart = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j) {
+            most = std::max(most, std::abs(b.m[i][j]));
+            apart = std::max(apart, std::abs(a.m[i][j] - b.m[i][j]));
+        }
+    return apart <= 1e-12 * most;
+}
+
+/// Replaces a node by another one wherever the document places it: in scenes, as a child, as a level of
+/// detail.
+void place_instead(Json& document, std::size_t node, std::size_t other) {
+    const auto replace = [&](Json& list) {
+        for (Json& index : list)
+            if (index == node) index = other;
+    };
+    for (Json& scene : document["scenes"])
+        if (scene.contains("nodes")) replace(scene["nodes"]);
+    for (Json& parent : document["nodes"]) {
+        if (parent.contains("children")) replace(parent["children"]);
+        const Json::json_pointer levels("/extensions/MSFT_lod/ids");
+        if (parent.contains(levels)) replace(parent[levels]);
+    }
+}
+
+/// Warns of a node that moves by itself under one that is animated and stays.
+void warn_of_animated_ancestor(Patch& patch, std::size_t n, const std::set<std::size_t>& animated,
+                               const std::vector<Transform>& wanted) {
+    for (int p = patch.frames[n].parent; p >= 0; p = patch.frames[static_cast<std::size_t>(p)].parent) {
+        const auto parent = static_cast<std::size_t>(p);
+        if (animated.contains(parent) && wanted[parent] == patch.frames[parent].world)
+            return patch.warn("W-TRANSFORM",
+                              fmt::format("nodes[{}] has moved under the animated nodes[{}], which stays: "
+                                          "the animation plays around the old position",
+                                          n, p));
+    }
+}
+
+/// Nodes whose parents and own place are as they were keep their transform as written.
+void move_nodes(Patch& patch) {
+    const auto wanted = wanted_worlds(patch);
+    const auto animated = animated_nodes(patch.builder.json());
+    for (const std::size_t n : parents_first(patch.frames)) {
+        const auto& frame = patch.frames[n];
+        const auto parent = static_cast<std::size_t>(frame.parent);
+        const bool parent_moved = frame.parent >= 0 && wanted[parent] != patch.frames[parent].world;
+        if (!parent_moved && wanted[n] == frame.world) continue;
+        const auto root = patch.above.find(n);
+        const auto up = frame.parent >= 0           ? inverse(wanted[parent])
+                        : root == patch.above.end() ? Transform{}
+                                                    : inverse(root->second);
+        const auto down = animated.contains(n) ? inverse(frame.local) : Transform{};
+        if (!up || !down) {
+            patch.warn("W-TRANSFORM",
+                       fmt::format("nodes[{}] {} and keeps its transform, although its part has moved", n,
+                                   up ? "is animated from no volume" : "is under a node without volume"));
+            continue;
+        }
+        if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;
+        if (!parent_moved) warn_of_animated_ancestor(patch, n, animated, wanted);
+        // An animated node keeps its own transform, which the animation drives: one above it moves both.
+        if (animated.contains(n))
+            move_from_above(patch, n, *up * wanted[n] * *down);
+        else
+            set_matrix(patch.builder.json()["nodes"][n], *up * wanted[n]);
+    }
+}
+
+/// The scene that new nodes are put into: the default one.
+Json& root_nodes(Json& document) {
+    if (count_of(document, "scenes") == 0) {
+        document["scenes"] = Json::array({Json::object()});
+        document["scene"] = 0;
+    }
+    const std::size_t index =
+        document.contains("scene")
+            ? JsonCursor(document, "").at("scene").index(document["scenes"].size(), "scene")
+            : 0;
+    Json& nodes = document["scenes"][index]["nodes"];
+    if (!nodes.is_array()) nodes = Json::array();
+    return nodes;
+}
+
+/// The node of the document that a new part was split off from; -1 for none.
+int origin_of(const Patch& patch, const Part& part) {
+    const bool there = part.document == patch.base && part.node >= 0 &&
+                       static_cast<std::size_t>(part.node) < patch.frames.size();
+    return there ? part.node : -1;
+}
+
+/// Where the part stands below a node that an animation moves, so that it moves along; nothing when it stands
+/// by itself.
+std::optional<Transform> place_below(const Patch& patch, const Part& part, int origin) {
+    const auto animated = animated_nodes(patch.builder.json());
+    bool moves = false;
+    for (int n = origin; n >= 0; n = patch.frames[static_cast<std::size_t>(n)].parent)
+        moves |= animated.contains(static_cast<std::size_t>(n));
+    if (!moves) return {};
+    const auto up = inverse(wanted_worlds(patch)[static_cast<std::size_t>(origin)]);
+    if (!up) return {};
+    const Transform local = *up * node_world(patch, part);
+    return nearly_same(local, {}) ? Transform{} : local;
+}
+
+/// A part that was split off has the morph weights of its origin, and their animation.
+void copy_weights(Patch& patch, int origin, std::size_t node) {
+    Json& document = patch.builder.json();
+    if (origin < 0 || target_count(document, document["nodes"][node]) == 0) return;
+    const Json& from = document["nodes"][static_cast<std::size_t>(origin)];
+    if (from.contains("weights")) document["nodes"][node]["weights"] = from["weights"];
+    if (!document.contains("animations")) return;
+    for (Json& animation : document["animations"]) {
+        Json more = Json::array();
+        for (const Json& channel : animation["channels"])
+            if (channel["target"].value("path", "") == "weights" &&
+                channel["target"].value("node", -1) == origin) {
+                more.push_back(channel);
+                more.back()["target"]["node"] = node;
+            }
+        for (Json& channel : more) animation["channels"].push_back(std::move(channel));
+    }
+}
+
+std::size_t add_node(Patch& patch, const Part& part, int mesh) {
+    Json node = {{"name", part.name}};
+    if (mesh >= 0) node["mesh"] = mesh;
+    Json& document = patch.builder.json();
+    const int origin = origin_of(patch, part);
+    std::optional<Transform> below;
+    if (part.skinned && mesh >= 0 && origin >= 0) {
+        const Json& source = patch.builder.source().json()["nodes"][static_cast<std::size_t>(origin)];
+        if (source.contains("skin")) node["skin"] = source["skin"];
+    } else {
+        below = place_below(patch, part, origin);
+        const Transform at = below ? *below : node_world(patch, part);
+        if (!at.identity()) node["matrix"] = matrix(at);
+        if (mesh >= 0 && patch.largest_instances.contains(origin))
+            node["extensions"][instancing_extension] =
+                document["nodes"][static_cast<std::size_t>(origin)]["extensions"][instancing_extension];
+    }
+    const std::size_t index = patch.builder.add("nodes", std::move(node));
+    Json& siblings =
+        below ? document["nodes"][static_cast<std::size_t>(origin)]["children"] : root_nodes(document);
+    if (!siblings.is_array()) siblings = Json::array();
+    siblings.push_back(index);
+    copy_weights(patch, origin, index);
+    return index;
+}
+
+} // namespace
+
+void move_from_above(Patch& patch, std::size_t node, const Transform& by) {
+    const std::size_t above = patch.builder.add("nodes", Json::object());
+    Json& document = patch.builder.json();
+    place_instead(document, node, above);
+    document["nodes"][above]["children"] = Json::array({node});
+    set_matrix(document["nodes"][above], by);
+}
+
+void claim_placements(Patch& patch) {
+    if (patch.base < 0) return;
+    patch.frames = node_frames(patch.builder.json());
+    patch.placements = placements(patch.builder.json(), patch.frames);
+    stand_at_largest_instances(patch.builder.source(), patch.frames, patch.placements);
+    patch.claimed.assign(patch.placements.size(), -1);
+    for (const Placement& placement : patch.placements)
+        if (placement.instances > 0) patch.largest_instances[placement.node] = placement.largest_instance;
+    std::map<std::pair<int, int>, std::size_t> placement_at; // by node and mesh
+    for (std::size_t p = 0; p < patch.placements.size(); ++p)
+        placement_at[{patch.placements[p].node, patch.placements[p].mesh}] = p;
+    for (std::size_t i = 0; i < patch.scene.parts.size(); ++i) {
+        const Part& part = patch.scene.parts[i];
+        const auto found = placement_at.find({part.node, part.source_mesh});
+        // The first part of a placement keeps its node; parts split off it get new ones.
+        if (part.document == patch.base && found != placement_at.end() && patch.claimed[found->second] < 0)
+            patch.claimed[found->second] = static_cast<int>(i);
+    }
+}
+
+std::vector<int> patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part) {
+    std::vector<char> placed(patch.scene.parts.size());
+    std::vector<int> nodes(placed.size(), -1);
+    for (std::size_t p = 0; p < patch.placements.size(); ++p) {
+        const int part = patch.claimed[p], node = patch.placements[p].node;
+        if (part >= 0) {
+            placed[static_cast<std::size_t>(part)] = true;
+            nodes[static_cast<std::size_t>(part)] = node;
+        }
+        if (node >= 0)
+            set_mesh(patch, static_cast<std::size_t>(node), patch.placements[p], part,
+                     part < 0 ? -1 : mesh_of_part[static_cast<std::size_t>(part)]);
+    }
+    if (patch.base >= 0) {
+        move_nodes(patch);
+        drop_dead_weights(patch);
+    }
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        if (!placed[i]) nodes[i] = static_cast<int>(add_node(patch, patch.scene.parts[i], mesh_of_part[i]));
+    return nodes;
+}
+
+// --- Levels of detail in one file: MSFT_lod.
+
+namespace {
+
+/// "bust.lod2" is level 2 of "bust"; 0 for other names.
+std::pair<std::string, std::size_t> level_of(const std::string& name) {
+    const auto at = name.rfind(".lod");
+    if (at == std::string::npos || at + 4 == name.size() || name.size() - at > 4 + 6) return {name, 0};
+    std::size_t level = 0;
+    for (const char c : name.substr(at + 4)) {
+        if (c < '0' || c > '9') return {name, 0};
+        level = 10 * level + static_cast<std::size_t>(c - '0');
+    }
+    return {name.substr(0, at), level};
+}
+
+using Levels = std::map<std::size_t, std::size_t>; ///< part by level
+
+/// The levels of each part that has some.
+std::map<std::size_t, Levels> levels_by_part(const std::vector<Part>& parts) {
+    std::map<std::string, std::size_t> named;
+    for (std::size_t i = 0; i < parts.size(); ++i) named.emplace(parts[i].name, i);
+    std::map<std::size_t, Levels> all;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto [base, level] = level_of(parts[i].name);
+        const auto found = named.find(base);
+        if (level > 0 && found != named.end()) all[found->second].emplace(level, i);
+    }
+    return all;
+}
+
+/// Out of the scenes' roots: a level is shown in place of its node only.
+void unroot(Json& document, std::size_t node) {
+    for (auto& scene : document["scenes"]) {
+        if (!scene.contains("nodes")) continue;
+        Json kept = Json::array();
+        for (const auto& root : scene["nodes"])
+            if (root != node) kept.push_back(root);
+        scene["nodes"] = std::move(kept);
+    }
+}
+
+/// Stands where its part is, seen from the parent of the node that it stands in for.
+void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
+    const auto up = parent ? inverse(parent->world) : Transform{};
+    if (!up) return;
+    const Transform local = *up * world;
+    for (const char* key : {"translation", "rotation", "scale", "matrix"}) node.erase(key);
+    if (!local.identity()) node["matrix"] = matrix(local);
+}
+
+} // namespace
+
+void patch_levels(Patch& patch, const std::vector<int>& node_of_part) {
+    if (!patch.settings.lods) return;
+    Json& document = patch.builder.json();
+    const auto all = levels_by_part(patch.scene.parts);
+    const auto frames = node_frames(document);
+    std::size_t linked = 0;
+    for (const auto& [base, levels] : all) {
+        if (node_of_part[base] < 0) continue;
+        const auto& frame = frames[static_cast<std::size_t>(node_of_part[base])];
+        const auto* parent = frame.parent < 0 ? nullptr : &frames[static_cast<std::size_t>(frame.parent)];
+        Json ids = Json::array();
+        for (const auto& [level, part] : levels) {
+            if (node_of_part[part] < 0) continue;
+            const auto node = static_cast<std::size_t>(node_of_part[part]);
+            ids.push_back(node);
+            ++linked;
+            if (frames[node].parent >= 0) continue; // stands somewhere in the document already
+            unroot(document, node);
+            if (!patch.scene.parts[part].skinned)
+                place_level(document["nodes"][node], parent, node_world(patch, patch.scene.parts[part]));
+        }
+        document["nodes"][static_cast<std::size_t>(node_of_part[base])]["extensions"]["MSFT_lod"] = {
+            {"ids", ids}};
+    }
+    if (linked > 0)
+        patch.builder.use_extension("MSFT_lod", false);
+    else
+        patch.warn("W-LODS",
+                   "there are no levels of detail to write: no part is called X.lod1 beside a part X",
+                   "simplify: {lods: [100%, 25%, 5%]} makes them");
+}
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,61 @@
+#include "io/outputs/early_folders.hpp"
+
+#include "io/outputs/clean_up.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace facetmill::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Folders held open at a time: beyond it two runs that fail at once may disturb each other.
+constexpr std::size_t max_open_folders = 128;
+
+} // namespace
+
+void EarlyFolders::use(const fs::path& folder, bool made) {
+    Folder& own =
+        folders_.emplace_back(Folder{folder, -1, made, made ? clean_up_directory(folder) : nullptr});
+    if (folders_.size() > max_open_folders) return;
+    own.lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (own.lock >= 0) ::flock(own.lock, LOCK_SH | LOCK_NB);
+}
+
+void EarlyFolders::make(const fs::path& folder) {
+    std::error_code error;
+    constexpr int max_attempts = 100; // another run may remove what it has made
+    for (int attempt = 0; attempt < max_attempts && !folder.empty(); ++attempt) {
+        if (fs::is_directory(folder, error)) {
+            use(folder, false);
+            if (fs::is_directory(folder, error)) return; // locked, so it stays
+        } else {
+            make(folder.parent_path());
+            if (::mkdir(folder.c_str(), 0777) == 0) return use(folder, true);
+            if (errno != ENOENT && errno != EEXIST) return;
+            if (fs::exists(fs::symlink_status(folder, error)) && !fs::is_directory(folder, error)) return;
+        }
+    }
+}
+
+std::vector<fs::path> EarlyFolders::made_in() const {
+    std::vector<fs::path> all;
+    for (const auto& folder : folders_)
+        if (folder.made) all.push_back(folder.path.has_parent_path() ? folder.path.parent_path() : ".");
+    return all;
+}
+
+EarlyFolders::~EarlyFolders() {
+    for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
+        const bool free = folder->lock < 0 || ::flock(folder->lock, LOCK_EX | LOCK_NB) == 0;
+        if (folder->made && free) ::rmdir(folder->path.c_str()); // unless something is in it
+        if (folder->made) keep(folder->clean_up);
+        if (folder->lock >= 0) ::close(folder->lock);
+    }
+}
+
+} // namespace facetmill::io

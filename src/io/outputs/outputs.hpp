@@ -1,0 +1,108 @@
+#pragma once
+// All outputs or none. Files are written beside their targets as temporaries and renamed together by
+// commit(); whatever ends the run before (an error, a signal) removes them and leaves older outputs as they
+// were. After kill -9 a temporary may stay; the next run that writes into that directory removes it.
+
+#include "io/bytes.hpp"
+
+#include <functional>
+#include <map>
+#include <set>
+
+namespace facetmill::io {
+
+struct CleanUp; // what a signal must undo; see io/outputs/clean_up.hpp
+
+struct CommitSettings {
+    bool keep_unchanged = false; ///< a file that has the bytes already is left alone, with its time
+    bool sync = true;        ///< the bytes are on the disk before a file gets its name, and names at the end
+    bool names_only = false; ///< nothing is written, and there is no commit: which files there would be
+};
+
+/// The outputs of a run.
+class Outputs {
+  public:
+    Outputs() = default;
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+    ~Outputs(); ///< removes what was not committed, and directories made for it
+
+    struct File {
+        std::filesystem::path target; ///< as given
+        std::filesystem::path
+            resolved; ///< what is replaced: symbolic links followed, so that they stay links
+        std::filesystem::path temporary; ///< empty for streams (-, devices, FIFOs), which are kept in memory
+        bool is_input = false; ///< an input that has these bytes already: it is left alone, with its time
+        Bytes stream;
+        std::size_t bytes = 0;
+        std::string sha256;
+        Mark where;    ///< what asked for it, for messages
+        int lock = -1; ///< the temporary, held open and locked while this process lives
+        CleanUp* clean_up = nullptr;
+    };
+
+    /// An input with its SHA-256: from now on only the same bytes may be written there.
+    void protect(const std::filesystem::path& input, std::string sum);
+    /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY,
+    /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
+    /// already with other bytes). "-" is standard output.
+    const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
+    /// The same for a file that is not in memory: produce hands over its bytes, piece by piece. The target
+    /// is no stream; an input, or one that was staged, is refused whatever its bytes.
+    using Put = std::function<void(Span)>;
+    const File& add(const std::filesystem::path& target, const std::function<void(const Put&)>& produce,
+                    const Mark& where = {});
+    /// Before anything is staged.
+    void set(const CommitSettings& settings) { settings_ = settings; }
+    /// Bytes of a staged file, for reading back.
+    Input staged(const File& file) const;
+    /// Renames all, then streams the streams. On error everything not yet renamed is removed, what was
+    /// renamed is put back as it was (what a stream's reader has got is gone), and it throws. A signal that
+    /// arrives between the renames waits for the last; one that ends the streaming puts the files back too.
+    /// With sync, a loss of power leaves each file as it was or whole; of several, some may be new.
+    void commit();
+    /// Forgets everything staged (a failed run).
+    void discard();
+    const std::vector<std::unique_ptr<File>>& files() const { return files_; }
+
+  private:
+    struct Directory {
+        std::filesystem::path path;
+        CleanUp* clean_up;
+    };
+    void make_directory(const std::filesystem::path& directory);
+    void remove_stale(const std::filesystem::path& directory);
+    /// A file under its own name, and what was there before (empty: nothing).
+    struct Renamed {
+        const File* file;
+        std::filesystem::path aside;
+        CleanUp* clean_up = nullptr; ///< as long as streams may fail
+    };
+    std::unique_ptr<File> file_for(const std::filesystem::path& target, const Mark& where) const;
+    void make_place(const File& file);
+    void stage(File& file, const std::function<void(const Put&)>& produce);
+    const File& hold(std::unique_ptr<File> file, const std::filesystem::path& self);
+    void leave_unchanged();
+    void sync_contents() const;
+    void sync_names() const;
+    std::vector<Renamed> rename_all(bool streams_follow);
+    void settle(const std::vector<Renamed>& all); ///< there is no way back from here
+    void forget(bool remove);
+
+    CommitSettings settings_;
+    std::vector<std::unique_ptr<File>> files_;
+    std::map<std::filesystem::path, const File*> by_identity_; ///< of what each replaces; streams by name
+    std::vector<Directory> made_directories_;
+    std::set<std::filesystem::path> swept_;
+    std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
+};
+
+/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output.
+void write_now(const std::filesystem::path& target, Span bytes, const CommitSettings& settings = {});
+
+/// Installs handlers that remove staged temporaries and end the process by the signal: SIGINT, SIGTERM,
+/// SIGHUP and SIGBUS (a mapped input shrank). Signals that were ignored stay ignored (nohup). SIGPIPE and
+/// SIGXFSZ are ignored from now on, so that writing fails with an error instead.
+void clean_up_on_signals();
+
+} // namespace facetmill::io

@@ -1,0 +1,104 @@
+#include "parallel/parallel.hpp"
+
+#include "base/progress.hpp"
+#include "platform/cores.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <tbb/cache_aligned_allocator.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <thread>
+
+namespace facetmill {
+
+namespace {
+
+/// Never destroyed: TBB may want a thread for that, and at the end of the process nobody could be told that
+/// there is none.
+std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global_control>;
+int count = 0;
+/// Where more threads are wanted than there are cores: for loops of threads in TBB's own arenas, which have a
+/// thread for each core and no more. Never destroyed, as `control`.
+std::unique_ptr<tbb::task_arena>& wide = *new std::unique_ptr<tbb::task_arena>;
+
+/// TBB begins with requests for memory under locks that it takes again to tell that there was none, and so
+/// would wait for itself for ever (oneTBB 2022). So its own allocator is asked before, without them, for
+/// pieces of the sizes that it takes, and the system for more than all of them; then it begins, and does not
+/// end.
+void begin_tbb() {
+    static tbb::task_arena* kept = nullptr;
+    if (kept) return;
+    tbb::cache_aligned_allocator<std::byte> memory;
+    for (std::size_t bytes = 64; bytes <= std::size_t{1} << 20; bytes *= 2)
+        memory.deallocate(memory.allocate(bytes), bytes);
+    void* volatile room = ::operator new (std::size_t{8} << 20); // volatile: it is not left out
+    ::operator delete(room);
+    kept = new tbb::task_arena(1);
+    kept->initialize();
+}
+
+/// Whether a loop of this thread would have fewer threads than are wanted. An arena of one thread is meant
+/// so: a job of a batch that may have no more.
+bool is_in_narrow_arena() {
+    const int here = tbb::this_task_arena::max_concurrency();
+    return wide && here > 1 && here < count;
+}
+
+} // namespace
+
+void set_threads(int wanted) {
+    begin_tbb();
+    count = wanted > 0 ? wanted : default_threads();
+    control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(count));
+    wide.reset();
+    if (count <= tbb::info::default_concurrency()) return;
+    wide = std::make_unique<tbb::task_arena>(count);
+    wide->initialize();
+}
+
+int threads() { return count > 0 ? count : tbb::info::default_concurrency(); }
+
+void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*, std::size_t, std::size_t)) {
+    const std::size_t chunks = (n + chunk - 1) / chunk;
+    if (chunks <= 1) {
+        if (n > 0) call(body, 0, n);
+        return;
+    }
+    // An error in a loop around this one does not end this one early, or its caller would go on with what
+    // only some chunks have made.
+    tbb::task_group_context whole(tbb::task_group_context::isolated);
+    const auto run = [&](auto&& one) {
+        const auto loop = [&] {
+            tbb::parallel_for(std::size_t{0}, chunks, one, tbb::simple_partitioner{}, whole);
+        };
+        is_in_narrow_arena() ? wide->execute(loop) : loop();
+    };
+    const auto work = [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); };
+    const ProgressScope::Range place = ProgressScope::of_loop();
+    if (!place.to) return run(work);
+    const auto caller = std::this_thread::get_id(); // it alone tells, so never less than before
+    std::atomic<std::size_t> done = 0;
+    {
+        const ProgressScope silent(nullptr); // for what the chunks do
+        run([&](std::size_t c) {
+            work(c);
+            const std::size_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
+            if (std::this_thread::get_id() == caller)
+                place.report(static_cast<double>(now) / static_cast<double>(chunks));
+        });
+    }
+    place.report(1);
+}
+
+void sort_few(std::span<KeyedPlace> places) {
+    std::sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
+        return a.key != b.key ? a.key < b.key : a.place < b.place;
+    });
+}
+
+} // namespace facetmill

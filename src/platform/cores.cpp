@@ -1,0 +1,79 @@
+#include "platform/cores.hpp"
+
+#include "base/error.hpp"
+#include "base/math/numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <sched.h>
+#include <thread>
+
+namespace facetmill {
+
+namespace {
+
+int of_affinity() {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (::sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0) return CPU_COUNT(&set);
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// A quota of time in a period, as cores; none when there is no limit.
+std::optional<double> quota_of(const std::string& folder) {
+    std::ifstream both(folder + "/cpu.max");
+    std::string quota, period;
+    if (!(both >> quota >> period)) {
+        std::ifstream(folder + "/cpu.cfs_quota_us") >> quota;
+        std::ifstream(folder + "/cpu.cfs_period_us") >> period;
+    }
+    const auto time = parse_real(quota), of = parse_real(period); // "max" and -1 are no limits
+    if (!time || !of || *time <= 0 || *of <= 0) return {};
+    return *time / *of;
+}
+
+/// The least quota of a group and those that it is in.
+std::optional<double> of_groups(const std::string& root, std::string path) {
+    std::optional<double> least;
+    while (true) {
+        if (const auto quota = quota_of(root + path)) least = std::min(least.value_or(*quota), *quota);
+        if (path.empty() || path == "/") return least;
+        path.resize(path.rfind('/'));
+    }
+}
+
+} // namespace
+
+int allowed_cores() {
+    double cores = of_affinity();
+    std::ifstream groups("/proc/self/cgroup"); // "0::/a/b", "4:cpu,cpuacct:/a/b"
+    for (std::string line; std::getline(groups, line);) {
+        const auto first = line.find(':'), second = line.find(':', first + 1);
+        if (second == line.npos) continue;
+        const std::string controllers = line.substr(first + 1, second - first - 1);
+        if (!controllers.empty() && controllers.find("cpu") == controllers.npos) continue;
+        const std::string root = controllers.empty() ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu";
+        const std::string path = line.substr(second + 1);
+        if (path.starts_with('/'))
+            if (const auto quota = of_groups(root, path)) cores = std::min(cores, std::ceil(*quota));
+    }
+    return std::max(1, static_cast<int>(cores));
+}
+
+int default_threads() {
+    const char* given = std::getenv("FACETMILL_JOBS");
+    if (!given || !*given) return allowed_cores();
+    constexpr int most = 4096;
+    const auto count = parse_integer(given);
+    if (!count || *count < 1 || *count > most)
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    fmt::format("FACETMILL_JOBS must be between 1 and {}, found '{}'", most, given),
+                    "unset it to use all cores");
+    return static_cast<int>(*count);
+}
+
+} // namespace facetmill
