@@ -1,11 +1,13 @@
-// The test runner's main. Beside Catch2's own arguments it knows --ctest, which writes the script that tells
-// ctest of every case: "geometry/clip/cap: a square hole is closed" runs in a process of its own, with its
-// room as label.
+// The main function of the test runner. In addition to Catch2's arguments it has --ctest and --ctest-files,
+// which write the script that lists the tests for ctest: each case or each file runs in a process of its own,
+// with its room as label. Files serve sanitizers, under which every process takes long to start.
 
 #define CATCH_CONFIG_RUNNER
 #include "support/catch.hpp"
 
 #include <iostream>
+#include <map>
+#include <string>
 
 namespace {
 
@@ -33,8 +35,16 @@ std::string labels_of(std::string place) {
     return place;
 }
 
-/// Fails when a name cannot be selected, since a run that selects nothing would pass.
-int list_for_ctest(const std::string& executable, const Catch::IConfig& config) {
+void add_test(const std::string& name, const std::string& executable, const std::string& spec,
+              const std::string& labels) {
+    std::cout << "add_test([==[" << name << "]==] [==[" << executable << "]==] [==[" << spec << "]==])\n"
+              << "set_tests_properties([==[" << name << "]==] PROPERTIES LABELS [==[" << labels << "]==])\n";
+}
+
+/// Each case is a test, or each file if by_file. Fails when a name cannot be selected, because a run that
+/// selects nothing would pass.
+int list_for_ctest(const std::string& executable, const Catch::IConfig& config, bool by_file) {
+    std::map<std::string, std::string> spec_of_file;
     for (const auto& test : Catch::getAllTestCasesSorted(config)) {
         const auto& info = test.getTestCaseInfo();
         if (info.isHidden()) continue;
@@ -45,11 +55,14 @@ int list_for_ctest(const std::string& executable, const Catch::IConfig& config) 
             return 1;
         }
         const std::string place = place_of(info.lineInfo.file);
-        const std::string name = place + ": " + info.name;
-        std::cout << "add_test([==[" << name << "]==] [==[" << executable << "]==] [==[" << spec << "]==])\n"
-                  << "set_tests_properties([==[" << name << "]==] PROPERTIES LABELS [==[" << labels_of(place)
-                  << "]==])\n";
+        if (!by_file) {
+            add_test(place + ": " + info.name, executable, spec, labels_of(place));
+            continue;
+        }
+        std::string& specs = spec_of_file[place];
+        specs += (specs.empty() ? "" : ",") + spec;
     }
+    for (const auto& [place, specs] : spec_of_file) add_test(place, executable, specs, labels_of(place));
     return 0;
 }
 
@@ -57,6 +70,8 @@ int list_for_ctest(const std::string& executable, const Catch::IConfig& config) 
 
 int main(int argc, char** argv) {
     Catch::Session session;
-    if (argc == 2 && std::string(argv[1]) == "--ctest") return list_for_ctest(argv[0], session.config());
+    const std::string list = argc == 2 ? argv[1] : "";
+    if (list == "--ctest" || list == "--ctest-files")
+        return list_for_ctest(argv[0], session.config(), list == "--ctest-files");
     return session.run(argc, argv);
 }
