@@ -17,12 +17,3 @@
 #include <string>
 #include <variant>
 #include <vector>
-
-// What nearly every file uses of these is compiled once, in base/instantiated.cpp.
-extern template class std::basic_string<char>;
-extern template class std::vector<std::string>;
-extern template class std::vector<float>;
-extern template class std::vector<double>;
-extern template class std::vector<std::uint32_t>;
-extern template class std::vector<std::uint8_t>;
-extern template class std::vector<std::size_t>;

@@ -3,7 +3,6 @@
 #include "base/fast_json.hpp"
 
 template class nlohmann::basic_json<nlohmann::ordered_map>;
-template class std::vector<facetmill::Json>;
 
 namespace facetmill {
 

@@ -172,13 +172,14 @@ Json choice_schema(const std::vector<Choice>& choices);
 /// Which of the option's choices the value spells (0 for a deferred value); none after adding a problem.
 std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems);
 
-/// How many bytes into an S its member is: all that is kept of a member, so that what reads it is compiled
-/// once a type rather than once a member.
+/// The offset in bytes of a member in the object. Only the offset of a member is stored, so that the code
+/// that reads it is compiled once a type instead of once a member.
 template <class S, class T>
-std::size_t offset_of(T S::*member) {
-    alignas(S) static constexpr std::byte place[sizeof(S)]{};
-    const auto* at = reinterpret_cast<const std::byte*>(&(reinterpret_cast<const S*>(place)->*member));
-    return static_cast<std::size_t>(at - place);
+std::size_t offset_of(const S& object, T S::*member) {
+    const auto address = [](const auto& thing) {
+        return reinterpret_cast<const std::byte*>(std::addressof(thing));
+    };
+    return static_cast<std::size_t>(address(object.*member) - address(object));
 }
 
 /// The T at the offset in a record.
@@ -243,7 +244,7 @@ class Declare {
 
     template <class T>
     OptionRef option(std::string_view name, T S::*member, std::string_view help) {
-        typed_option<T>(declaration, name, offset_of(member), defaults_.*member, help);
+        typed_option<T>(declaration, name, offset_of(defaults_, member), defaults_.*member, help);
         return last();
     }
 
@@ -258,8 +259,8 @@ class Declare {
             values.push_back(c.value);
         }
         o.schema = choice_schema(o.choices);
-        o.parse = [at = offset_of(member), values](const Option& self, const Value& v, void* target,
-                                                   Problems& problems) {
+        o.parse = [at = offset_of(defaults_, member), values](const Option& self, const Value& v,
+                                                              void* target, Problems& problems) {
             const auto index = choice_index(self, v, problems);
             if (index) member_at<E>(target, at) = values[*index];
             return index.has_value();
@@ -277,8 +278,8 @@ class Declare {
         if constexpr (requires { OptionType<G>::kind; }) o.one = OptionType<G>::kind; // of lists elsewhere
         o.fields = shared(std::move(nested.declaration));
         o.schema = o.fields->schema();
-        o.parse = [at = offset_of(member)](const Option& self, const Value& v, void* target,
-                                           Problems& problems) {
+        o.parse = [at = offset_of(defaults_, member)](const Option& self, const Value& v, void* target,
+                                                      Problems& problems) {
             M& slot = member_at<M>(target, at);
             if constexpr (Inner<M>::optional)
                 return self.fields->parse(v, &slot.emplace(), self.name, problems);
@@ -293,7 +294,7 @@ class Declare {
     void embed(G S::*member, Fill fill) {
         Declare<G> inner(defaults_.*member);
         fill(inner);
-        embed_options(declaration, inner.declaration, offset_of(member));
+        embed_options(declaration, inner.declaration, offset_of(defaults_, member));
     }
 
     /// For groups: how a value that is no map is read.

@@ -317,7 +317,7 @@ class DeclareFields {
         using T = Value<Get>;
         if constexpr (std::is_convertible_v<Get, T R::*>) {
             T R::*member = get;
-            return facetmill::fields::typed_field<T>(fields, name, offset_of(member), help);
+            return facetmill::fields::typed_field<T>(fields, name, offset_of(R{}, member), help);
         } else {
             using Type = FieldType<typename facetmill::fields::Inner<T>::type>;
             Field& f = start<T>(name, Type::name, Type::schema(), help);
