@@ -31,6 +31,37 @@ Error& Error::at(const Mark& where) {
     return *this;
 }
 
+std::string to_string(ErrorKind kind) {
+    const char* word = "";
+    switch (kind) {
+    case ErrorKind::check:
+        word = "a check did not hold";
+        break;
+    case ErrorKind::usage:
+        word = "the command line or the pipeline is wrong";
+        break;
+    case ErrorKind::missing:
+        word = "an input is missing or not permitted";
+        break;
+    case ErrorKind::output:
+        word = "an output cannot be written";
+        break;
+    case ErrorKind::stage:
+        word = "a stage cannot process its input";
+        break;
+    case ErrorKind::malformed:
+        word = "an input is malformed";
+        break;
+    case ErrorKind::limit:
+        word = "a limit or lack of memory";
+        break;
+    case ErrorKind::bug:
+        word = "a bug in facetmill";
+        break;
+    }
+    return fmt::format("{} ({})", static_cast<int>(kind), word);
+}
+
 Error out_of_memory(std::string message, std::string hint, Mark where) {
     Diagnostic why{Severity::error, "E-MEMORY", std::move(message), std::move(where), std::move(hint)};
     why.out_of_memory = true;

@@ -23,6 +23,9 @@ enum class ErrorKind : int {
     bug = 70,      ///< a bug in facetmill
 };
 
+/// The exit code and what it means: "2 (the command line or the pipeline is wrong)".
+std::string to_string(ErrorKind kind);
+
 enum class Severity { error, warning, note };
 
 struct Diagnostic {

@@ -1,51 +1,54 @@
 #pragma once
-// The one registry of message ids. What `facetmill explain` and the manual page say of an id, and what
-// --strict=ID may name, comes from here; tests/golden/ids_test.py holds it against the ids that src uses.
+// The registry of message ids. Each room registers the ids that it raises in its messages.cpp. An id that
+// several rooms raise is registered in the lowest layer of them. `facetmill explain`, the manual page and
+// --strict=ID read the registry. tests/golden/text_test.py compares it with the ids in src.
 
 #include "base/error.hpp"
 
-#include <algorithm>
-#include <array>
 #include <initializer_list>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace facetmill {
 
-/// The few kinds of errors that an id comes with.
+/// The few kinds of an error; empty for a warning.
 class ErrorKinds {
   public:
+    constexpr ErrorKinds() = default;
+    constexpr ErrorKinds(ErrorKind kind) : ErrorKinds({kind}) {}
     constexpr ErrorKinds(std::initializer_list<ErrorKind> kinds) : size_(kinds.size()) {
-        std::copy(kinds.begin(), kinds.end(), kinds_.begin());
+        ErrorKind* next = kinds_;
+        for (const ErrorKind kind : kinds) *next++ = kind;
     }
-    constexpr const ErrorKind* begin() const { return kinds_.data(); }
-    constexpr const ErrorKind* end() const { return kinds_.data() + size_; }
-    constexpr std::size_t size() const { return size_; }
+    constexpr const ErrorKind* begin() const { return kinds_; }
+    constexpr const ErrorKind* end() const { return kinds_ + size_; }
 
   private:
-    std::array<ErrorKind, 4> kinds_{};
-    std::size_t size_;
+    ErrorKind kinds_[4] = {};
+    std::size_t size_ = 0;
 };
 
-/// A stable id: what a message that bears it means, in general, and what one can do about it.
+/// A stable id, and what its messages have in common.
 struct MessageId {
     std::string_view id;      ///< "E-KEY", "W-UNITS"
-    ErrorKinds kinds;         ///< of an error: the kinds (exit codes) that it comes with; of a warning: none
     std::string_view meaning; ///< one or two sentences
-    std::string_view hint;    ///< what to do; a message has a hint of its own where more is known
+    std::string_view hint;    ///< what to do; a message may have a more specific hint
+    ErrorKinds kinds = {};    ///< the exit codes of an error
 
     bool is_warning() const { return id.starts_with("W-"); }
 };
 
-/// All of them, sorted by id: errors, then warnings.
-std::span<const MessageId> message_ids();
+/// Adds rows to the registry when the program starts: a constant at namespace scope.
+struct RegisterMessages {
+    RegisterMessages(std::initializer_list<MessageId> rows);
+};
+
+/// All ids in order: errors, then warnings. Throws when an id is registered twice.
+const std::vector<MessageId>& message_ids();
 /// The entry of an id, or null.
 const MessageId* message_id(std::string_view id);
-/// The ids of the warnings, sorted.
+/// The ids of the warnings, in order.
 std::vector<std::string> warning_ids();
-/// The exit code and what it means: "2 (the command line or the pipeline is wrong)".
-std::string to_string(ErrorKind kind);
 
 } // namespace facetmill

@@ -60,7 +60,6 @@ Command plan_command();
 Command pipe_command();
 Command new_command();
 Command check_command();
-Command migrate_command();
 Command info_command();
 Command render_command();
 Command diff_command();

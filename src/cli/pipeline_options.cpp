@@ -53,17 +53,6 @@ void add_value_options(Arguments& arguments, PipelineOptions& options) {
                   "Stages with a baseline write the current failures to it, and pass.");
 }
 
-namespace {
-
-std::vector<std::string> warning_ids() {
-    std::vector<std::string> ids;
-    for (const auto& id : message_ids())
-        if (id.is_warning()) ids.emplace_back(id.id);
-    return ids;
-}
-
-} // namespace
-
 void add_warning_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
     arguments

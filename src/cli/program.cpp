@@ -18,10 +18,10 @@ namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        run_command(),     batch_command(),  export_command(),     plan_command(),    pipe_command(),
-        new_command(),     check_command(),  migrate_command(),    info_command(),    render_command(),
-        diff_command(),    stages_command(), schema_command(),     formats_command(), cache_command(),
-        explain_command(), docs_command(),   completions_command()};
+        run_command(),    batch_command(),      export_command(),  plan_command(),   pipe_command(),
+        new_command(),    check_command(),      info_command(),    render_command(), diff_command(),
+        stages_command(), schema_command(),     formats_command(), cache_command(),  explain_command(),
+        docs_command(),   completions_command()};
     return all;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // The ids of errors and warnings as people read them: `facetmill explain`, its Markdown, and the manual page
-// facetmill-messages(7). All of it comes from base/message_ids.
+// facetmill-messages(7). All of it comes from base/message_ids.hpp.
 
 #include "base/json.hpp"
 #include "base/message_ids.hpp"

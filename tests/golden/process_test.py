@@ -277,19 +277,6 @@ class Process(Case):
                              [("load", 0, 1, asset), ("split", 1, 4, asset), ("validate", 4, 4, asset)])
             self.assertTrue(all(e["seconds"] >= 0 and e["done"] for e in stages))
 
-    def test_migrate(self):
-        self.write("good.yaml", "facetmill: 1\nparams: {input: path}\nstages: [load: '${input}']\n")
-        self.write("later.yaml", "facetmill: 2\nstages: [load: a.ply]\n")
-        self.write("old.yaml", "facetmill: 1\nstages: [load: a.ply, {simplify: {rato: 10%}}]\n")
-        self.assertIn("good.yaml: format 1, nothing to change", self.mill("migrate", "--check", "good.yaml").stderr)
-        before = self.files()
-        said = self.mill("migrate", "--check", "good.yaml", "later.yaml", "old.yaml", expect=2).stderr
-        for place in ("good.yaml: format 1", "later.yaml:1:12: error[E-FORMAT-VERSION]", "old.yaml:2:35: error[E-KEY]"):
-            self.assertIn(place, said)
-        self.mill("migrate", "good.yaml", "later.yaml", expect=2)
-        self.assertEqual(self.files(), before)
-        self.mill("migrate", "--check", "none.yaml", expect=3)
-
     def test_a_shell_sees_130(self):
         self.write("long.yaml", LONG.format(scan=SCAN))
         script = f"""sh -c 'echo $$ >pid; exec "{FACETMILL}" run long.yaml --output-dir shell'; echo $?"""

@@ -5,9 +5,13 @@ import json
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 from support import SOURCE, Case, main
+
+sys.path.insert(0, str(SOURCE / "tools"))
+import check_layers  # noqa: E402
 
 GOLDEN = SOURCE / "tests/golden/stages"
 
@@ -63,15 +67,30 @@ class Text(Case):
         self.assertEqual(list(known), sorted(known))
         used = set()
         for path in (SOURCE / "src").rglob("*.[ch]pp"):
-            if path.name == "message_ids.cpp":
-                continue
             text = path.read_text()
+            if "const RegisterMessages " in text:
+                continue
             used |= set(re.findall(r'"([EW]-[A-Z0-9-]+)"', text))
             for kind, message in re.findall(r'\bErrorKind::(\w+),\s*"(E-[A-Z0-9-]+)"', text):
                 self.assertIn(codes[kind], known.get(message, {}).get("exit_codes", []), f"{path}: {message}")
             for message in re.findall(r"\b[EW]-[A-Z][A-Z0-9-]*[A-Z]\b", text):
-                self.assertIn(message, known, f"{path}: add it to src/base/message_ids.cpp")
-        self.assertEqual(sorted(used), list(known), "src/base/message_ids.cpp")
+                self.assertIn(message, known, f"{path}: add it to messages.cpp of the folder")
+        self.assertEqual(sorted(used), list(known))
+
+    def test_every_message_is_registered_where_it_is_raised(self):
+        """In messages.cpp of the room that raises it, or of the lowest layer of these rooms."""
+        raised, registered = {}, {}
+        for path in (SOURCE / "src").rglob("*.[ch]pp"):
+            name, text = path.relative_to(SOURCE).as_posix(), path.read_text()
+            rooms = registered if "const RegisterMessages " in text else raised
+            if name.startswith("src/docs/"):  # ids in examples
+                continue
+            for message in re.findall(r'"([EW]-[A-Z0-9-]+)"', re.sub(r"//.*", "", text)):
+                rooms.setdefault(message, set()).add(check_layers.home_of(name))
+        for message, rooms in raised.items():
+            layer = min((room.partition("/")[0] for room in rooms), key=check_layers.LAYERS.index)
+            lowest = {room for room in rooms if room.partition("/")[0] == layer}
+            self.assertEqual(registered.get(message), lowest if len(lowest) == 1 else {layer}, message)
 
     def test_explain(self):
         self.assertIn("exit code 2", self.mill("explain", "E-KEY").stdout)

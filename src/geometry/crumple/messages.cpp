@@ -1,0 +1,12 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages crumple_messages{
+    {"E-TRANSFORM",
+     "A transform is invalid: it flattens the parts, or has the wrong number of values.",
+     "Correct the values. The message says what was expected.",
+     {ErrorKind::usage, ErrorKind::stage}},
+};
+
+} // namespace facetmill

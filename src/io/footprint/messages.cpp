@@ -1,0 +1,16 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages footprint_messages{
+    {"E-DXF", "A DXF file with outlines is malformed.",
+     "Save it as a text DXF with closed polylines or circles.", ErrorKind::malformed},
+    {"E-GEOJSON", "A GeoJSON file is malformed, or contains no polygon.",
+     "Save the outline as a Polygon or MultiPolygon.", ErrorKind::malformed},
+    {"E-WKT",
+     "The WKT text of an outline is malformed.",
+     "Write for example `POLYGON ((0 0, 1 0, 1 1))`.",
+     {ErrorKind::malformed, ErrorKind::usage}},
+};
+
+} // namespace facetmill

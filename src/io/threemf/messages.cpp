@@ -1,0 +1,14 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages threemf_messages{
+    {"E-3MF", "A 3MF file is malformed: its XML, its numbers or its references are wrong.",
+     "Export the file again. The message gives the line of the model in the archive.", ErrorKind::malformed},
+    {"E-UNIT",
+     "A length has a physical unit, but the scene has no unit. Or a format lacks a unit, as 3MF lacks km.",
+     "Give the unit of the file with `load: {unit: mm}`, or use a bare number or a percentage.",
+     {ErrorKind::usage, ErrorKind::stage}},
+};
+
+} // namespace facetmill

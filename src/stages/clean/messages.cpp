@@ -1,0 +1,10 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages clean_messages{
+    {"W-CLEAN", "`clean` could not do some repairs, and left the mesh unchanged there.",
+     "Check the positions in the message, and try other options of `clean`."},
+};
+
+} // namespace facetmill

@@ -1,0 +1,12 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages orient_messages{
+    {"W-ORIENT", "A part is not orientable and stays unchanged.",
+     "Use `clean` first, unless the part is a Moebius strip."},
+    {"W-ORIENT-OPEN", "The outside of an open part is not clear.",
+     "Close it first with `clean`, or check the image that `render` makes."},
+};
+
+} // namespace facetmill

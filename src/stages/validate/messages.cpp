@@ -1,0 +1,14 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages validate_messages{
+    {"E-BASELINE",
+     "You gave a baseline of `validate` but no stage uses one, or the file is not a baseline.",
+     "Write a new baseline with `--update-baseline`.",
+     {ErrorKind::usage, ErrorKind::malformed}},
+    {"W-BASELINE", "The mesh has none of the failures in the baseline, but it has others.",
+     "Check whether the baseline belongs to another mesh, and write it again with `--update-baseline`."},
+};
+
+} // namespace facetmill
