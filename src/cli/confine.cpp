@@ -66,11 +66,10 @@ void allow_deferred(AllowedFiles& allowed, const Value& value, const Folders& pl
 
 void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Folders& places) {
     for (const auto& step : steps) {
-        if (step.stage && step.stage->files) {
+        if (step.info && step.info->names_files) {
             allow_deferred(allowed, step.given, places);
-            const auto evidence =
-                step.options ? step.stage->files(step.options.get()).evidence : std::nullopt;
-            if (evidence) allow_output(allowed, places.output(evidence->text));
+            if (const auto evidence = step.stage->files().evidence)
+                allow_output(allowed, places.output(evidence->text));
         }
         for (const auto& arm : step.arms) allow_steps(allowed, *arm.steps, places);
     }

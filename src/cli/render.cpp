@@ -66,7 +66,7 @@ void parse_own(const Arguments& arguments, std::vector<std::string> words) {
 /// Nothing is between load and render that the scene could deviate by.
 void require_other_mesh(const pipeline::Plan& plan) {
     const auto& step = plan.steps.back();
-    if (step.stage->compares_with_load && step.stage->compares_with_load(step.options.get()))
+    if (step.stage->compares_with_load())
         throw Error(ErrorKind::usage, "E-ARGUMENT", "render: deviation is measured from another mesh",
                     "facetmill render low.glb high.glb -o deviation.png --attribute deviation", step.where);
 }

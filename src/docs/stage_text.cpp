@@ -49,7 +49,7 @@ std::string details_of(const StageInfo& stage) {
         text += text.empty() ? sentences : std::string("\n\n") + sentences;
     };
     if (stage.crossing_faces == CrossingFacePolicy::fill)
-        add(stage.crossing_faces_with
+        add(stage.chooses_crossing_faces
                 ? "Where faces are cut or moved, planar ones that intersect themselves become triangles "
                   "first, as in triangulate; the others are named (W-FANS)."
                 : "Planar faces that intersect themselves become triangles first, as in triangulate; the "

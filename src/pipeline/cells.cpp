@@ -27,7 +27,7 @@ const char* key_in_the_way(const Step& step) {
 std::vector<std::string> stages_on_cells() {
     std::vector<std::string> names;
     for (const StageInfo& stage : stages())
-        if (stage.on_cells) names.push_back(stage.name);
+        if (stage.works_on_cells) names.push_back(stage.name);
     return names;
 }
 
@@ -35,7 +35,7 @@ std::vector<std::string> stages_on_cells() {
 std::size_t steps_on_cells(const Steps& steps, const std::string& what, const std::string& way_out) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const Step& step = steps[i];
-        if (step.kind != Step::Kind::stage || !step.stage->on_cells)
+        if (step.kind != Step::Kind::stage || !step.info->works_on_cells)
             refuse_cells(
                 what, fmt::format("'{}' cannot work on a mesh in cells", step.name),
                 fmt::format("put it after simplify or clip, which make the mesh small, or {} ({} can)",
@@ -48,14 +48,13 @@ std::size_t steps_on_cells(const Steps& steps, const std::string& what, const st
             refuse_cells(
                 what, fmt::format("'{}' has the key '{}', which looks at a mesh in memory", step.name, key),
                 "leave it out, or " + way_out, step.where);
-        if (step.stage->why_not_on_cells)
-            if (const auto why = step.stage->why_not_on_cells(step.options.get()))
-                refuse_cells(what, fmt::format("{}: {}", step.name, *why),
-                             "leave that option out, or " + way_out, step.where);
-        if (step.stage->loads != (i == 0))
+        if (const auto why = step.stage->why_not_on_cells())
+            refuse_cells(what, fmt::format("{}: {}", step.name, *why), "leave that option out, or " + way_out,
+                         step.where);
+        if (step.info->loads != (i == 0))
             refuse_cells(what, "one load comes first", "load all files in one step, or " + way_out,
                          step.where);
-        if (step.stage->ends_cells) return i + 1;
+        if (step.info->ends_cells) return i + 1;
     }
     return steps.size();
 }
@@ -85,9 +84,9 @@ Faces faces_of(const Steps& steps, const std::vector<PlannedFile>& inputs) {
     constexpr double countable = 1e15; // more is refused where it is made
     double now = static_cast<double>(faces.read), most = now;
     for (const Step& step : steps) {
-        if (step.kind != Step::Kind::stage || step.stage->ends_cells) break;
+        if (step.kind != Step::Kind::stage || step.info->ends_cells) break;
         if (step.when && step.when->known && !*step.when->known) continue;
-        if (step.stage->triangles_of_one) now *= step.stage->triangles_of_one(step.options.get());
+        now *= step.stage->triangles_of_one();
         most = std::max(most, now);
     }
     faces.most = std::max(faces.read, static_cast<std::uint64_t>(std::min(most, countable)));
@@ -128,8 +127,8 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
                          "write it as binary PLY or STL, or " + way_out, file.where);
     cells.steps = steps_on_cells(plan.steps, what, way_out);
     const Step& last = plan.steps[cells.steps - 1];
-    cells.why = last.stage->ends_cells ? fmt::format("in cells on disk up to '{}': {}", last.name, what)
-                                       : fmt::format("in cells on disk: {}", what);
+    cells.why = last.info->ends_cells ? fmt::format("in cells on disk up to '{}': {}", last.name, what)
+                                      : fmt::format("in cells on disk: {}", what);
     return cells;
 }
 
@@ -139,13 +138,13 @@ void require_jobs(const Plan& plan, const CellPlan& cells) {
             fmt::format("the run has no cells: {}", cells.why.empty() ? "--partition never" : cells.why),
             "use --partition always, or do it without jobs");
     const Step& last = plan.steps[cells.steps - 1];
-    if (last.stage->name != "simplify")
+    if (last.info->name != "simplify")
         refuse_jobs(
             fmt::format("'{}' works on cells by itself: only what simplify does is divided", last.name),
             "facetmill run is one job for all of it", last.where);
     for (std::size_t i = 1; i + 1 < cells.steps; ++i) {
         const Step& step = plan.steps[i];
-        if (!step.stage->checks && !step.stage->tells && !step.stage->moves)
+        if (!step.info->checks && !step.info->tells && !step.info->moves)
             refuse_jobs(fmt::format("each job would do '{}' again before it simplifies", step.name),
                         "write its result by a run of its own, and load that", step.where);
     }

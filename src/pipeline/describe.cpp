@@ -61,7 +61,7 @@ void describe(const Steps& steps, const Headers& headers, std::size_t indent, st
     for (const auto& step : steps) {
         if (step.kind == Step::Kind::stage) {
             const std::string options = step.given.is_null() ? "" : ": " + emit_flow(step.given);
-            out += fmt::format("{}{:<16} {}{}{}{}\n", lead, step.name, step.stage ? step.stage->name : "",
+            out += fmt::format("{}{:<16} {}{}{}{}\n", lead, step.name, step.info ? step.info->name : "",
                                options, lengths_text(headers, step), extras(step));
             continue;
         }
@@ -104,11 +104,11 @@ bool is_excluded(const Declaration& declaration, const std::string& name, const 
 std::map<std::string, std::string> default_texts(const Step& step) {
     std::map<std::string, std::string> texts;
     const bool is_one = !step.given.is_map() && !step.given.is_null();
-    for (const auto& option : step.stage->options->options) {
+    for (const auto& option : step.info->options->options) {
         const bool is_given =
-            is_one ? &option == step.stage->options->primary() : step.given.find(option.name) != nullptr;
+            is_one ? &option == step.info->options->primary() : step.given.find(option.name) != nullptr;
         if (!is_given && !option.default_text.empty() &&
-            !is_excluded(*step.stage->options, option.name, step.given))
+            !is_excluded(*step.info->options, option.name, step.given))
             texts.emplace(option.name, option.default_text);
     }
     return texts;
@@ -117,9 +117,9 @@ std::map<std::string, std::string> default_texts(const Step& step) {
 Json options_json(const Step& step) {
     Json out = Json::object();
     const bool is_map = step.given.is_map();
-    const Option* primary = step.stage->options->primary();
+    const Option* primary = step.info->options->primary();
     const auto defaults = default_texts(step);
-    for (const auto& option : step.stage->options->options) {
+    for (const auto& option : step.info->options->options) {
         const Value* given = is_map ? step.given.find(option.name) : nullptr;
         if (!is_map && !step.given.is_null() && &option == primary) given = &step.given;
         if (given)
@@ -139,8 +139,8 @@ Json steps_json(const Steps& steps, const Headers& headers) {
     Json all = Json::array();
     for (const auto& step : steps) {
         Json one = {{"name", step.name}, {"path", step.path}};
-        if (step.stage) {
-            one["stage"] = step.stage->name;
+        if (step.info) {
+            one["stage"] = step.info->name;
             one["options"] = options_json(step);
         } else
             one["stage"] = step.kind == Step::Kind::branch ? "branch" : "foreach";

@@ -29,8 +29,8 @@ const Mark* find_text(const Value& value, const std::string& text) {
 }
 
 void add_files(const Step& step, const Folders& places, std::vector<PlannedFile>& files) {
-    if (!step.stage || !step.stage->files || !step.options) return;
-    const StageFiles named = step.stage->files(step.options.get());
+    if (!step.stage) return;
+    const StageFiles named = step.stage->files();
     const auto where = [&](const PathText& path) {
         const Mark* mark = find_text(step.given, path.text);
         return mark ? *mark : step.where;
@@ -100,8 +100,8 @@ std::vector<fs::path> asset_roots_of(const Steps& steps, const Folders& places) 
     OrderedSet<fs::path> folders;
     for (const auto& folder : places.asset_roots) folders.add(folder);
     for (const auto& step : steps) {
-        if (step.stage && step.stage->files && step.options)
-            for (const auto& folder : step.stage->files(step.options.get()).asset_roots)
+        if (step.stage)
+            for (const auto& folder : step.stage->files().asset_roots)
                 if (!folder.text.empty()) folders.add(places.input(folder.text));
         for (const auto& arm : step.arms)
             for (const auto& folder : asset_roots_of(*arm.steps, places)) folders.add(folder);
@@ -262,7 +262,7 @@ namespace {
 bool has_effect(const Steps& steps) {
     return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
         if (step.ensure) return true;
-        if (step.stage) return step.stage->checks || step.stage->tells;
+        if (step.info) return step.info->checks || step.info->tells;
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return has_effect(*arm.steps); });
     });

@@ -107,16 +107,16 @@ class Walk {
         for (const auto& step : all) {
             if (step.when && step.when->known == false) continue;
             for (const auto& arm : step.arms) steps(*arm.steps, unit);
-            if (!step.stage || !step.options) continue;
-            images_changed_ |= step.stage->changes_images;
+            if (!step.stage) continue;
+            images_changed_ |= step.info->changes_images;
             try {
                 add_written(step);
             } catch (Error& error) { // an input that can no longer be read
                 headers.errors.push_back(error.at(step.where));
             }
             // A stage that says what the numbers mean ends what is known here, for its own lengths too.
-            if (given_option(step, step.stage->roles.sets_unit)) unit.reset();
-            if (step.stage->header)
+            if (given_option(step, step.info->roles.sets_unit)) unit.reset();
+            if (step.info->reads_headers)
                 load(step, unit);
             else if (unit == Unit::unknown)
                 refuse_units(step);
@@ -143,7 +143,7 @@ class Walk {
                 continue;
             }
             try {
-                const io::FileHeader header = step.stage->header(step.options.get(), file.path, places_);
+                const io::FileHeader header = step.stage->header(file.path, places_);
                 if (std::exchange(first, false)) unit = header.unit;
                 if (known_.insert(file.path.native()).second) headers.inputs.push_back({file.path, header});
                 headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
@@ -162,8 +162,7 @@ class Walk {
     /// What goes beside an output because the scene has it. A branch counts what was loaded in those before
     /// it, too: a file too many is better than one that nobody expects.
     void add_written(const Step& step) {
-        if (!step.stage->files) return;
-        const StageFiles files = step.stage->files(step.options.get());
+        const StageFiles files = step.stage->files();
         const auto has_materials = [](const Loaded& file) {
             return file.header.has_materials && file.header.has_materials();
         };
@@ -207,7 +206,7 @@ class Walk {
 
     void resolve_lengths(const Step& step, Unit unit) {
         Lengths found;
-        find_physical(*step.stage->options, step.given, found);
+        find_physical(*step.info->options, step.given, found);
         for (const auto& [option, value] : found) {
             Problems ignored; // it was found because it can be read
             Length length;
@@ -220,7 +219,7 @@ class Walk {
 
     /// Of a scene without a unit, whatever needs one.
     void refuse_units(const Step& step) {
-        const Value* wanted = given_option(step, step.stage->roles.writes_in_unit);
+        const Value* wanted = given_option(step, step.info->roles.writes_in_unit);
         if (wanted && wanted->is_scalar() &&
             unit_named(wanted->text).value_or(Unit::unknown) != Unit::unknown)
             headers.errors.push_back(
@@ -228,7 +227,7 @@ class Walk {
                       fmt::format("the scene has no unit, so it cannot be written in {}", wanted->text),
                       "give the unit of the file (load: {unit: mm})", wanted->mark));
         Lengths found;
-        find_physical(*step.stage->options, step.given, found);
+        find_physical(*step.info->options, step.given, found);
         for (const auto& [option, value] : found) no_unit(option, value.text, value.mark);
         if (step.when) assertions(step.when->predicates);
     }

@@ -31,7 +31,7 @@ std::size_t vertices_in(const Scene& scene) {
 bool is_mesh(const report::FileRecord& file) { return !file.read_back.is_null(); }
 
 bool measures(const Step& step) {
-    return step.stage->measures_deviation || (step.ensure && step.ensure->deviation);
+    return step.info->measures_deviation || (step.ensure && step.ensure->deviation);
 }
 
 } // namespace
@@ -135,7 +135,7 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
 
 void Page::before(const Step& step, const Scene& scene) {
     entering_.reset();
-    if (step.stage->loads || !measures(step) || measured_stages_ >= most_measured) return;
+    if (step.info->loads || !measures(step) || measured_stages_ >= most_measured) return;
     if (scene.face_count() > most_faces_of_a_stage) return;
     entering_ = reference_to(scene, fmt::format("the scene before '{}'", step.name));
     if (loaded_ && loaded_->shown->is_same(*entering_->shown)) entering_->shown = loaded_->shown; // one tree
@@ -143,8 +143,8 @@ void Page::before(const Step& step, const Scene& scene) {
 
 void Page::after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output) {
     const bool only_looks =
-        step.stage->checks || std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
-                                          record_.outputs.end(), is_mesh);
+        step.info->checks || std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
+                                         record_.outputs.end(), is_mesh);
     if (!only_looks) add_picture(scene, stage);
     set_loaded(step, scene);
     if (entering_) {
@@ -164,9 +164,9 @@ void Page::after(const Step& step, const Scene& scene, report::StageRecord& stag
 }
 
 void Page::set_loaded(const Step& step, const Scene& scene) {
-    if (!step.stage->loads && !step.stage->moves) return;
-    loaded_ = reference_to(scene, step.stage->loads ? std::string("the scene as loaded")
-                                                    : fmt::format("the scene after '{}'", step.name));
+    if (!step.info->loads && !step.info->moves) return;
+    loaded_ = reference_to(scene, step.info->loads ? std::string("the scene as loaded")
+                                                   : fmt::format("the scene after '{}'", step.name));
     if (with_pictures_) loaded_->shape = shape_histograms(scene);
 }
 
@@ -176,7 +176,7 @@ void Page::add_results(std::size_t first_output, const Scene& scene) {
 }
 
 bool Page::is_measured(const Step& step, std::size_t first_output) const {
-    return step.stage->loads || step.stage->moves ||
+    return step.info->loads || step.info->moves ||
            std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
                        record_.outputs.end(), is_mesh);
 }

@@ -14,7 +14,7 @@ constexpr std::size_t most_to_compare = 8000000;
 std::size_t count_outputs(const Steps& steps) {
     std::size_t count = 0;
     for (const Step& step : steps) {
-        if (step.kind == Step::Kind::stage) count += step.stage->tells && !step.stage->checks;
+        if (step.kind == Step::Kind::stage) count += step.info->tells && !step.info->checks;
         for (const Arm& arm : step.arms) count += count_outputs(*arm.steps);
     }
     return count;
@@ -30,7 +30,7 @@ std::shared_ptr<const ResolvedMaterials> PageView::materials(const Scene& scene)
 }
 
 void PageView::before(const Step& step, const Scene& scene) {
-    if (step.stage->loads || has_before_) return;
+    if (step.info->loads || has_before_) return;
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     if (page_.camera()) viewed_.stand_as(*page_.camera(), page_.camera_up());
@@ -48,7 +48,7 @@ void PageView::add(const Scene& scene, const std::string& name) {
 
 void PageView::after(const Step& step, const Scene& scene, const report::RunRecord& record,
                      std::size_t first_output) {
-    if (step.stage->loads) return;
+    if (step.info->loads) return;
     for (std::size_t i = first_output; i < record.outputs.size(); ++i)
         if (io::codec_for(record.outputs[i].path)) add(scene, record.outputs[i].path);
 }

@@ -35,11 +35,11 @@ using ArmsOfParts = std::function<std::vector<Arm>(const std::vector<std::string
 struct Step {
     enum class Kind { stage, branch, foreach };
     Kind kind = Kind::stage;
-    const StageInfo* stage = nullptr;
-    std::shared_ptr<void> options; ///< parsed, of the stage's type
-    Value given;                   ///< what was written, expressions resolved
-    std::string name;              ///< unique in the plan
-    std::string path;              ///< "stages[3]", "stages[5].branch.far[0]"
+    const StageInfo* info = nullptr; ///< of the stage
+    std::shared_ptr<Stage> stage;    ///< with its options
+    Value given;                     ///< what was written, expressions resolved
+    std::string name;                ///< unique in the plan
+    std::string path;                ///< "stages[3]", "stages[5].branch.far[0]"
     std::optional<Condition> when;
     PartFilter only;
     std::optional<Contract> ensure;

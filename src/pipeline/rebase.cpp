@@ -35,11 +35,11 @@ namespace {
 /// Whether an option of a stage names files that it reads: the stage itself is asked, with a probe for a
 /// path.
 bool reads_path(const StageInfo& stage, const Option& option) {
-    if (!stage.files) return false;
-    const auto options = stage.make_options();
+    if (!stage.names_files) return false;
+    const auto use = stage.made();
     Problems ignored;
-    if (!option.parse(option, Value::scalar("probe"), options.get(), ignored)) return false;
-    const StageFiles files = stage.files(options.get());
+    if (!option.parse(option, Value::scalar("probe"), use->target(), ignored)) return false;
+    const StageFiles files = use->files();
     const auto has_probe = [](const std::vector<PathText>& paths) {
         return std::find(paths.begin(), paths.end(), PathText{"probe"}) != paths.end();
     };

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 
 /// Whether the names of images may depend on the step: it changes the scene, or writes some.
 bool matters(const Step& step) {
-    if (!step.stage) return true;
-    if (step.stage->checks) return false;
-    if (!step.stage->tells) return true;
-    return step.stage->files && step.options && step.stage->files(step.options.get()).images.has_value();
+    if (!step.info) return true;
+    if (step.info->checks) return false;
+    if (!step.info->tells) return true;
+    return step.stage && step.stage->files().images.has_value();
 }
 
 /// The steps that matter, without contracts.

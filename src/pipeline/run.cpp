@@ -51,8 +51,7 @@ bool compares_with_load(const Steps& steps) {
         if (step.ensure && step.ensure->deviation &&
             step.ensure->deviation->from == DeviationLimits::From::load)
             return true;
-        if (step.kind == Step::Kind::stage)
-            return step.stage->compares_with_load && step.stage->compares_with_load(step.options.get());
+        if (step.kind == Step::Kind::stage) return step.stage->compares_with_load();
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return compares_with_load(*arm.steps); });
     });
@@ -60,7 +59,7 @@ bool compares_with_load(const Steps& steps) {
 
 bool loads(const Steps& steps) {
     return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
-        if (step.kind == Step::Kind::stage) return step.stage->loads;
+        if (step.kind == Step::Kind::stage) return step.info->loads;
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return loads(*arm.steps); });
     });
@@ -173,7 +172,7 @@ class Runner {
         if (!failures_.guarded({}, "kept cells", [&] { open_kept(cells.means); })) return false;
         for (std::size_t i = 0; i < on_cells_.steps; ++i) {
             const Step& step = plan_.steps[i];
-            if (cells.means.job && (step.stage->checks || step.stage->tells)) { // for the last run
+            if (cells.means.job && (step.info->checks || step.info->tells)) { // for the last run
                 cells.means.key = key_after(cells.means.key, step);
                 continue;
             }
@@ -232,25 +231,23 @@ class Runner {
     bool run_stage_on_cells(const Step& step, CellFlow& cells) {
         auto stage = new_record(step);
         stage.before = brief_of_cells(cells);
-        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::always});
+        trace_.push_back({step.name, step.info->name, stage.options, {}, {}, {}, TracedStep::Way::always});
         const Stopwatch watch;
         const ProgressScope share(settings_.progress);
         const std::size_t checked = record().checks.size();
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, cells.bounds(), step.where);
-            if (step.stage->loads) context.say(on_cells_.why);
+            if (step.info->loads) context.say(on_cells_.why);
             cells.means.key = key_after(cells.means.key, step);
             const auto inputs = inputs_of(cells); // kept open
-            step.stage->on_cells(step.options.get(), cells, context);
+            step.stage->on_cells(cells, context);
             cells::require_unchanged(inputs);
-            if (step.stage->loads) state_.load_diagonal = diagonal(cells.bounds());
-            if (step.stage->loads) cells.means.key = key_with_inputs(cells);
+            if (step.info->loads) state_.load_diagonal = diagonal(cells.bounds());
+            if (step.info->loads) cells.means.key = key_with_inputs(cells);
             if (cells.scene) require_finite(*cells.scene);
             if (cells.surface)
                 warn_of_lost_surface({*cells.surface}, surfaces_of_parts(*cells.scene),
-                                     step.stage->may_lose_with ? step.stage->may_lose_with(step.options.get())
-                                                               : step.stage->may_lose,
-                                     context);
+                                     step.stage->may_lose(), context);
             if (settings_.check_invariants && cells.scene) check_invariants(step, *cells.scene);
         });
         stage.seconds = watch.seconds();
@@ -269,7 +266,7 @@ class Runner {
     bool run_steps(const Steps& steps, SceneState& flow, bool needed, std::size_t first = 0) {
         bool holds = true; // no check has failed so far
         for (const auto& step : std::span(steps).subspan(first)) {
-            const bool judges = step.kind == Step::Kind::stage && step.stage->checks;
+            const bool judges = step.kind == Step::Kind::stage && step.info->checks;
             if (!holds && !judges) return false;
             const bool last = &step == &steps.back();
             bool skip = false;
@@ -325,7 +322,7 @@ class Runner {
     report::StageRecord new_record(const Step& step) {
         report::StageRecord stage;
         stage.name = step.name;
-        stage.stage = step.stage->name;
+        stage.stage = step.info->name;
         stage.path = step.path;
         stage.options = options_json(step);
         ++number_; // parts found at run time may bring more stages than were planned
@@ -341,7 +338,7 @@ class Runner {
         if (step.kind != Step::Kind::stage) return;
         auto stage = new_record(step);
         stage.skipped = true;
-        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, {}, TracedStep::Way::skipped});
+        trace_.push_back({step.name, step.info->name, stage.options, {}, {}, {}, TracedStep::Way::skipped});
         record().stages.push_back(std::move(stage));
     }
 
@@ -398,17 +395,17 @@ class Runner {
         const ProgressScope share(settings_.progress);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, stage.before->bounds, step.where);
-            if (!step.only.patterns.empty() && !step.stage->loads)
+            if (!step.only.patterns.empty() && !step.info->loads)
                 warn_of_empty_selection(step, scene, context);
-            scene = perform(*step.stage, std::move(scene), step.options.get(), context, surfaces);
+            scene = perform(*step.stage, std::move(scene), context, surfaces);
             require_finite(scene);
             if (settings_.check_invariants) check_invariants(step, scene);
         });
         stage.seconds = watch.seconds();
         if (!done) return false;
         stage.after = report::brief_of(scene);
-        if (step.stage->loads) state_.load_diagonal = diagonal(stage.after->bounds);
-        if (step.stage->loads && keeps_loaded_)
+        if (step.info->loads) state_.load_diagonal = diagonal(stage.after->bounds);
+        if (step.info->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
         reuse_.keep(step, flow, state_, stage, before);
         flow.left = {*stage.after, std::move(surfaces)};

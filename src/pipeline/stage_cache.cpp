@@ -36,8 +36,8 @@ void spell(const Value& value, std::vector<std::string>& out) {
 /// The options as a map in the order of their names, however they were given, with those that were left out.
 Value as_map(const Step& step) {
     Value map = step.given;
-    const Option* primary = step.stage->options->primary();
-    if (!map.is_map() && !map.is_null() && primary && !step.stage->options->shorthand)
+    const Option* primary = step.info->options->primary();
+    if (!map.is_map() && !map.is_null() && primary && !step.info->options->shorthand)
         map = Value::map({{primary->name, {}, map}});
     if (map.is_map() || map.is_null())
         for (const auto& [name, text] : default_texts(step))
@@ -49,8 +49,7 @@ Value as_map(const Step& step) {
 
 std::vector<fs::path> files_to_load(const Step& step, const Folders& places) {
     std::vector<fs::path> files;
-    if (!step.stage->files) return files;
-    for (const auto& input : step.stage->files(step.options.get()).inputs) {
+    for (const auto& input : step.stage->files().inputs) {
         const auto matches = expand_glob(places.input(input.text));
         files.insert(files.end(), matches.begin(), matches.end());
     }
@@ -59,8 +58,7 @@ std::vector<fs::path> files_to_load(const Step& step, const Folders& places) {
 
 /// Whether the stage names files, besides what it loads.
 bool names_files(const Step& step) {
-    if (!step.stage->files) return false;
-    const StageFiles named = step.stage->files(step.options.get());
+    const StageFiles named = step.stage->files();
     const auto is_named = [](const PathText& path) { return !path.text.empty(); };
     return std::any_of(named.inputs.begin(), named.inputs.end(), is_named) ||
            std::any_of(named.outputs.begin(), named.outputs.end(), is_named) || named.materials ||
@@ -112,14 +110,14 @@ std::vector<T> since(const std::vector<T>& all, std::size_t first) {
 } // namespace
 
 std::string key_after(const std::string& key, const Step& step) {
-    std::vector<std::string> texts{code_id(), key, step.stage->name};
+    std::vector<std::string> texts{code_id(), key, step.info->name};
     spell(as_map(step), texts);
     return cache::key_of(texts);
 }
 
 bool StageCache::may_recall(const Step& step) const {
-    if (step.stage->checks) return false;
-    if (step.stage->loads) return !loads_run_ && are_files(files_to_load(step, places_));
+    if (step.info->checks) return false;
+    if (step.info->loads) return !loads_run_ && are_files(files_to_load(step, places_));
     return !names_files(step);
 }
 
@@ -146,13 +144,13 @@ void StageCache::before_arms(SceneState& flow, const std::vector<Arm>& arms) con
 
 /// Of a flow whose key is known.
 std::string StageCache::key_of(const Step& step, const SceneState& flow, double load_diagonal) const {
-    std::vector<std::string> texts{code_id(), flow.key, step.stage->name, to_string(load_diagonal)};
+    std::vector<std::string> texts{code_id(), flow.key, step.info->name, to_string(load_diagonal)};
     spell(as_map(step), texts);
     texts.push_back(std::to_string(step.only.patterns.size()));
     texts.insert(texts.end(), step.only.patterns.begin(), step.only.patterns.end());
-    if (step.stage->loads)
+    if (step.info->loads)
         for (const auto& file : files_to_load(step, places_)) texts.push_back(file.string());
-    if (step.stage->loads)
+    if (step.info->loads)
         for (const auto& folder : asset_roots_of({step}, places_))
             texts.push_back("asset_root " + fs::absolute(folder).lexically_normal().string());
     return cache::key_of(texts);
@@ -161,7 +159,7 @@ std::string StageCache::key_of(const Step& step, const SceneState& flow, double 
 bool StageCache::recall(const Step& step, SceneState& flow, RunState& run, report::StageRecord& stage) {
     TracedStep traced;
     traced.name = step.name;
-    traced.stage = step.stage->name;
+    traced.stage = step.info->name;
     traced.options = stage.options;
     if (!step.only.patterns.empty()) traced.options["only"] = step.only.patterns;
     traced.way = TracedStep::Way::always;
@@ -201,7 +199,7 @@ bool StageCache::recall_known(const Step& step, SceneState& flow, RunState& run,
     for (auto& warning : stage.warnings) warning.where = step.where;
     memory->record = {};
     flow.key = memory->scene;
-    if (step.stage->loads) run.load_diagonal = diagonal(memory->bounds);
+    if (step.info->loads) run.load_diagonal = diagonal(memory->bounds);
     store_->has(flow.key, cache::Kind::scene); // it counts as used, so that it stays for later
     flow.recalled.push_back({&step, trace_.size() - 1, load_diagonal, std::move(*memory)});
     return true;
@@ -227,7 +225,7 @@ void StageCache::keep(const Step& step, SceneState& flow, const RunState& run,
     know_documents(flow.scene);
     for (const auto& input : since(run.record.inputs, before.inputs))
         trace_.back().inputs.emplace_back(input.path, input.sha256);
-    const bool loads = step.stage->loads;
+    const bool loads = step.info->loads;
     const bool reads = run.record.inputs.size() != before.inputs ||
                        run.record.absent.size() != before.absent || run.load_diagonal != before.load_diagonal;
     const bool does_more =
@@ -246,7 +244,7 @@ void StageCache::keep(const Step& step, SceneState& flow, const RunState& run,
 
 void StageCache::keep_known(const Step& step, SceneState& flow, const RunState& run,
                             const report::StageRecord& stage, const Before& before) {
-    flow.key = step.stage->loads ? "" : before.key;
+    flow.key = step.info->loads ? "" : before.key;
     flow.unsaved += stage.seconds;
     cache::Memory memory;
     memory.inputs = since(run.record.inputs, before.inputs);
@@ -258,7 +256,7 @@ void StageCache::keep_known(const Step& step, SceneState& flow, const RunState& 
         });
     if (tells_name) memory.told_name = step.name;
     memory.bounds = stage.after->bounds;
-    if (step.stage->loads) {
+    if (step.info->loads) {
         memory.record = stage;
         flow.loaded = {before.key, std::move(memory)};
     } else {
@@ -359,9 +357,9 @@ void StageCache::run_again(SceneState& flow, std::size_t first) {
         run.load_diagonal = recalled.load_diagonal;
         report::StageRecord record;
         record.name = step.name;
-        record.stage = step.stage->name;
+        record.stage = step.info->name;
         Context context(run, record, step.only, flow.scene.bounds(), step.where);
-        flow.scene = perform(*step.stage, std::move(flow.scene), step.options.get(), context);
+        flow.scene = perform(*step.stage, std::move(flow.scene), context);
         const auto same = [](const report::FileRecord& a, const report::FileRecord& b) {
             return a.path == b.path && a.sha256 == b.sha256;
         };

@@ -242,30 +242,28 @@ std::string Planner::unique_name(const std::string& base, const std::string& pre
 }
 
 void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene) {
-    step.stage = stage_named(entry.key);
-    if (!step.stage->loads && !has_scene) {
+    step.info = stage_named(entry.key);
+    if (!step.info->loads && !has_scene) {
         problems_.add(entry.key_mark, "E-ORDER",
                       fmt::format("'{}' needs a scene, but nothing has been loaded before it", entry.key),
                       "begin with load: FILE");
         has_scene = true; // said once
     }
-    has_scene = has_scene || step.stage->loads;
-    step.given = with_safe_paths(entry.value, resolved(entry.value, scope, problems_), *step.stage, scope);
+    has_scene = has_scene || step.info->loads;
+    step.given = with_safe_paths(entry.value, resolved(entry.value, scope, problems_), *step.info, scope);
     if (!step.given.mark.known()) step.given.mark = entry.key_mark;
     std::vector<std::string> names = {entry.key, step.name};
     const auto slash = step.name.rfind('/');
     if (slash != std::string::npos) names.push_back(step.name.substr(slash + 1));
-    overrides_.apply(names, *step.stage, step.given, problems_);
-    step.options = step.stage->make_options();
-    const bool good = step.stage->options->parse(step.given, step.options.get(), entry.key, problems_);
-    if (good && step.stage->files) {
+    overrides_.apply(names, *step.info, step.given, problems_);
+    step.stage = step.info->made();
+    const bool good = step.info->options->parse(step.given, step.stage->target(), entry.key, problems_);
+    if (good) {
         std::vector<std::string> outputs;
-        for (const PathText& path : step.stage->files(step.options.get()).outputs)
-            outputs.push_back(path.text);
+        for (const PathText& path : step.stage->files().outputs) outputs.push_back(path.text);
         warn_of_placeholders(entry.value, outputs, scope, problems_);
     }
-    if (good && step.stage->verify && !is_deferred(step.given))
-        step.stage->verify(step.options.get(), step.given, problems_);
+    if (good && !is_deferred(step.given)) step.stage->verify(step.given, problems_);
 }
 
 } // namespace facetmill::pipeline

@@ -9,7 +9,7 @@ namespace facetmill {
 
 /// As the other perform. surfaces: those of the scene, if they are known; then those of what is returned, or
 /// none, also where this throws.
-Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context,
+Scene perform(const Stage& stage, Scene scene, Context& context,
               std::optional<std::vector<PartSurface>>& surfaces);
 
 } // namespace facetmill

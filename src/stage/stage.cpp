@@ -16,6 +16,12 @@ std::vector<StageInfo>& registry() {
 }
 } // namespace
 
+std::shared_ptr<Stage> StageInfo::made() const {
+    auto stage = make();
+    stage->info = this;
+    return stage;
+}
+
 RegisterStage::RegisterStage(StageInfo info) {
     auto& all = registry();
     const auto at =
@@ -70,33 +76,30 @@ void tell_of_points(const StageInfo& stage, const Scene& scene, Context& context
 
 } // namespace
 
-Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
+Scene perform(const Stage& stage, Scene scene, Context& context) {
     std::optional<std::vector<PartSurface>> unknown;
-    return perform(stage, std::move(scene), options, context, unknown);
+    return perform(stage, std::move(scene), context, unknown);
 }
 
-Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context,
+Scene perform(const Stage& stage, Scene scene, Context& context,
               std::optional<std::vector<PartSurface>>& surfaces) {
     auto known = std::exchange(surfaces, std::nullopt);
-    const CrossingFacePolicy crossing =
-        stage.crossing_faces_with ? stage.crossing_faces_with(options) : stage.crossing_faces;
+    const CrossingFacePolicy crossing = stage.crossing_faces();
     if (crossing == CrossingFacePolicy::fill) known.reset(); // filled faces have another area
     prepare_crossing_faces(crossing, scene, context);
-    leave_lines(stage, scene, context);
-    tell_of_points(stage, scene, context);
-    const MayLose may_lose = stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose;
-    if (stage.checks || stage.loads || may_lose == MayLose::all)
-        return stage.run(std::move(scene), options, context);
+    leave_lines(*stage.info, scene, context);
+    tell_of_points(*stage.info, scene, context);
+    const MayLose may_lose = stage.may_lose();
+    if (stage.info->checks || stage.info->loads || may_lose == MayLose::all)
+        return stage.run(std::move(scene), context);
     const auto before = known ? *std::move(known) : surfaces_of_parts(scene);
     context.know_surfaces(before);
-    scene = stage.run(std::move(scene), options, context);
+    scene = stage.run(std::move(scene), context);
     auto after = surfaces_of_parts(scene, context.kept_sizes(scene));
     warn_of_lost_surface(before, after, may_lose, context);
     surfaces = std::move(after);
     return scene;
 }
-
-std::shared_ptr<void> owned_options(void* options, void (*drop)(void*)) { return {options, drop}; }
 
 std::vector<std::string> stage_names() {
     std::vector<std::string> names;

@@ -4,15 +4,18 @@
 //   struct RelaxOptions { ... };
 //   void declare(Declare<RelaxOptions>& d) { ... }
 //   Scene run(Scene scene, const RelaxOptions& o, Context& context) { ... }
-//   const RegisterStage relax = make_stage<RelaxOptions>(
-//       {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare, run);
+//   const RegisterStage registered = make_stage<StageOf<run>>(
+//       {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare);
 //
-// One that has something to report fills a struct of its own as well, whose fields are declared the same way:
+// A stage that reports something also fills a struct of its own, whose fields are declared the same way:
 //
 //   struct RelaxReport { ... };
 //   void declare_report(DeclareFields<RelaxReport>& d) { ... }
 //   Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) { ... }
-//   const RegisterStage relax = make_stage<RelaxOptions>({...}, declare, declare_report, run);
+//   const RegisterStage registered = make_stage<StageOf<run>>({...}, declare, declare_report);
+//
+// A stage that reads files, works on cells or checks its options further derives from StageOf<run> and
+// overrides what Stage says by default; `o` are its options.
 
 #include "base/lazy.hpp"
 #include "io/codec.hpp"
@@ -50,6 +53,9 @@ enum class LinesPolicy {
     work   ///< it works on them
 };
 
+class Stage;
+
+/// What is true of a stage, whatever its options.
 struct StageInfo {
     std::string name;  ///< the verb users write
     std::string about; ///< one line
@@ -73,27 +79,47 @@ struct StageInfo {
 
     // Filled by make_stage. Declarations are made when they are first asked for.
     Lazy<Declaration> options = {};
-    Lazy<Fields> result = {};                            ///< of what the stage reports; empty: nothing
-    Function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
-    Function<Scene(Scene, const void* options, Context&)> run = {};
-    Function<StageFiles(const void* options)> files = {}; ///< may be empty
-    /// What the header of a file says that this stage would add to the scene; throws as its run. May be
-    /// empty.
-    Function<io::FileHeader(const void* options, const std::filesystem::path&, const Folders&)> header = {};
-    /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
-    Function<void(const void* options, const Value& given, Problems&)> verify = {};
-    /// What these options ask the stage to take of the surface. May be empty.
-    Function<MayLose(const void* options)> may_lose_with = {};
-    /// What these options need of faces that cross themselves. May be empty.
-    Function<CrossingFacePolicy(const void* options)> crossing_faces_with = {};
-    /// Whether these options compare with the scene as loaded (RunState::loaded). May be empty.
-    Function<bool(const void* options)> compares_with_load = {};
-    /// As run, of a mesh that is larger than memory. Empty: the stage cannot do that.
-    Function<void(const void* options, CellFlow&, Context&)> on_cells = {};
-    /// Why these options need the mesh in memory, in words. May be empty.
-    Function<std::optional<std::string>(const void* options)> why_not_on_cells = {};
-    /// How many triangles these options make of one, where they can work on cells. Empty: no more than one.
-    Function<double(const void* options)> triangles_of_one = {};
+    Lazy<Fields> result = {};            ///< of the report; empty: the stage has none
+    bool names_files = false;            ///< it has files() of its own
+    bool reads_headers = false;          ///< ... header()
+    bool chooses_crossing_faces = false; ///< ... crossing_faces()
+    bool works_on_cells = false;         ///< ... on_cells()
+    std::shared_ptr<Stage> (*make)() = nullptr;
+
+    /// A use of this stage, with default options; it must not outlive this.
+    std::shared_ptr<Stage> made() const;
+};
+
+/// One use of a stage: its options, and what it does with them.
+class Stage {
+  public:
+    Stage() = default;
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    virtual ~Stage() = default;
+
+    /// Where its declaration (info->options) puts the options that it parses.
+    virtual void* target() = 0;
+    virtual Scene run(Scene scene, Context& context) const = 0;
+    virtual StageFiles files() const { return {}; }
+    /// What the header of a file says that this stage would add to the scene. Throws as run.
+    virtual io::FileHeader header(const std::filesystem::path&, const Folders&) const { return {}; }
+    /// Adds problems that a declaration cannot find, at the marks of the values.
+    virtual void verify(const Value& /*given*/, Problems&) const {}
+    /// What these options ask the stage to take of the surface.
+    virtual MayLose may_lose() const { return info->may_lose; }
+    /// What these options need of faces that cross themselves.
+    virtual CrossingFacePolicy crossing_faces() const { return info->crossing_faces; }
+    /// Whether these options compare with the scene as loaded.
+    virtual bool compares_with_load() const { return false; }
+    /// As run, of a mesh that is larger than memory; only where info->works_on_cells.
+    virtual void on_cells(CellFlow&, Context&) const {}
+    /// Why these options need the mesh in memory, in words.
+    virtual std::optional<std::string> why_not_on_cells() const { return {}; }
+    /// How many triangles these options make of one, where they can work on cells.
+    virtual double triangles_of_one() const { return 1; }
+
+    const StageInfo* info = nullptr; ///< which stage it is
 };
 
 struct RegisterStage {
@@ -106,79 +132,70 @@ const StageInfo* stage_named(std::string_view name);
 std::vector<std::string> stage_names();
 
 /// Runs the stage on faces as it needs them (crossing_faces), and warns of the surface that it loses.
-Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context);
+Scene perform(const Stage& stage, Scene scene, Context& context);
 
-template <class Options>
-struct StageHooks {
-    StageFiles (*files)(const Options&) = nullptr;
-    void (*verify)(const Options&, const Value&, Problems&) = nullptr;
-    io::FileHeader (*header)(const Options&, const std::filesystem::path&, const Folders&) = nullptr;
-    MayLose (*may_lose)(const Options&) = nullptr;
-    CrossingFacePolicy (*crossing_faces)(const Options&) = nullptr;
-    bool (*compares_with_load)(const Options&) = nullptr;
-    void (*on_cells)(const Options&, CellFlow&, Context&) = nullptr;
-    std::optional<std::string> (*why_not_on_cells)(const Options&) = nullptr;
-    double (*triangles_of_one)(const Options&) = nullptr;
+template <class OptionsOfStage>
+class StageWith : public Stage {
+  public:
+    using Options = OptionsOfStage;
+    void* target() override { return &o; }
+
+  protected:
+    Options o;
 };
 
-/// The hook, of any options; none where there is none.
-template <class Options, class Result, class... Arguments>
-Function<Result(const void*, Arguments...)> of_any_options(Result (*hook)(const Options&, Arguments...)) {
-    if (!hook) return {};
-    return [hook](const void* options, Arguments... arguments) -> Result {
-        return hook(*static_cast<const Options*>(options), arguments...);
-    };
+/// A stage that runs this function, with or without a report.
+template <auto function>
+class StageOf;
+
+template <class Options, Scene (*function)(Scene, const Options&, Context&)>
+class StageOf<function> : public StageWith<Options> {
+  public:
+    Scene run(Scene scene, Context& context) const override {
+        return function(std::move(scene), this->o, context);
+    }
+};
+
+template <class Options, class ReportOfStage,
+          Scene (*function)(Scene, const Options&, Context&, ReportOfStage&)>
+class StageOf<function> : public StageWith<Options> {
+  public:
+    using Report = ReportOfStage;
+    /// The report is recorded and said when the stage is done.
+    Scene run(Scene scene, Context& context) const override {
+        Report report;
+        Scene out = function(std::move(scene), this->o, context, report);
+        context.report(*this->info->result, &report);
+        return out;
+    }
+};
+
+/// Whether a stage overrides what Stage does: else both pointers are to the same member.
+template <class Own, class Default>
+constexpr bool is_own(Own, Default) {
+    return !std::is_same_v<Own, Default>;
 }
 
-/// Options that are owned by whoever has the pointer.
-std::shared_ptr<void> owned_options(void* options, void (*drop)(void*));
-
-template <class Options, class DeclareFunction>
-void add_options(StageInfo& info, DeclareFunction declare, const StageHooks<Options>& hooks) {
+template <class S>
+StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options>&)) {
     info.options = Lazy<Declaration>([declare] {
-        Declare<Options> d;
+        Declare<typename S::Options> d;
         declare(d);
         return std::move(d.declaration);
     });
-    info.make_options = [] {
-        return owned_options(new Options, [](void* options) { delete static_cast<Options*>(options); });
-    };
-    info.files = of_any_options(hooks.files);
-    info.header = of_any_options(hooks.header);
-    info.may_lose_with = of_any_options(hooks.may_lose);
-    info.crossing_faces_with = of_any_options(hooks.crossing_faces);
-    info.verify = of_any_options(hooks.verify);
-    info.compares_with_load = of_any_options(hooks.compares_with_load);
-    info.on_cells = of_any_options(hooks.on_cells);
-    info.why_not_on_cells = of_any_options(hooks.why_not_on_cells);
-    info.triangles_of_one = of_any_options(hooks.triangles_of_one);
-}
-
-/// Of a stage that has nothing to report.
-template <class Options, class DeclareFunction>
-StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene, const Options&, Context&),
-                     const StageHooks<Options>& hooks = {}) {
-    add_options(info, declare, hooks);
-    info.run = [run](Scene scene, const void* options, Context& context) {
-        return run(std::move(scene), *static_cast<const Options*>(options), context);
-    };
+    info.names_files = is_own(&S::files, &Stage::files);
+    info.reads_headers = is_own(&S::header, &Stage::header);
+    info.chooses_crossing_faces = is_own(&S::crossing_faces, &Stage::crossing_faces);
+    info.works_on_cells = is_own(&S::on_cells, &Stage::on_cells);
+    info.make = []() -> std::shared_ptr<Stage> { return std::make_shared<S>(); };
     return info;
 }
 
-/// Of a stage that fills a report: it is recorded and said when the stage is done.
-template <class Options, class Report, class DeclareFunction>
-StageInfo make_stage(StageInfo info, DeclareFunction declare, void (*declare_report)(DeclareFields<Report>&),
-                     Scene (*run)(Scene, const Options&, Context&, Report&),
-                     const StageHooks<Options>& hooks = {}) {
-    add_options(info, declare, hooks);
-    info.result = Lazy<Fields>([declare_report] { return fields_of<Report>(declare_report); });
-    info.run = [run, fields = info.result](Scene scene, const void* options, Context& context) {
-        Report report;
-        Scene out = run(std::move(scene), *static_cast<const Options*>(options), context, report);
-        context.report(*fields, &report);
-        return out;
-    };
-    return info;
+template <class S>
+StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options>&),
+                     void (*declare_report)(DeclareFields<typename S::Report>&)) {
+    info.result = Lazy<Fields>([declare_report] { return fields_of<typename S::Report>(declare_report); });
+    return make_stage<S>(std::move(info), declare);
 }
 
 } // namespace facetmill

@@ -43,11 +43,11 @@ void check_default(const StageInfo& stage, const Option& option) {
     const auto source =
         std::make_shared<const SourceText>(SourceText{"default", option.name + ": " + option.default_text});
     const Value value = pipeline::parse_yaml(source, problems);
-    const auto options = stage.make_options();
+    const auto use = stage.made();
     REQUIRE(problems.size() == 0);
     REQUIRE(value.find(option.name));
-    CHECK(option.parse(option, *value.find(option.name), options.get(), problems));
-    if (const auto magnitude = option.magnitude ? option.magnitude(options.get()) : std::nullopt)
+    CHECK(option.parse(option, *value.find(option.name), use->target(), problems));
+    if (const auto magnitude = option.magnitude ? option.magnitude(use->target()) : std::nullopt)
         CHECK(option.range.holds(*magnitude));
     for (const auto& d : problems.all()) UNSCOPED_INFO(render(d));
     CHECK(problems.size() == 0);

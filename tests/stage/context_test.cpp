@@ -87,7 +87,7 @@ TEST_CASE("places: inputs beside the pipeline, outputs in the output directory",
 
 namespace {
 
-struct Stage {
+struct StageInScene {
     RunState run;
     report::StageRecord record;
     PartFilter only;
@@ -97,7 +97,7 @@ struct Stage {
 } // namespace
 
 TEST_CASE("lengths are resolved and recorded", "[stage]") {
-    Stage stage;
+    StageInScene stage;
     Scene scene = two_parts();
     scene.unit = Unit::mm;
     stage.run.load_diagonal = 50;
@@ -117,7 +117,7 @@ TEST_CASE("lengths are resolved and recorded", "[stage]") {
 }
 
 TEST_CASE("a physical length needs a scene with a unit", "[stage]") {
-    Stage stage;
+    StageInScene stage;
     const Scene scene = two_parts();
     try {
         stage.context.resolve(length_of("2mm"), scene, "amplitude");
@@ -131,7 +131,7 @@ TEST_CASE("a physical length needs a scene with a unit", "[stage]") {
 }
 
 TEST_CASE("the parts worked on are the selected ones, and are marked changed", "[stage]") {
-    Stage stage;
+    StageInScene stage;
     stage.only.patterns = {"body"};
     Scene scene = two_parts();
     Names visited;
@@ -142,7 +142,7 @@ TEST_CASE("the parts worked on are the selected ones, and are marked changed", "
 }
 
 TEST_CASE("what a stage says goes into its record", "[stage]") {
-    Stage stage;
+    StageInScene stage;
     stage.record.name = "cut";
     const Scene scene = two_parts();
     stage.context.warn("W-CAP", "one loop stays open");

@@ -11,16 +11,26 @@ namespace {
 
 using test::scene_of;
 
+/// A stage that leaves the scene that `eat` returns.
+struct Eater : Stage {
+    StageInfo facts{.name = "eat", .about = "", .details = "", .examples = {}};
+    std::function<Scene(Scene, Context&)> eat;
+
+    Eater() { info = &facts; }
+    void* target() override { return nullptr; }
+    Scene run(Scene scene, Context& context) const override { return eat(std::move(scene), context); }
+};
+
 /// A stage that may lose so much, and leaves the scene that make returns.
 test::StageRun performed(MayLose may_lose, Scene scene, const std::function<Scene(Scene)>& make) {
-    StageInfo stage{.name = "eat", .about = "", .details = "", .examples = {}};
-    stage.may_lose = may_lose;
-    stage.run = [&](Scene entering, const void*, Context&) { return make(std::move(entering)); };
+    Eater stage;
+    stage.facts.may_lose = may_lose;
+    stage.eat = [&](Scene entering, Context&) { return make(std::move(entering)); };
     test::StageRun run;
     run.record.name = "eat";
     const PartFilter all;
     Context context(*run.state, run.record, all, scene.bounds(), {});
-    run.scene = perform(stage, std::move(scene), nullptr, context);
+    run.scene = perform(stage, std::move(scene), context);
     return run;
 }
 
@@ -80,8 +90,8 @@ TEST_CASE("surface is missed in every part, and in the scene when the parts are 
 }
 
 TEST_CASE("what one stage leaves of the surface is what the next one finds", "[stage]") {
-    StageInfo stage{.name = "eat", .about = "", .details = "", .examples = {}};
-    stage.run = [](Scene scene, const void*, Context&) { return leaving(8)(std::move(scene)); };
+    Eater stage;
+    stage.eat = [](Scene scene, Context&) { return leaving(8)(std::move(scene)); };
     test::StageRun run;
     run.record.name = "eat";
     const PartFilter all;
@@ -89,7 +99,7 @@ TEST_CASE("what one stage leaves of the surface is what the next one finds", "[s
     std::optional<std::vector<PartSurface>> surfaces;
     const auto eaten = [&] {
         run.record.warnings.clear();
-        const Scene left = perform(stage, sheet(), nullptr, context, surfaces);
+        const Scene left = perform(stage, sheet(), context, surfaces);
         CHECK(left.face_count() == 8);
         return run.record.warnings.size();
     };
@@ -102,15 +112,15 @@ TEST_CASE("what one stage leaves of the surface is what the next one finds", "[s
     CHECK(eaten() == 1);
 
     surfaces->at(0).area = 1e-3;
-    stage.crossing_faces = CrossingFacePolicy::fill; // before the stage, as others left none
+    stage.facts.crossing_faces = CrossingFacePolicy::fill; // before the stage, as others left none
     CHECK(eaten() == 1);
-    stage.may_lose = MayLose::all;
+    stage.facts.may_lose = MayLose::all;
     CHECK(eaten() == 0);
     CHECK_FALSE(surfaces);
     surfaces.emplace();
-    stage.may_lose = MayLose::tenth;
-    stage.run = [](Scene, const void*, Context&) -> Scene { throw std::runtime_error("no"); };
-    CHECK_THROWS(perform(stage, sheet(), nullptr, context, surfaces));
+    stage.facts.may_lose = MayLose::tenth;
+    stage.eat = [](Scene, Context&) -> Scene { throw std::runtime_error("no"); };
+    CHECK_THROWS(perform(stage, sheet(), context, surfaces));
     CHECK_FALSE(surfaces);
 }
 
@@ -121,21 +131,21 @@ TEST_CASE("the size that a stage measured is what the next one finds, part by pa
     scene.parts.push_back(scene.parts[0]);
     scene.parts[1].name = "other";
     scene.parts[1].transform.m[1][1] = 2;
-    StageInfo stage{.name = "eat", .about = "", .details = "", .examples = {}};
+    Eater stage;
     const SurfaceSize told{1, 2};
-    stage.run = [&](Scene entering, const void*, Context& context) {
+    stage.eat = [&](Scene entering, Context& context) {
         context.keep_size(1, told);
         return entering;
     };
     std::optional<std::vector<PartSurface>> surfaces;
     Context first(*run.state, run.record, all, scene.bounds(), {});
-    scene = perform(stage, std::move(scene), nullptr, first, surfaces);
+    scene = perform(stage, std::move(scene), first, surfaces);
     REQUIRE(surfaces);
     CHECK_FALSE(surfaces->at(0).size);
     REQUIRE(surfaces->at(1).size);
     CHECK(surfaces->at(1).area == told.area);
 
-    stage.run = [&](Scene entering, const void*, Context& context) {
+    stage.eat = [&](Scene entering, Context& context) {
         const Part& part = entering.parts[0];
         CHECK(context.size_before(entering, 0).area == surface_size(part.mesh, part.transform).area);
         CHECK(context.size_before(entering, 1).volume == told.volume);
@@ -144,24 +154,24 @@ TEST_CASE("the size that a stage measured is what the next one finds, part by pa
         return entering;
     };
     Context second(*run.state, run.record, all, scene.bounds(), {});
-    scene = perform(stage, std::move(scene), nullptr, second, surfaces);
+    scene = perform(stage, std::move(scene), second, surfaces);
     CHECK_FALSE(surfaces->at(0).size);
 }
 
 TEST_CASE("relax and simplify leave the sizes that they measured", "[stages]") {
     for (const auto& [name, options] :
          {std::pair("relax", "{iterations: 1}"), std::pair("simplify", "{ratio: 50%}")}) {
-        const StageInfo& stage = test::stage_for_test(name);
         Problems problems;
         const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
-        const auto parsed = test::options_of(stage, pipeline::parse_yaml(source, problems), problems);
+        const auto stage =
+            test::use_of(test::stage_for_test(name), pipeline::parse_yaml(source, problems), problems);
         Scene scene = scene_of(shapes::icosphere(3));
         scene.parts[0].transform.m[1][1] = 2;
         test::StageRun run;
         const PartFilter all;
         Context context(*run.state, run.record, all, scene.bounds(), {});
         std::optional<std::vector<PartSurface>> surfaces;
-        scene = perform(stage, std::move(scene), parsed.get(), context, surfaces);
+        scene = perform(*stage, std::move(scene), context, surfaces);
         REQUIRE(surfaces);
         REQUIRE(surfaces->at(0).size);
         const SurfaceSize anew = surface_size(scene.parts[0].mesh, scene.parts[0].transform);

@@ -109,12 +109,11 @@ TEST_CASE("deviation is kept from another file, or from the scene as loaded", "[
     REQUIRE(a);
     for (std::size_t i = 0; i < a->size(); ++i) CHECK(a->value(i, 0) == Approx(0.5).epsilon(0.01));
     CHECK(r.state->record.inputs.size() == 1);
-    const auto& compares = test::stage_for_test("measure").compares_with_load;
     Problems problems;
     for (const auto& [options, expected] : {std::pair{"deviation", true}, {"area", false}}) {
-        const auto given = test::options_of(test::stage_for_test("measure"),
-                                            test::options({{"attributes", options}}), problems);
-        CHECK(compares(given.get()) == expected);
+        const auto given =
+            test::use_of(test::stage_for_test("measure"), test::options({{"attributes", options}}), problems);
+        CHECK(given->compares_with_load() == expected);
     }
     using test::problems_of;
     CHECK(problems_of("measure", test::options({{"attributes", "thickness"}}))

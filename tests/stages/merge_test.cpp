@@ -47,11 +47,11 @@ TEST_CASE("merge gives no part the name of another", "[stages]") {
     }
     const StageInfo& merge = test::stage_for_test("merge");
     Problems problems;
-    const auto options = test::options_of(merge, Value::scalar("leg"), problems);
+    const auto use = test::use_of(merge, Value::scalar("leg"), problems);
     test::StageRun run;
     const PartFilter some{{"part", "arm"}};
     Context context(*run.state, run.record, some, scene.bounds(), {});
-    const Scene merged = merge.run(std::move(scene), options.get(), context);
+    const Scene merged = use->run(std::move(scene), context);
     REQUIRE(merged.parts.size() == 2);
     CHECK(merged.parts[0].name == "leg_2");
 }

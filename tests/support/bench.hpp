@@ -19,15 +19,12 @@ struct Bench {
     }
 
     void run(const char* stage, Value given) {
-        const StageInfo& info = *stage_named(stage);
-        const auto options = info.make_options();
         Problems problems;
-        info.options->parse(given, options.get(), stage, problems);
-        if (info.verify) info.verify(options.get(), given, problems);
+        const auto use = use_of(stage_for_test(stage), given, problems);
         problems.throw_if_any(ErrorKind::usage);
         const PartFilter all;
         Context context(state, record, all, scene.bounds(), {});
-        scene = info.run(std::move(scene), options.get(), context);
+        scene = use->run(std::move(scene), context);
     }
 };
 

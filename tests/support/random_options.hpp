@@ -196,7 +196,7 @@ inline std::optional<Value> random_options(Draw& draw, const StageInfo& stage) {
         Value value = draw.once_in(6) && !stage.examples.empty() ? from_example(draw, stage)
                                                                  : from_declaration(draw, *stage.options);
         Problems problems;
-        options_of(stage, value, problems);
+        use_of(stage, value, problems);
         if (!problems.any_errors()) return value;
     }
     return {};

@@ -30,25 +30,24 @@ inline const StageInfo& stage_for_test(std::string_view name) {
     return *stage;
 }
 
-/// The stage's options as the value gives them; what is wrong with it goes to problems.
-inline auto options_of(const StageInfo& stage, const Value& value, Problems& problems) {
-    auto options = stage.make_options();
-    stage.options->parse(value, options.get(), stage.name, problems);
-    if (stage.verify && !problems.any_errors()) stage.verify(options.get(), value, problems);
-    return options;
+/// The stage with the options that the value gives; what is wrong with it goes to problems.
+inline std::shared_ptr<Stage> use_of(const StageInfo& info, const Value& value, Problems& problems) {
+    auto stage = info.made();
+    info.options->parse(value, stage->target(), info.name, problems);
+    if (!problems.any_errors()) stage->verify(value, problems);
+    return stage;
 }
 
 /// The problems of the options go out as one Error; so do the stage's.
 inline StageRun run_stage(const std::string& name, const Value& value, Scene scene) {
-    const StageInfo& stage = stage_for_test(name);
     Problems problems;
-    const auto options = options_of(stage, value, problems);
+    const auto stage = use_of(stage_for_test(name), value, problems);
     problems.throw_if_any(ErrorKind::usage);
     StageRun run;
     run.record.name = run.record.stage = name;
     const PartFilter all;
     Context context(*run.state, run.record, all, scene.bounds(), {});
-    run.scene = perform(stage, std::move(scene), options.get(), context);
+    run.scene = perform(*stage, std::move(scene), context);
     return run;
 }
 
@@ -66,7 +65,7 @@ inline StageRun run_stage(const std::string& name, const char* options, Scene sc
 /// The problems with the value, one per line: "E-RANGE message | hint".
 inline std::string problems_of(const std::string& name, const Value& value) {
     Problems problems;
-    options_of(stage_for_test(name), value, problems);
+    use_of(stage_for_test(name), value, problems);
     std::string text;
     for (const auto& d : problems.all())
         text += (text.empty() ? "" : "\n") + d.id + " " + d.message + (d.hint.empty() ? "" : " | " + d.hint);

@@ -158,12 +158,12 @@ inline Outcome run_chain(const Chain& chain, const std::filesystem::path& folder
         report::StageRecord record;
         record.name = record.stage = link.stage->name;
         Problems problems;
-        const auto options = options_of(*link.stage, link.value, problems);
+        const auto use = use_of(*link.stage, link.value, problems);
         const Scene before = scene;
         try {
             const PartFilter all;
             Context context(state, record, all, scene.bounds(), {});
-            scene = perform(*link.stage, std::move(scene), options.get(), context);
+            scene = perform(*use, std::move(scene), context);
         } catch (const Error& error) {
             outcome.told += link.stage->name + ": " + error.what() + "\n";
             if (is_finding(error)) outcome.wrong = link.stage->name + ": " + error.what();

@@ -41,9 +41,10 @@ Scene run_load(Scene scene, const LoadOptions& o, Context& context) {
         {context.places().input(o.file.text).string(), 1, std::string(64, '0'), {}});
     return scene;
 }
-StageFiles load_files(const LoadOptions& o) { return {{o.file}, {}}; }
-const RegisterStage load(make_stage<LoadOptions>(info("test-load", "Loads a cube", Sort::loads), declare_load,
-                                                 run_load, {.files = load_files}));
+struct LoadStage : StageOf<run_load> {
+    StageFiles files() const override { return {{o.file}, {}}; }
+};
+const RegisterStage load(make_stage<LoadStage>(info("test-load", "Loads a cube", Sort::loads), declare_load));
 
 // --- test-cut: options of many types; drops faces
 
@@ -90,8 +91,8 @@ Scene run_cut(Scene scene, const CutOptions& o, Context& context, CutReport& rep
     });
     return scene;
 }
-const RegisterStage cut(make_stage<CutOptions>(info("test-cut", "Drops faces"), declare_cut,
-                                               declare_cut_report, run_cut));
+const RegisterStage cut(make_stage<StageOf<run_cut>>(info("test-cut", "Drops faces"), declare_cut,
+                                                     declare_cut_report));
 
 // --- test-write: the names and faces of the parts, as text
 
@@ -109,10 +110,11 @@ Scene run_write(Scene scene, const WriteOptions& o, Context& context) {
     context.run().record.outputs.push_back({o.path.text, file.bytes, file.sha256, {}});
     return scene;
 }
-StageFiles write_files(const WriteOptions& o) { return {{}, {o.path}}; }
-const RegisterStage
-    write(make_stage<WriteOptions>(info("test-write", "Writes a list of parts", Sort::works, true),
-                                   declare_write, run_write, {.files = write_files}));
+struct WriteStage : StageOf<run_write> {
+    StageFiles files() const override { return {{}, {o.path}}; }
+};
+const RegisterStage write(
+    make_stage<WriteStage>(info("test-write", "Writes a list of parts", Sort::works, true), declare_write));
 
 // --- test-judge, test-warn, test-fail
 
@@ -133,8 +135,8 @@ Scene run_judge(Scene scene, const JudgeOptions& o, Context& context) {
     context.check(check);
     return scene;
 }
-const RegisterStage judge(make_stage<JudgeOptions>(info("test-judge", "Passes or not", Sort::checks),
-                                                   declare_judge, run_judge));
+const RegisterStage judge(make_stage<StageOf<run_judge>>(info("test-judge", "Passes or not", Sort::checks),
+                                                         declare_judge));
 
 struct WarnOptions {
     std::string id = "W-TEST";
@@ -144,7 +146,7 @@ Scene run_warn(Scene scene, const WarnOptions& o, Context& context) {
     context.warn(o.id, "this is only a test", "carry on");
     return scene;
 }
-const RegisterStage warn(make_stage<WarnOptions>(info("test-warn", "Warns"), declare_warn, run_warn));
+const RegisterStage warn(make_stage<StageOf<run_warn>>(info("test-warn", "Warns"), declare_warn));
 
 // --- test-unrepeatable: what it does may be otherwise the next time
 
@@ -154,9 +156,8 @@ Scene run_unrepeatable(Scene scene, const UnrepeatableOptions&, Context& context
     context.mark_uncacheable();
     return scene;
 }
-const RegisterStage unrepeatable(make_stage<UnrepeatableOptions>(
-    info("test-unrepeatable", "Tells that it may do something else the next time"), declare_unrepeatable,
-    run_unrepeatable));
+const RegisterStage unrepeatable(make_stage<StageOf<run_unrepeatable>>(
+    info("test-unrepeatable", "Tells that it may do something else the next time"), declare_unrepeatable));
 
 enum class How { error, memory, bug };
 struct FailOptions {
@@ -172,7 +173,7 @@ Scene run_fail(Scene, const FailOptions& o, Context&) {
     if (o.how == How::bug) throw std::runtime_error("index out of range");
     throw Error(ErrorKind::stage, "E-TEST", "this stage never works", "use another");
 }
-const RegisterStage fail(make_stage<FailOptions>(info("test-fail", "Fails"), declare_fail, run_fail));
+const RegisterStage fail(make_stage<StageOf<run_fail>>(info("test-fail", "Fails"), declare_fail));
 
 } // namespace
 

@@ -35,18 +35,25 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
     return scene;
 }
 
-std::optional<std::string> why_not_on_cells(const CleanOptions& o) {
-    return cells::why_not_in_cells(clean_steps_of(o));
-}
+struct CleanStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override { verify_clean(o, given, problems); }
+    /// Components and what lies inside others go as asked; a union takes what solids have in common.
+    MayLose may_lose() const override {
+        if (o.components || o.inner_components || o.open_components) return MayLose::area;
+        const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
+        return unites ? MayLose::half : MayLose::tenth;
+    }
+    /// What is done about intersecting faces is done for those that intersect themselves, too.
+    CrossingFacePolicy crossing_faces() const override {
+        return o.self_intersections == Untangle::off ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
+    }
+    void on_cells(CellFlow& flow, Context& context) const override;
+    std::optional<std::string> why_not_on_cells() const override {
+        return cells::why_not_in_cells(clean_steps_of(o));
+    }
+};
 
-/// Components and what lies inside others go as asked; a union takes what solids have in common.
-MayLose may_lose(const CleanOptions& o) {
-    if (o.components || o.inner_components || o.open_components) return MayLose::area;
-    const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
-    return unites ? MayLose::half : MayLose::tenth;
-}
-
-void run_on_cells(const CleanOptions& o, CellFlow& flow, Context& context) {
+void CleanStage::on_cells(CellFlow& flow, Context& context) const {
     const Scene outline = flow.outline();
     const Part& part = outline.parts.front();
     const std::size_t faces = flow.partition->faces();
@@ -57,17 +64,12 @@ void run_on_cells(const CleanOptions& o, CellFlow& flow, Context& context) {
     context.attribute_changes(part, r.changes);
     warn(part, r.not_done, context);
     const CleanReport report{{{part.name, r.counts, first_not_done(r.not_done, part.transform)}}};
-    context.report(fields_of<CleanReport>(declare_clean_report), &report);
+    context.report(*info->result, &report);
     warn_of_lost_surface({{part.name, faces, cleaned.area_before}},
-                         {{part.name, flow.partition->faces(), cleaned.area_after}}, may_lose(o), context);
+                         {{part.name, flow.partition->faces(), cleaned.area_after}}, may_lose(), context);
 }
 
-/// What is done about intersecting faces is done for those that intersect themselves, too.
-CrossingFacePolicy crossing_faces(const CleanOptions& o) {
-    return o.self_intersections == Untangle::off ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
-}
-
-const RegisterStage registered = make_stage<CleanOptions>(
+const RegisterStage registered = make_stage<CleanStage>(
     {.name = "clean",
      .about = help::clean::about,
      .details = help::clean::details,
@@ -76,12 +78,7 @@ const RegisterStage registered = make_stage<CleanOptions>(
                   "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"},
      .lines = LinesPolicy::pass,
      .crossing_faces = CrossingFacePolicy::fill},
-    declare_clean, declare_clean_report, run,
-    StageHooks<CleanOptions>{.verify = verify_clean,
-                             .may_lose = may_lose,
-                             .crossing_faces = crossing_faces,
-                             .on_cells = run_on_cells,
-                             .why_not_on_cells = why_not_on_cells});
+    declare_clean, declare_clean_report);
 
 } // namespace
 

@@ -91,19 +91,6 @@ std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& c
     return planes;
 }
 
-/// Adds E-PLANE and E-BOX for what is none.
-void verify(const ClipOptions& o, const Value& given, Problems& problems) {
-    const Value& planes = written(given, "planes");
-    if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
-    if (o.box) verify_box(*o.box, written(given, "box").mark, problems);
-    if (given.is_map() && given.find("planes") && planes.is_list() && planes.items.empty())
-        problems.add(planes.mark, "E-PLANE", "'planes' is empty", "for example planes: [z=0, x=centre]");
-    for (std::size_t i = 0; i < o.planes.size(); ++i) {
-        const bool listed = planes.is_list() && i < planes.items.size();
-        verify_plane(o.planes[i], listed ? planes.items[i].mark : given.mark, problems);
-    }
-}
-
 /// The planes to clip by, in a scene.
 class Cutter {
   public:
@@ -226,12 +213,6 @@ Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& repor
     return scene;
 }
 
-std::optional<std::string> why_not_on_cells(const ClipOptions& o) {
-    if (o.keep == Keep::both) return "keep: both makes nothing small";
-    if (o.space == Space::local) return "space: local needs the part in memory";
-    return {};
-}
-
 /// Faces of cells that a clip may keep or cut: others do not meet what it keeps, nor what it caps.
 class Reached {
   public:
@@ -285,8 +266,29 @@ void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
                 "move the plane a little, or give more memory");
 }
 
-/// Brings what the planes reach into memory, and clips that.
-void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
+struct ClipStage : StageOf<run> {
+    /// Adds E-PLANE and E-BOX for what is none.
+    void verify(const Value& given, Problems& problems) const override {
+        const Value& planes = written(given, "planes");
+        if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
+        if (o.box) verify_box(*o.box, written(given, "box").mark, problems);
+        if (given.is_map() && given.find("planes") && planes.is_list() && planes.items.empty())
+            problems.add(planes.mark, "E-PLANE", "'planes' is empty", "for example planes: [z=0, x=centre]");
+        for (std::size_t i = 0; i < o.planes.size(); ++i) {
+            const bool listed = planes.is_list() && i < planes.items.size();
+            verify_plane(o.planes[i], listed ? planes.items[i].mark : given.mark, problems);
+        }
+    }
+    /// Brings what the planes reach into memory, and clips that.
+    void on_cells(CellFlow& flow, Context& context) const override;
+    std::optional<std::string> why_not_on_cells() const override {
+        if (o.keep == Keep::both) return "keep: both makes nothing small";
+        if (o.space == Space::local) return "space: local needs the part in memory";
+        return {};
+    }
+};
+
+void ClipStage::on_cells(CellFlow& flow, Context& context) const {
     const PartsToClip how = parts_to_clip(o);
     Scene outline = flow.outline();
     const Scene world = world_outline(flow);
@@ -307,11 +309,11 @@ void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
     part.changed = true;
     const ClipReport report = clip_parts(scene, cutter, how, context);
     for (Part& clipped : scene.parts) drop_unused(clipped.mesh);
-    context.report(fields_of<ClipReport>(declare_report), &report);
+    context.report(*info->result, &report);
     flow.scene = std::move(scene);
 }
 
-const RegisterStage clip_stage = make_stage<ClipOptions>(
+const RegisterStage registered = make_stage<ClipStage>(
     {.name = "clip",
      .about = help::clip::about,
      .details = help::clip::details,
@@ -324,9 +326,7 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
      .may_lose = MayLose::all,
      .crossing_faces = CrossingFacePolicy::fill,
      .ends_cells = true},
-    declare, declare_report, run,
-    StageHooks<ClipOptions>{
-        .files = {}, .verify = verify, .on_cells = run_on_cells, .why_not_on_cells = why_not_on_cells});
+    declare, declare_report);
 
 } // namespace
 

@@ -37,14 +37,6 @@ void declare(Declare<CombineOptions>& d) {
     d.option("keep", &CombineOptions::keep, "Keeps the parts of `with` in the scene.");
 }
 
-void verify(const CombineOptions& o, const Value& given, Problems& problems) {
-    if (o.operation != Operation::unite && o.with.empty())
-        problems.add(given.mark, "E-MISSING",
-                     fmt::format("combine: {} needs the parts of 'with'",
-                                 o.operation == Operation::subtract ? "difference" : "intersection"),
-                     "combine: {operation: difference, with: drill}");
-}
-
 struct CombinedPart {
     std::string part;
     std::vector<std::string> with;
@@ -300,7 +292,17 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
     return scene;
 }
 
-const RegisterStage registered = make_stage<CombineOptions>(
+struct CombineStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        if (o.operation != Operation::unite && o.with.empty())
+            problems.add(given.mark, "E-MISSING",
+                         fmt::format("combine: {} needs the parts of 'with'",
+                                     o.operation == Operation::subtract ? "difference" : "intersection"),
+                         "combine: {operation: difference, with: drill}");
+    }
+};
+
+const RegisterStage registered = make_stage<CombineStage>(
     {.name = "combine",
      .about = help::combine::about,
      .details = help::combine::details,
@@ -308,7 +310,7 @@ const RegisterStage registered = make_stage<CombineOptions>(
                   "combine: {operation: intersection, with: [\"tool*\"], keep: true}"},
      .may_lose = MayLose::all,
      .crossing_faces = CrossingFacePolicy::fill},
-    declare, declare_report, run, {.verify = verify});
+    declare, declare_report);
 
 } // namespace
 

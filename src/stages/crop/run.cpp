@@ -274,26 +274,26 @@ Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& repor
     return scene;
 }
 
-void verify(const CropOptions& o, const Value& given, Problems& problems) {
-    const Value* footprint = given.is_map() ? given.find("footprint") : &given;
-    if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
-    if (o.cap && o.by != CropBy::cut)
-        add_refusal(Refusal{"cap", "'cap' needs a cut at the outline, and with whole faces there is none",
-                            "leave out cap, or use by: cut"},
-                    "crop", given, problems);
-}
+struct CropStage : StageOf<run> {
+    StageFiles files() const override {
+        if (o.footprint.path.empty()) return {};
+        return {{PathText{o.footprint.path}}, {}};
+    }
+    void verify(const Value& given, Problems& problems) const override {
+        const Value* footprint = given.is_map() ? given.find("footprint") : &given;
+        if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
+        if (o.cap && o.by != CropBy::cut)
+            add_refusal(Refusal{"cap", "'cap' needs a cut at the outline, and with whole faces there is none",
+                                "leave out cap, or use by: cut"},
+                        "crop", given, problems);
+    }
+    /// Faces that are kept whole stay as they are.
+    CrossingFacePolicy crossing_faces() const override {
+        return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
+    }
+};
 
-/// Faces that are kept whole stay as they are.
-CrossingFacePolicy crossing_faces(const CropOptions& o) {
-    return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
-}
-
-StageFiles files(const CropOptions& o) {
-    if (o.footprint.path.empty()) return {};
-    return {{PathText{o.footprint.path}}, {}};
-}
-
-const RegisterStage registered{make_stage<CropOptions>(
+const RegisterStage registered = make_stage<CropStage>(
     {.name = "crop",
      .about = help::crop::about,
      .details = help::crop::details,
@@ -304,8 +304,7 @@ const RegisterStage registered{make_stage<CropOptions>(
                   "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"},
      .may_lose = MayLose::all,
      .crossing_faces = CrossingFacePolicy::fill},
-    declare, declare_report, run,
-    StageHooks<CropOptions>{.files = files, .verify = verify, .crossing_faces = crossing_faces})};
+    declare, declare_report);
 
 } // namespace
 

@@ -99,7 +99,16 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
     return scene;
 }
 
-const RegisterStage registered = make_stage<CrumpleOptions>(
+struct CrumpleStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override { verify_crumple(o, given, problems); }
+    void on_cells(CellFlow& flow, Context& context) const override { crumple_on_cells(o, flow, context); }
+    std::optional<std::string> why_not_on_cells() const override {
+        return crumple_stage::why_not_on_cells(o);
+    }
+    double triangles_of_one() const override { return crumple_stage::triangles_of_one(o); }
+};
+
+const RegisterStage registered = make_stage<CrumpleStage>(
     {.name = "crumple",
      .about = help::crumple::about,
      .details = help::crumple::details,
@@ -107,11 +116,7 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
                   "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
-    declare_crumple, declare_crumple_report, run,
-    {.verify = verify_crumple,
-     .on_cells = crumple_on_cells,
-     .why_not_on_cells = why_not_on_cells,
-     .triangles_of_one = triangles_of_one});
+    declare_crumple, declare_crumple_report);
 
 } // namespace
 

@@ -32,12 +32,15 @@ Scene run(Scene scene, const EnsureOptions& o, Context& context) {
     return scene;
 }
 
-void verify(const EnsureOptions& o, const Value& given, Problems& problems) {
-    if (o.deviation) verify_deviation(*o.deviation, given.mark, problems);
-    verify_any(!o.assertions.all.empty() || o.deviation, given, "ensure", problems);
-}
+struct EnsureStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        if (o.deviation) verify_deviation(*o.deviation, given.mark, problems);
+        verify_any(!o.assertions.all.empty() || o.deviation, given, "ensure", problems);
+    }
+    bool compares_with_load() const override { return o.deviation.has_value(); }
+};
 
-const RegisterStage registered{make_stage<EnsureOptions>(
+const RegisterStage registered = make_stage<EnsureStage>(
     {.name = "ensure",
      .about = help::ensure::about,
      .details = help::ensure::details,
@@ -45,10 +48,7 @@ const RegisterStage registered{make_stage<EnsureOptions>(
                   "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
      .checks = true,
      .lines = LinesPolicy::work},
-    declare, run,
-    StageHooks<EnsureOptions>{.verify = verify, .compares_with_load = [](const EnsureOptions& o) {
-                                  return o.deviation.has_value();
-                              }})};
+    declare);
 
 } // namespace
 

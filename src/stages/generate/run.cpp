@@ -103,7 +103,13 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context, GenerateRepor
     return scene;
 }
 
-const RegisterStage registered = make_stage<GenerateOptions>(
+struct GenerateStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        verify_generate(o, given, problems);
+    }
+};
+
+const RegisterStage registered = make_stage<GenerateStage>(
     {.name = "generate",
      .about = help::generate::about,
      .details = help::generate::details,
@@ -112,7 +118,7 @@ const RegisterStage registered = make_stage<GenerateOptions>(
                   "generate: {shape: cylinder, radius: 5mm, height: 20mm, unit: mm}"},
      .loads = true,
      .roles = {.sets_unit = "unit"}},
-    declare_generate, declare_report, run, {.verify = verify_generate});
+    declare_generate, declare_report);
 
 } // namespace
 

@@ -71,15 +71,6 @@ void declare(Declare<LoadOptions>& d) {
         .between(3, 360);
 }
 
-void verify(const LoadOptions& o, const Value& given, Problems& problems) {
-    if (o.format.empty() || io::codec_named(o.format)) return;
-    const Value* value = given.is_map() ? given.find("format") : nullptr;
-    if (value && value->deferred) return;
-    problems.add(value ? value->mark : given.mark, "E-FORMAT",
-                 fmt::format("there is no format '{}'", o.format),
-                 suggestion(o.format, io::names_of_readers()));
-}
-
 io::ReadSettings read_settings(const LoadOptions& o, const Folders& places) {
     io::ReadSettings settings;
     settings.weld = o.weld;
@@ -130,14 +121,6 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
     return scene;
 }
 
-std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
-    if (o.lines) return "lines need the whole file";
-    if (!o.format.empty()) return "a file in cells is recognised by its contents";
-    if (o.expand_instances) return "instances need the whole file";
-    if (o.drop_not_finite) return "what is not finite is left out of a whole file";
-    return {};
-}
-
 /// What reading them whole tells of files that state another unit or up axis than is given, or no unit where
 /// others do.
 void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
@@ -153,8 +136,31 @@ void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const 
     }
 }
 
-/// As run, of files that do not fit into memory.
-void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
+struct LoadStage : StageOf<run> {
+    StageFiles files() const override { return {o.path, {}, o.asset_root}; }
+    void verify(const Value& given, Problems& problems) const override {
+        if (o.format.empty() || io::codec_named(o.format)) return;
+        const Value* value = given.is_map() ? given.find("format") : nullptr;
+        if (value && value->deferred) return;
+        problems.add(value ? value->mark : given.mark, "E-FORMAT",
+                     fmt::format("there is no format '{}'", o.format),
+                     suggestion(o.format, io::names_of_readers()));
+    }
+    io::FileHeader header(const std::filesystem::path& path, const Folders& places) const override {
+        return io::file_header(io::Input::open(path), read_settings(o, places), io::codec_named(o.format));
+    }
+    /// As run, of files that do not fit into memory.
+    void on_cells(CellFlow& flow, Context& context) const override;
+    std::optional<std::string> why_not_on_cells() const override {
+        if (o.lines) return "lines need the whole file";
+        if (!o.format.empty()) return "a file in cells is recognised by its contents";
+        if (o.expand_instances) return "instances need the whole file";
+        if (o.drop_not_finite) return "what is not finite is left out of a whole file";
+        return {};
+    }
+};
+
+void LoadStage::on_cells(CellFlow& flow, Context& context) const {
     std::vector<std::filesystem::path> paths;
     for (const PathText& text : o.path)
         for (auto& path : expand_glob(context.places().input(text.text))) paths.push_back(std::move(path));
@@ -200,13 +206,7 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     context.run().load_diagonal = diagonal(flow.bounds());
 }
 
-StageFiles files(const LoadOptions& o) { return {o.path, {}, o.asset_root}; }
-
-io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path, const Folders& places) {
-    return io::file_header(io::Input::open(path), read_settings(o, places), io::codec_named(o.format));
-}
-
-const RegisterStage registered{make_stage<LoadOptions>(
+const RegisterStage registered = make_stage<LoadStage>(
     {.name = "load",
      .about = help::load::about,
      .details = help::load::details,
@@ -215,12 +215,7 @@ const RegisterStage registered{make_stage<LoadOptions>(
                   "load: {path: models/lamp.gltf, asset_root: .}",
                   "load: {path: depth.ply, not_finite: drop}"},
      .loads = true},
-    declare, run,
-    StageHooks<LoadOptions>{.files = files,
-                            .verify = verify,
-                            .header = header,
-                            .on_cells = run_on_cells,
-                            .why_not_on_cells = why_not_on_cells})};
+    declare);
 
 } // namespace
 

@@ -83,21 +83,26 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context, MeasureReport&
     return scene;
 }
 
+struct MeasureStage : StageOf<run> {
+    StageFiles files() const override { return files_of_measure(o); }
+    void verify(const Value& given, Problems& problems) const override { verify_measure(o, given, problems); }
+    bool compares_with_load() const override { return is_from_load(o); }
+    void on_cells(CellFlow& flow, Context& context) const override { measure_on_cells(o, flow, context); }
+    std::optional<std::string> why_not_on_cells() const override {
+        return measure_stage::why_not_on_cells(o);
+    }
+};
+
 const RegisterStage registered =
-    make_stage<MeasureOptions>({.name = "measure",
-                                .about = help::measure::about,
-                                .details = help::measure::details,
-                                .examples = {"measure", "measure: {density: 7.85, path: part.json}",
-                                             "measure: {path: [all.json, faces.csv]}",
-                                             "measure: {attributes: [mean_curvature, wall_thickness]}"},
-                                .tells = true,
-                                .crossing_faces = CrossingFacePolicy::name},
-                               declare_measure, declare_measure_report, run,
-                               {.files = files_of_measure,
-                                .verify = verify_measure,
-                                .compares_with_load = is_from_load,
-                                .on_cells = measure_on_cells,
-                                .why_not_on_cells = why_not_on_cells});
+    make_stage<MeasureStage>({.name = "measure",
+                              .about = help::measure::about,
+                              .details = help::measure::details,
+                              .examples = {"measure", "measure: {density: 7.85, path: part.json}",
+                                           "measure: {path: [all.json, faces.csv]}",
+                                           "measure: {attributes: [mean_curvature, wall_thickness]}"},
+                              .tells = true,
+                              .crossing_faces = CrossingFacePolicy::name},
+                             declare_measure, declare_measure_report);
 
 } // namespace
 

@@ -87,12 +87,12 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
 }
 
 const RegisterStage registered =
-    make_stage<MergeOptions>({.name = "merge",
+    make_stage<StageOf<run>>({.name = "merge",
                               .about = help::merge::about,
                               .details = help::merge::details,
                               .examples = {"merge", "merge: body", "merge: {weld: true}"},
                               .lines = LinesPolicy::pass},
-                             declare, declare_report, run);
+                             declare, declare_report);
 
 } // namespace
 

@@ -517,7 +517,7 @@ Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeRepor
     return scene;
 }
 
-const RegisterStage registered = make_stage<OptimizeOptions>(
+const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "optimize",
      .about = help::optimize::about,
      .details = help::optimize::details,
@@ -525,7 +525,7 @@ const RegisterStage registered = make_stage<OptimizeOptions>(
                   "optimize: {palette: true, drop_attributes: true}", "optimize: {instance: true}"},
      .changes_images = true,
      .lines = LinesPolicy::pass},
-    declare, declare_report, run);
+    declare, declare_report);
 
 } // namespace
 

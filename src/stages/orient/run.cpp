@@ -101,13 +101,13 @@ Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientR
     return scene;
 }
 
-const RegisterStage registered = make_stage<OrientSettings>(
+const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "orient",
      .about = help::orient::about,
      .details = help::orient::details,
      .examples = {"orient", "orient: consistent", "orient: flip", "orient: {nested: solids}"},
      .lines = LinesPolicy::pass},
-    declare, declare_report, run);
+    declare, declare_report);
 
 } // namespace
 

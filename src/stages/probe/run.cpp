@@ -209,17 +209,22 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& rep
     return scene;
 }
 
-const RegisterStage registered = make_stage<ProbeOptions>(
-    {.name = "probe",
-     .about = help::probe::about,
-     .details = help::probe::details,
-     .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, path: answers.csv}",
-                  "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
-                  "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
-     .tells = true,
-     .leaves_points = true,
-     .crossing_faces = CrossingFacePolicy::name},
-    declare_probe, declare_probe_report, run, {.files = probe_files, .verify = verify_probe});
+struct ProbeStage : StageOf<run> {
+    StageFiles files() const override { return probe_files(o); }
+    void verify(const Value& given, Problems& problems) const override { verify_probe(o, given, problems); }
+};
+
+const RegisterStage registered =
+    make_stage<ProbeStage>({.name = "probe",
+                            .about = help::probe::about,
+                            .details = help::probe::details,
+                            .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, path: answers.csv}",
+                                         "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
+                                         "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
+                            .tells = true,
+                            .leaves_points = true,
+                            .crossing_faces = CrossingFacePolicy::name},
+                           declare_probe, declare_probe_report);
 
 } // namespace
 

@@ -92,18 +92,22 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
     return scene;
 }
 
-const RegisterStage registered = make_stage<RelaxOptions>(
-    {.name = "relax",
-     .about = help::relax::about,
-     .details = help::relax::details,
-     .examples = {"relax: 3", "relax: {iterations: 10, lambda: 0.5, boundary: slide}",
-                  "relax: {method: taubin, iterations: 20, feature_angle: 30deg}",
-                  "relax: {method: implicit, lambda: 20}",
-                  "relax: {until: 0.01%, mask: {material: \"skin*\"}}"},
-     .leaves_points = true,
-     .may_lose = MayLose::half,
-     .crossing_faces = CrossingFacePolicy::fill},
-    declare_relax, declare_report, run, {.verify = verify_relax});
+struct RelaxStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override { verify_relax(o, given, problems); }
+};
+
+const RegisterStage registered =
+    make_stage<RelaxStage>({.name = "relax",
+                            .about = help::relax::about,
+                            .details = help::relax::details,
+                            .examples = {"relax: 3", "relax: {iterations: 10, lambda: 0.5, boundary: slide}",
+                                         "relax: {method: taubin, iterations: 20, feature_angle: 30deg}",
+                                         "relax: {method: implicit, lambda: 20}",
+                                         "relax: {until: 0.01%, mask: {material: \"skin*\"}}"},
+                            .leaves_points = true,
+                            .may_lose = MayLose::half,
+                            .crossing_faces = CrossingFacePolicy::fill},
+                           declare_relax, declare_report);
 
 } // namespace
 

@@ -241,7 +241,17 @@ Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& r
     return scene;
 }
 
-const RegisterStage registered{make_stage<RenderOptions>(
+struct RenderStage : StageOf<run> {
+    StageFiles files() const override {
+        StageFiles files{{}, {o.path}};
+        if (o.with) files.inputs.push_back(*o.with);
+        return files;
+    }
+    void verify(const Value& given, Problems& problems) const override { verify_render(o, given, problems); }
+    bool compares_with_load() const override { return is_from_load(o); }
+};
+
+const RegisterStage registered = make_stage<RenderStage>(
     {.name = "render",
      .about = help::render::about,
      .details = help::render::details,
@@ -256,15 +266,7 @@ const RegisterStage registered{make_stage<RenderOptions>(
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes on: nothing is to be compared
      .crossing_faces = CrossingFacePolicy::name},
-    declare_render, declare_report, run,
-    StageHooks<RenderOptions>{.files =
-                                  [](const RenderOptions& o) {
-                                      StageFiles files{{}, {o.path}};
-                                      if (o.with) files.inputs.push_back(*o.with);
-                                      return files;
-                                  },
-                              .verify = verify_render,
-                              .compares_with_load = is_from_load})};
+    declare_render, declare_report);
 
 } // namespace
 

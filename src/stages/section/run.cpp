@@ -125,8 +125,14 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
     return scene;
 }
 
-/// Brings the faces that the planes cut into memory, and cuts those: a section needs no others.
-void run_on_cells(const SectionOptions& o, CellFlow& flow, Context& context) {
+struct SectionStage : StageOf<run> {
+    StageFiles files() const override { return StageFiles{{}, o.path}; }
+    void verify(const Value& given, Problems& problems) const override { verify_section(o, given, problems); }
+    /// Brings the faces that the planes cut into memory, and cuts those: a section needs no others.
+    void on_cells(CellFlow& flow, Context& context) const override;
+};
+
+void SectionStage::on_cells(CellFlow& flow, Context& context) const {
     const Scene world = world_outline(flow);
     const Plane plane = plane_for(o, world, context);
     const auto extent = [&] { return cells::extent_of_cells(*flow.partition, plane, flow.transform); };
@@ -140,11 +146,11 @@ void run_on_cells(const SectionOptions& o, CellFlow& flow, Context& context) {
     std::optional<double> volume;
     if (stack.spacing > 0) volume = cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
     const SectionReport report = report_of(drawing, stack.spacing, volume, context);
-    context.report(fields_of<SectionReport>(declare_section_report), &report);
+    context.report(*info->result, &report);
     write_drawings(o, *drawing, context);
 }
 
-const RegisterStage registered{make_stage<SectionOptions>(
+const RegisterStage registered = make_stage<SectionStage>(
     {.name = "section",
      .about = help::section::about,
      .details = help::section::details,
@@ -154,13 +160,7 @@ const RegisterStage registered{make_stage<SectionOptions>(
                   "section: {count: 20}"},
      .tells = true,
      .leaves_points = true},
-    declare_section, declare_section_report, run,
-    StageHooks<SectionOptions>{.files =
-                                   [](const SectionOptions& o) {
-                                       return StageFiles{{}, o.path};
-                                   },
-                               .verify = verify_section,
-                               .on_cells = run_on_cells})};
+    declare_section, declare_section_report);
 
 } // namespace
 

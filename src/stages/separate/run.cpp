@@ -75,13 +75,19 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
     return scene;
 }
 
-const RegisterStage registered = make_stage<SeparateOptions>(
+struct SeparateStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        verify_separate(o, given, problems);
+    }
+};
+
+const RegisterStage registered = make_stage<SeparateStage>(
     {.name = "separate",
      .about = help::separate::about,
      .details = help::separate::details,
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"},
      .lines = LinesPolicy::pass},
-    declare_separate, declare_report, run, {.verify = verify_separate});
+    declare_separate, declare_report);
 
 } // namespace
 

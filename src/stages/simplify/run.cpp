@@ -6,7 +6,17 @@ namespace facetmill::simplify_stage {
 
 namespace {
 
-const RegisterStage registered = make_stage<SimplifyOptions>(
+struct SimplifyStage : StageOf<simplify_parts> {
+    void verify(const Value& given, Problems& problems) const override {
+        verify_simplify(o, given, problems);
+    }
+    void on_cells(CellFlow& flow, Context& context) const override { simplify_on_cells(o, flow, context); }
+    std::optional<std::string> why_not_on_cells() const override {
+        return simplify_stage::why_not_on_cells(o);
+    }
+};
+
+const RegisterStage registered = make_stage<SimplifyStage>(
     {.name = "simplify",
      .about = help::simplify::about,
      .details = help::simplify::details,
@@ -19,8 +29,7 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill,
      .ends_cells = true},
-    declare_simplify, declare_simplify_report, simplify_parts,
-    {.verify = verify_simplify, .on_cells = simplify_on_cells, .why_not_on_cells = why_not_on_cells});
+    declare_simplify, declare_simplify_report);
 
 } // namespace
 

@@ -58,15 +58,20 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
     return scene;
 }
 
-/// Smooth methods approach a surface inside the corners of the first, however much that is.
-MayLose may_lose(const SplitOptions& o) { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
+struct SplitStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override { verify_split(o, given, problems); }
+    /// Smooth methods approach a surface inside the corners of the first, however much that is.
+    MayLose may_lose() const override { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
+    /// A grid takes faces of four corners at most, so that they cannot be filled.
+    CrossingFacePolicy crossing_faces() const override {
+        return o.chosen() == SplitMethod::grid ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
+    }
+    void on_cells(CellFlow& flow, Context& context) const override { split_on_cells(o, flow, context); }
+    std::optional<std::string> why_not_on_cells() const override { return split_stage::why_not_on_cells(o); }
+    double triangles_of_one() const override { return split_stage::triangles_of_one(o); }
+};
 
-/// A grid takes faces of four corners at most, so that they cannot be filled.
-CrossingFacePolicy crossing_faces(const SplitOptions& o) {
-    return o.chosen() == SplitMethod::grid ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
-}
-
-const RegisterStage split_stage = make_stage<SplitOptions>(
+const RegisterStage registered = make_stage<SplitStage>(
     {.name = "split",
      .about = help::split::about,
      .details = help::split::details,
@@ -75,13 +80,7 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
      .leaves_points = true,
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill},
-    declare_split, declare_split_report, run,
-    {.verify = verify_split,
-     .may_lose = may_lose,
-     .crossing_faces = crossing_faces,
-     .on_cells = split_on_cells,
-     .why_not_on_cells = why_not_on_cells,
-     .triangles_of_one = triangles_of_one});
+    declare_split, declare_split_report);
 
 } // namespace
 

@@ -208,7 +208,13 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
     return scene;
 }
 
-const RegisterStage registered = make_stage<TexturesOptions>(
+struct TexturesStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        verify_textures(o, given, problems);
+    }
+};
+
+const RegisterStage registered = make_stage<TexturesStage>(
     {.name = "textures",
      .about = help::textures::about,
      .details = help::textures::details,
@@ -218,7 +224,7 @@ const RegisterStage registered = make_stage<TexturesOptions>(
      .changes_images = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all}, // it touches no mesh: nothing is to be compared
-    declare_textures, declare_report, run, {.verify = verify_textures});
+    declare_textures, declare_report);
 
 } // namespace
 

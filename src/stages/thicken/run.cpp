@@ -94,21 +94,23 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
     return scene;
 }
 
-/// Of wires, only the edges count.
-CrossingFacePolicy crossing_faces(const ThickenOptions& o) {
-    return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
-}
+struct ThickenStage : StageOf<run> {
+    /// Of wires, only the edges count.
+    CrossingFacePolicy crossing_faces() const override {
+        return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
+    }
+};
 
-const RegisterStage registered = make_stage<ThickenOptions>(
-    {.name = "thicken",
-     .about = help::thicken::about,
-     .details = help::thicken::details,
-     .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
-                  "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
-     .leaves_points = true,
-     .may_lose = MayLose::area,
-     .crossing_faces = CrossingFacePolicy::fill},
-    declare_thicken, declare_thicken_report, run, {.crossing_faces = crossing_faces});
+const RegisterStage registered =
+    make_stage<ThickenStage>({.name = "thicken",
+                              .about = help::thicken::about,
+                              .details = help::thicken::details,
+                              .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
+                                           "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
+                              .leaves_points = true,
+                              .may_lose = MayLose::area,
+                              .crossing_faces = CrossingFacePolicy::fill},
+                             declare_thicken, declare_thicken_report);
 
 } // namespace
 

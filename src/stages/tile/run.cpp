@@ -43,33 +43,6 @@ void declare(Declare<TileOptions>& d) {
     declare_cap(d, &TileOptions::cap, &TileOptions::cap_material);
 }
 
-void verify(const TileOptions& o, const Value& given, Problems& problems) {
-    const auto axis = [&](char c) {
-        return std::string_view("xyz").find(c) != std::string_view::npos &&
-               std::count(o.axes.begin(), o.axes.end(), c) == 1;
-    };
-    if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
-        problems.add(mark_at(given, "axes"), "E-TILE",
-                     fmt::format("tile: 'axes' takes each of x, y, z at most once, found '{}'", o.axes),
-                     "for example axes: xy");
-    const Value* sizes = given.is_map() ? given.find("size") : &given;
-    if (o.size.empty())
-        problems.add(mark_at(given, "size"), "E-TILE", "tile: 'size' is an empty list",
-                     "give one size, or one for each axis");
-    for (const Length& size : o.size)
-        if (!(size.amount > 0) && !(sizes && sizes->deferred))
-            problems.add(mark_at(given, "size"), "E-TILE",
-                         fmt::format("tile: 'size' must be above 0, found {}", size.text));
-    if (o.size.size() > 1 && o.size.size() != o.axes.size())
-        problems.add(mark_at(given, "size"), "E-TILE",
-                     fmt::format("tile: {} sizes for {} axes", o.size.size(), o.axes.size()),
-                     "give one size, or one for each axis");
-    if (!o.origin.empty() && o.origin.size() != o.axes.size())
-        problems.add(mark_at(given, "origin"), "E-TILE",
-                     fmt::format("tile: {} origins for {} axes", o.origin.size(), o.axes.size()),
-                     "give one for each axis");
-}
-
 std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context& context) {
     std::vector<TileAxis> axes;
     for (std::size_t i = 0; i < o.axes.size(); ++i) {
@@ -180,14 +153,43 @@ Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& repor
     return tile_parts(std::move(scene), settings, o.cap_material, context, report);
 }
 
-const RegisterStage registered{make_stage<TileOptions>(
-    {.name = "tile",
-     .about = help::tile::about,
-     .details = help::tile::details,
-     .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
-                  "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"},
-     .crossing_faces = CrossingFacePolicy::fill},
-    declare, declare_report, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};
+struct TileStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        const auto axis = [&](char c) {
+            return std::string_view("xyz").find(c) != std::string_view::npos &&
+                   std::count(o.axes.begin(), o.axes.end(), c) == 1;
+        };
+        if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
+            problems.add(mark_at(given, "axes"), "E-TILE",
+                         fmt::format("tile: 'axes' takes each of x, y, z at most once, found '{}'", o.axes),
+                         "for example axes: xy");
+        const Value* sizes = given.is_map() ? given.find("size") : &given;
+        if (o.size.empty())
+            problems.add(mark_at(given, "size"), "E-TILE", "tile: 'size' is an empty list",
+                         "give one size, or one for each axis");
+        for (const Length& size : o.size)
+            if (!(size.amount > 0) && !(sizes && sizes->deferred))
+                problems.add(mark_at(given, "size"), "E-TILE",
+                             fmt::format("tile: 'size' must be above 0, found {}", size.text));
+        if (o.size.size() > 1 && o.size.size() != o.axes.size())
+            problems.add(mark_at(given, "size"), "E-TILE",
+                         fmt::format("tile: {} sizes for {} axes", o.size.size(), o.axes.size()),
+                         "give one size, or one for each axis");
+        if (!o.origin.empty() && o.origin.size() != o.axes.size())
+            problems.add(mark_at(given, "origin"), "E-TILE",
+                         fmt::format("tile: {} origins for {} axes", o.origin.size(), o.axes.size()),
+                         "give one for each axis");
+    }
+};
+
+const RegisterStage registered =
+    make_stage<TileStage>({.name = "tile",
+                           .about = help::tile::about,
+                           .details = help::tile::details,
+                           .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
+                                        "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"},
+                           .crossing_faces = CrossingFacePolicy::fill},
+                          declare, declare_report);
 
 } // namespace
 

@@ -137,23 +137,27 @@ Scene run(Scene scene, const TransformOptions& o, Context& context, TransformRep
     return scene;
 }
 
-std::optional<std::string> why_not_on_cells(const TransformOptions& o) {
-    if (o.bake) return "bake is for nodes, which cells have none of";
-    return {};
-}
+struct TransformStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override {
+        verify_transform(o, given, problems);
+    }
+    void on_cells(CellFlow& flow, Context& context) const override {
+        const auto box = [&](const Transform& t) { return cells::box_of_cells(*flow.partition, t); };
+        Scene outline = flow.outline();
+        const TransformReport report = Mover(outline, o, context, box).run();
+        flow.transform = outline.parts.front().transform;
+        flow.unit = outline.unit;
+        flow.up = outline.up;
+        flow.box = box(flow.transform);
+        context.report(*info->result, &report);
+    }
+    std::optional<std::string> why_not_on_cells() const override {
+        if (o.bake) return "bake is for nodes, which cells have none of";
+        return {};
+    }
+};
 
-void run_on_cells(const TransformOptions& o, CellFlow& flow, Context& context) {
-    const auto box = [&](const Transform& t) { return cells::box_of_cells(*flow.partition, t); };
-    Scene outline = flow.outline();
-    const TransformReport report = Mover(outline, o, context, box).run();
-    flow.transform = outline.parts.front().transform;
-    flow.unit = outline.unit;
-    flow.up = outline.up;
-    flow.box = box(flow.transform);
-    context.report(fields_of<TransformReport>(declare_transform_report), &report);
-}
-
-const RegisterStage registered = make_stage<TransformOptions>(
+const RegisterStage registered = make_stage<TransformStage>(
     {.name = "transform",
      .about = help::transform::about,
      .details = help::transform::details,
@@ -165,8 +169,7 @@ const RegisterStage registered = make_stage<TransformOptions>(
      .lines = LinesPolicy::work,
      .may_lose = MayLose::area,
      .roles = {.sets_unit = "unit"}},
-    declare_transform, declare_transform_report, run,
-    {.verify = verify_transform, .on_cells = run_on_cells, .why_not_on_cells = why_not_on_cells});
+    declare_transform, declare_transform_report);
 
 } // namespace
 

@@ -85,13 +85,13 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
     return scene;
 }
 
-const RegisterStage registered{make_stage<TriangulateOptions>(
+const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "triangulate",
      .about = help::triangulate::about,
      .details = help::triangulate::details,
      .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, feature_angle: 5deg}"},
      .lines = LinesPolicy::pass},
-    declare, declare_report, run)};
+    declare, declare_report);
 
 } // namespace
 

@@ -83,34 +83,33 @@ Scene run(Scene scene, const ValidateOptions& o, Context& context, ValidateRepor
     return scene;
 }
 
-void verify(const ValidateOptions& o, const Value& given, Problems& problems) {
-    if (o.update_baseline && !o.baseline)
-        problems.add(given.mark, "E-MISSING", "validate: update_baseline needs a file to write",
-                     "baseline: known.json");
-    if (o.mark) verify_failed_copy(o.mark->text, given, problems);
-}
+struct ValidateStage : StageOf<run> {
+    StageFiles files() const override {
+        StageFiles files;
+        if (o.baseline) (o.update_baseline ? files.outputs : files.inputs).push_back(*o.baseline);
+        files.evidence = o.mark;
+        return files;
+    }
+    void verify(const Value& given, Problems& problems) const override {
+        if (o.update_baseline && !o.baseline)
+            problems.add(given.mark, "E-MISSING", "validate: update_baseline needs a file to write",
+                         "baseline: known.json");
+        if (o.mark) verify_failed_copy(o.mark->text, given, problems);
+    }
+    void on_cells(CellFlow& flow, Context& context) const override {
+        judge_cells(profiled(o.assertions, o.profile, o.limits, context.where()), o.severity, flow, context);
+        const ValidateReport report;
+        context.report(*info->result, &report);
+    }
+    std::optional<std::string> why_not_on_cells() const override {
+        if (o.limits.any()) return "limits need the whole scene";
+        if (o.per == Per::component) return "per: component needs the whole mesh";
+        if (o.baseline || o.mark) return "baseline and mark look at places of the whole mesh";
+        return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));
+    }
+};
 
-std::optional<std::string> why_not_on_cells(const ValidateOptions& o) {
-    if (o.limits.any()) return "limits need the whole scene";
-    if (o.per == Per::component) return "per: component needs the whole mesh";
-    if (o.baseline || o.mark) return "baseline and mark look at places of the whole mesh";
-    return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));
-}
-
-void run_on_cells(const ValidateOptions& o, CellFlow& flow, Context& context) {
-    judge_cells(profiled(o.assertions, o.profile, o.limits, context.where()), o.severity, flow, context);
-    const ValidateReport report;
-    context.report(fields_of<ValidateReport>(declare_report), &report);
-}
-
-StageFiles files(const ValidateOptions& o) {
-    StageFiles files;
-    if (o.baseline) (o.update_baseline ? files.outputs : files.inputs).push_back(*o.baseline);
-    files.evidence = o.mark;
-    return files;
-}
-
-const RegisterStage registered{make_stage<ValidateOptions>(
+const RegisterStage registered = make_stage<ValidateStage>(
     {.name = "validate",
      .about = help::validate::about,
      .details = help::validate::details,
@@ -120,9 +119,7 @@ const RegisterStage registered{make_stage<ValidateOptions>(
      .checks = true,
      .lines = LinesPolicy::work,
      .roles = {.baseline = "baseline", .updates_baseline = "update_baseline"}},
-    declare, declare_report, run,
-    StageHooks<ValidateOptions>{
-        .files = files, .verify = verify, .on_cells = run_on_cells, .why_not_on_cells = why_not_on_cells})};
+    declare, declare_report);
 
 } // namespace
 

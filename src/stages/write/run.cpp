@@ -244,14 +244,20 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     return scene;
 }
 
-/// A file of polygons has them as they are.
-CrossingFacePolicy crossing_faces(const WriteOptions& o) {
-    const io::Codec* codec = codec_of(o);
-    return codec && (o.triangulate || !codec->can.polygons) ? CrossingFacePolicy::name
-                                                            : CrossingFacePolicy::keep;
-}
+struct WriteStage : StageOf<run> {
+    StageFiles files() const override { return files_of_write(o); }
+    void verify(const Value& given, Problems& problems) const override { verify_write(o, given, problems); }
+    /// A file of polygons has them as they are.
+    CrossingFacePolicy crossing_faces() const override {
+        const io::Codec* codec = codec_of(o);
+        return codec && (o.triangulate || !codec->can.polygons) ? CrossingFacePolicy::name
+                                                                : CrossingFacePolicy::keep;
+    }
+    void on_cells(CellFlow& flow, Context& context) const override { write_on_cells(o, flow, context); }
+    std::optional<std::string> why_not_on_cells() const override { return write_stage::why_not_on_cells(o); }
+};
 
-const RegisterStage registered = make_stage<WriteOptions>(
+const RegisterStage registered = make_stage<WriteStage>(
     {.name = "write",
      .about = help::write::about,
      .details = help::write::details,
@@ -264,12 +270,7 @@ const RegisterStage registered = make_stage<WriteOptions>(
      .may_lose = MayLose::all, // the scene passes on: nothing is to be compared
      .crossing_faces = CrossingFacePolicy::name,
      .roles = {.writes_in_unit = "unit"}},
-    declare_write, declare_write_report, run,
-    {.files = files_of_write,
-     .verify = verify_write,
-     .crossing_faces = crossing_faces,
-     .on_cells = write_on_cells,
-     .why_not_on_cells = why_not_on_cells});
+    declare_write, declare_write_report);
 
 } // namespace
 

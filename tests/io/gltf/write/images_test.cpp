@@ -127,15 +127,14 @@ TEST_CASE("an image that would replace another output of the run is an error", "
     put_asset(dir / "red", red_png());
     RunState state;
     state.outputs.add(dir / "out/maps/lamp.wood grain.png", bytes_of("not an image"));
-    const StageInfo& stage = stage_for_test("write");
     Problems problems;
     const Value value = Value::scalar((dir / "out/lamp.gltf").string());
-    const auto options = options_of(stage, value, problems);
+    const auto stage = use_of(stage_for_test("write"), value, problems);
     report::StageRecord record;
     const PartFilter all;
     const Scene scene = load(dir / "red/a.gltf");
     Context context(state, record, all, scene.bounds(), {});
-    CHECK(failure([&] { perform(stage, scene, options.get(), context); }).find("[E-DUPLICATE-OUTPUT]") !=
+    CHECK(failure([&] { perform(*stage, scene, context); }).find("[E-DUPLICATE-OUTPUT]") !=
           std::string::npos);
 }
 
