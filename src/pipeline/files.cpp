@@ -210,6 +210,20 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     return good;
 }
 
+void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& problems) {
+    auto files = planned_files(plan.steps, plan.places);
+    files.insert(files.end(), plan.others.begin(), plan.others.end());
+    for (const auto& arm : arms) {
+        auto inner = planned_files(*arm.steps, plan.places);
+        for (auto& file : inner) {
+            const bool is_known = std::any_of(
+                files.begin(), files.end(), [&](const auto& f) { return !f.written && f.path == file.path; });
+            if (file.written || !is_known) files.push_back(std::move(file));
+        }
+    }
+    check_collisions(files, problems);
+}
+
 namespace {
 
 /// The files that are read and not there.

@@ -1,4 +1,4 @@
-#include "pipeline/page_failures.hpp"
+#include "report/page_failures.hpp"
 #include "support/catch.hpp"
 
 #include "mesh/shapes.hpp"
