@@ -22,19 +22,12 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
-#include <sys/resource.h>
 
 namespace facetmill::pipeline {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-std::size_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 int count_stages(const Steps& steps) {
     int count = 0;

@@ -47,13 +47,13 @@ constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446; // on 
 
 constexpr std::uint64_t right(int bit) { return std::uint64_t{1} << bit; }
 constexpr std::uint64_t run_file = right(0), write_file = right(1), read_file = right(2),
-                        read_folder = right(3), remove_folder = right(4), remove_file = right(5),
-                        make_folder = right(7), make_file = right(8), truncate_file = right(14);
+                        read_folder = right(3), remove_folders = right(4), remove_files = right(5),
+                        make_folders = right(7), make_files = right(8), truncate_file = right(14);
 /// Those that a rule for a file, and not a folder, may give.
 constexpr std::uint64_t of_a_file = run_file | write_file | read_file | truncate_file;
 constexpr std::uint64_t reading = read_file | read_folder;
 constexpr std::uint64_t writing =
-    reading | write_file | truncate_file | make_folder | make_file | remove_folder | remove_file;
+    reading | write_file | truncate_file | make_folders | make_files | remove_folders | remove_files;
 
 struct Ruleset {
     std::uint64_t files, network, scopes;
@@ -302,7 +302,7 @@ bool confine_files(const AllowedFiles& allowed) {
     std::set<fs::path> written;
     for (const auto& path : allowed.written) written.insert(nearest_existing(path));
     for (const auto& path : written) rules.allow(path, writing);
-    for (const auto& path : allowed.folders_made) rules.allow(path, make_folder | remove_folder);
+    for (const auto& path : allowed.folders_made) rules.allow(path, make_folders | remove_folders);
     if (!rules.enforce()) return false;
     files_version = version;
     return true;
