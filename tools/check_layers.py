@@ -72,6 +72,7 @@ LIBRARIES = {
     "boost": ["src/geometry/cgal/"],
     "gmpxx.h": ["src/base/math/exact_integer.hpp"],
     "OpenMesh": ["src/geometry/openmesh/"],
+    "seccomp.h": ["src/platform/sandbox.cpp"],
     "nettle": ["src/base/", "src/platform/"],
     "zlib.h": ["src/io/"],
     "zstd.h": ["src/io/packing.cpp"],

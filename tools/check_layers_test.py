@@ -134,7 +134,7 @@ class CheckLayers(unittest.TestCase):
 
     def test_libraries(self):
         for library, header in (("cgal", "CGAL/Surface_mesh.h"), ("openmesh", "OpenMesh/Core/Mesh.hh"),
-                                ("", "nettle/sha2.h"), ("", "meshoptimizer.h"), ("", "png.h"), ("", "jpeglib.h"),
+                                ("", "seccomp.h"), ("", "nettle/sha2.h"), ("", "meshoptimizer.h"), ("", "png.h"), ("", "jpeglib.h"),
                                 ("", "webp/decode.h"), ("", "yaml-cpp/yaml.h"), ("", "CLI/CLI.hpp"), ("", "zlib.h"),
                                 ("", "tiny_gltf.h"), ("", "draco/core/decoder.h"), ("", "gmpxx.h")):
             with self.subTest(header):
