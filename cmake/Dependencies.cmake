@@ -13,6 +13,7 @@ find_package(JPEG REQUIRED)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(NETTLE REQUIRED IMPORTED_TARGET nettle)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(SECCOMP REQUIRED IMPORTED_TARGET libseccomp)
 find_package(EXPAT REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(CGAL REQUIRED)
@@ -26,7 +27,7 @@ find_library(DRACO_LIBRARY draco REQUIRED)
 add_library(facetmill_dependencies INTERFACE)
 target_link_libraries(facetmill_dependencies INTERFACE
   Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json yaml-cpp CLI11::CLI11 Eigen3::Eigen PkgConfig::NETTLE
-  ZLIB::ZLIB PNG::PNG JPEG::JPEG PkgConfig::WEBP PkgConfig::ZSTD EXPAT::EXPAT
+  ZLIB::ZLIB PNG::PNG JPEG::JPEG PkgConfig::WEBP PkgConfig::ZSTD EXPAT::EXPAT PkgConfig::SECCOMP
   meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})
 

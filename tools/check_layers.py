@@ -72,6 +72,7 @@ LIBRARIES = {
     "boost": ["src/geometry/cgal/"],
     "gmpxx.h": ["src/base/math/exact_integer.hpp"],
     "OpenMesh": ["src/geometry/openmesh/"],
+    "seccomp.h": ["src/platform/sandbox.cpp"],
     "nettle": ["src/base/", "src/platform/"],
     "zlib.h": ["src/io/"],
     "zstd.h": ["src/io/packing.cpp"],
@@ -81,8 +82,13 @@ LIBRARIES = {
     "webp": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
 }
 
-# Libraries that are met anywhere, and folders of the system's headers.
-ANYWHERE = {"fmt", "nlohmann", "tbb", "Eigen", "sys", "linux", "netinet"}
+# Libraries that are met anywhere.
+ANYWHERE = {"fmt", "nlohmann", "tbb", "Eigen"}
+
+# Headers of the operating system, or their folders: only src/platform/ may include them.
+SYSTEM = {"arpa", "asm", "csignal", "dirent.h", "dlfcn.h", "elf.h", "fcntl.h", "glob.h", "grp.h", "link.h", "linux", "malloc.h",
+          "net", "netdb.h", "netinet", "poll.h", "pthread.h", "pwd.h", "sched.h", "semaphore.h", "signal.h", "spawn.h", "sys",
+          "syslog.h", "termios.h", "ucontext.h", "unistd.h", "utime.h"}
 
 # The version of a library is no use of it: these headers hold only macros.
 VERSION_HEADERS = {"CGAL/version.h", "CLI/Version.hpp", "draco/core/draco_version.h", "OpenMesh/Core/System/config.h"}
@@ -259,7 +265,10 @@ class Tree:
         top = header.split("/")[0]
         if header in VERSION_HEADERS:
             return
-        if top in LIBRARIES:
+        if top in SYSTEM:
+            if not name.startswith("src/platform/"):
+                yield f"{header} is of the operating system, whose calls go through src/platform/"
+        elif top in LIBRARIES:
             if not any(name.startswith(place) for place in LIBRARIES[top]):
                 yield f"{header} may be included only in {', '.join(LIBRARIES[top])}"
         elif "/" in header and top not in ANYWHERE:

@@ -134,13 +134,19 @@ class CheckLayers(unittest.TestCase):
 
     def test_libraries(self):
         for library, header in (("cgal", "CGAL/Surface_mesh.h"), ("openmesh", "OpenMesh/Core/Mesh.hh"),
-                                ("", "nettle/sha2.h"), ("", "meshoptimizer.h"), ("", "png.h"), ("", "jpeglib.h"),
+                                ("", "seccomp.h"), ("", "nettle/sha2.h"), ("", "meshoptimizer.h"), ("", "png.h"), ("", "jpeglib.h"),
                                 ("", "webp/decode.h"), ("", "yaml-cpp/yaml.h"), ("", "CLI/CLI.hpp"), ("", "zlib.h"),
                                 ("", "tiny_gltf.h"), ("", "draco/core/decoder.h"), ("", "gmpxx.h")):
             with self.subTest(header):
                 self.adds("src/geometry/clip/clip.cpp", f"#include <{header}>\n", "may be included only in")
         self.adds("src/io/bytes.cpp", "#include <mystery/all.hpp>\n", "of a library that")
-        self.assertEqual(self.problems(files={"src/io/bytes.cpp": "#include <CGAL/version.h>\n#include <sys/stat.h>\n"}), [])
+        self.assertEqual(self.problems(files={"src/io/bytes.cpp": "#include <CGAL/version.h>\n"}), [])
+
+    def test_headers_of_the_system(self):
+        for header in ("unistd.h", "fcntl.h", "sys/stat.h", "linux/seccomp.h", "csignal", "signal.h", "poll.h"):
+            with self.subTest(header):
+                self.adds("src/io/bytes.cpp", f"#include <{header}>\n", "go through src/platform/")
+        self.assertEqual(self.problems(files={"src/io/bytes.cpp": "#include <cerrno>\n"}), [])
 
     def test_exceptions_that_are_none(self):
         self.finds("gone.hpp of PUBLIC does not exist", PUBLIC={**PUBLIC, "geometry/clip/gone.hpp": ""})

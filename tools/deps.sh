@@ -9,7 +9,7 @@ set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
     libcli11-dev libfmt-dev libgmp-dev libtbb-dev libeigen3-dev libopenmesh-dev nettle-dev zlib1g-dev libzstd-dev libexpat1-dev
-    libpng-dev libjpeg-dev libwebp-dev"
+    libseccomp-dev libpng-dev libjpeg-dev libwebp-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"

@@ -1,13 +1,11 @@
 #include "batch/jobserver.hpp"
 
 #include "base/math/numbers.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/file_status.hpp"
 
-#include <cerrno>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sstream>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace facetmill::batch {
 
@@ -24,12 +22,16 @@ std::string auth_in(const std::string& makeflags) {
 }
 
 /// A description of its own, so that not waiting for a token is nobody else's affair.
-int reopened(const std::string& descriptor, int mode) {
+Descriptor reopened(const std::string& descriptor, OpenFor what) {
     const auto number = parse_integer(descriptor);
-    if (!number || *number < 0) return -1;
-    struct stat about {};
-    if (::fstat(static_cast<int>(*number), &about) != 0 || !S_ISFIFO(about.st_mode)) return -1;
-    return ::open(fmt::format("/proc/self/fd/{}", *number).c_str(), mode | O_NONBLOCK | O_CLOEXEC);
+    if (!number || *number < 0) return {};
+    const auto about = status_of(Descriptor::borrowed(static_cast<int>(*number)));
+    if (!about || about->kind != FileKind::pipe) return {};
+    return open_file(fmt::format("/proc/self/fd/{}", *number), {.what = what, .waits = false});
+}
+
+void give_back(const Descriptor& out, char token) {
+    [[maybe_unused]] const auto written = write_some(out, std::as_bytes(std::span(&token, 1)));
 }
 
 } // namespace
@@ -41,33 +43,24 @@ std::string jobserver_file(const std::string& makeflags) {
 
 std::unique_ptr<Jobserver> Jobserver::offered(const std::string& makeflags) {
     const std::string auth = auth_in(makeflags), fifo = jobserver_file(makeflags);
-    int in = -1, out = -1;
+    Descriptor in, out;
     if (!fifo.empty()) {
         // For both at once, since a FIFO without a reader cannot be opened to write.
-        in = ::open(fifo.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-        out = in < 0 ? -1 : ::dup(in);
+        in = open_file(fifo, {.what = OpenFor::both, .waits = false});
+        if (in) out = duplicate(in);
     } else if (const auto comma = auth.find(','); comma != auth.npos) {
-        in = reopened(auth.substr(0, comma), O_RDONLY);
-        out = reopened(auth.substr(comma + 1), O_WRONLY);
+        in = reopened(auth.substr(0, comma), OpenFor::reading);
+        out = reopened(auth.substr(comma + 1), OpenFor::writing);
     }
-    if (in >= 0 && out >= 0) return std::unique_ptr<Jobserver>(new Jobserver(in, out));
-    if (in >= 0) ::close(in);
-    if (out >= 0) ::close(out);
-    return {};
+    if (!in || !out) return {};
+    return std::unique_ptr<Jobserver>(new Jobserver(std::move(in), std::move(out)));
 }
 
-Jobserver::~Jobserver() {
-    give_all();
-    ::close(in_);
-    ::close(out_);
-}
+Jobserver::~Jobserver() { give_all(); }
 
 bool Jobserver::take() {
     char token = 0;
-    ssize_t n = 0;
-    do n = ::read(in_, &token, 1);
-    while (n < 0 && errno == EINTR);
-    if (n != 1) return false;
+    if (read_some(in_, std::as_writable_bytes(std::span(&token, 1))) != 1) return false;
     const std::lock_guard lock(guard_);
     tokens_ += token;
     return true;
@@ -76,16 +69,14 @@ bool Jobserver::take() {
 void Jobserver::give() {
     const std::lock_guard lock(guard_);
     if (tokens_.empty()) return;
-    while (::write(out_, &tokens_.back(), 1) < 0 && errno == EINTR) {
-    }
+    give_back(out_, tokens_.back());
     tokens_.pop_back();
 }
 
 void Jobserver::give_all() {
     const std::lock_guard lock(guard_);
     while (!tokens_.empty()) {
-        while (::write(out_, &tokens_.back(), 1) < 0 && errno == EINTR) {
-        }
+        give_back(out_, tokens_.back());
         tokens_.pop_back();
     }
 }

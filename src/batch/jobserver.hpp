@@ -2,6 +2,8 @@
 // The jobserver of GNU make: tokens shared by all that a make runs, one for each job beyond a program's
 // first.
 
+#include "platform/descriptor.hpp"
+
 #include <memory>
 #include <mutex>
 #include <string>
@@ -23,8 +25,8 @@ class Jobserver {
     void give_all();
 
   private:
-    Jobserver(int in, int out) : in_(in), out_(out) {}
-    int in_, out_;
+    Jobserver(Descriptor in, Descriptor out) : in_(std::move(in)), out_(std::move(out)) {}
+    Descriptor in_, out_;
     std::mutex guard_;
     std::string tokens_; ///< what was taken: a token goes back as it was
 };

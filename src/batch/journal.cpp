@@ -4,16 +4,15 @@
 #include "base/json.hpp"
 #include "io/bytes.hpp"
 #include "io/outputs/outputs.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/file_lock.hpp"
+#include "platform/file_names.hpp"
+#include "platform/file_status.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace facetmill::batch {
 
@@ -21,10 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t nanoseconds = 1'000'000'000;
 constexpr std::string_view prefix = ".facetmill-batch.", suffix = ".jsonl";
-
-std::int64_t in_nanoseconds(const timespec& time) { return time.tv_sec * nanoseconds + time.tv_nsec; }
 
 Json stamps_json(const std::vector<Stamp>& stamps) {
     Json all = Json::array();
@@ -108,15 +104,13 @@ bool is_as_it_was(const fs::path& file, Stamp& stamp, bool& renewed) {
 } // namespace
 
 std::optional<Stamp> stamp_of(const fs::path& file) {
-    struct stat about {};
-    if (::stat(file.c_str(), &about) != 0 || !S_ISREG(about.st_mode)) return {};
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
+    const auto about = status_of(file);
+    if (!about || about->kind != FileKind::regular) return {};
     // Kernels count the times of files in ticks of up to 10 ms, some file systems in steps of 2 s.
-    constexpr std::int64_t recent = 2 * nanoseconds;
-    const std::int64_t time = in_nanoseconds(about.st_mtim);
-    const bool settled = in_nanoseconds(now) - time > recent;
-    return Stamp{file.string(), static_cast<std::uint64_t>(about.st_size), settled ? time : 0, {}};
+    constexpr std::int64_t recent = 2'000'000'000;
+    const std::int64_t time = about->stamp.modified;
+    const bool settled = nanoseconds_now() - time > recent;
+    return Stamp{file.string(), about->stamp.bytes, settled ? time : 0, {}};
 }
 
 fs::path Journal::path_in(const fs::path& folder, const std::string& name) {
@@ -152,29 +146,20 @@ Journal::Journal(const fs::path& folder, const std::string& name)
     read();
 }
 
-Journal::~Journal() {
-    if (fd_ >= 0) ::close(fd_);
-}
-
 void Journal::open_locked() {
     while (true) {
-        fd_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-        if (fd_ < 0)
+        file_ = open_file(path_, {.what = OpenFor::both, .create = Create::if_missing, .appends = true});
+        if (!file_)
             throw Error(ErrorKind::output, "E-WRITE",
                         fmt::format("'{}' cannot be written: {}", path_.string(), std::strerror(errno)),
                         "a batch notes there what is done; --output-dir names another folder");
-        if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
-            ::close(std::exchange(fd_, -1));
+        if (!try_lock(file_))
             throw Error(ErrorKind::output, "E-BUSY",
                         fmt::format("another batch of this pipeline is at work in '{}'", folder_.string()),
                         "wait for its end, or write elsewhere with --output-dir");
-        }
-        struct stat held {
-        }, named{};
-        ::fstat(fd_, &held);
-        if (::stat(path_.c_str(), &named) == 0 && held.st_ino == named.st_ino && held.st_dev == named.st_dev)
-            return;
-        ::close(fd_); // a batch that just ended wrote it anew
+        const auto held = FileStamp::of(file_), named = FileStamp::of(path_);
+        if (held && named && held->is_same_file(*named)) return;
+        file_.close(); // a batch that just ended wrote it anew
     }
 }
 
@@ -182,8 +167,7 @@ void Journal::read() {
     const auto input = io::Input::open(path_);
     const std::string_view text = io::as_text(input.bytes());
     for_each_done(text, [&](Done done) { all_.insert_or_assign(done.asset, std::move(done)); });
-    if (!text.empty() && !text.ends_with('\n')) [[maybe_unused]]
-        const auto ended = ::write(fd_, "\n", 1);
+    if (!text.empty() && !text.ends_with('\n')) static_cast<void>(write_some(file_, io::bytes_of_text("\n")));
 }
 
 std::set<std::string> Journal::outputs_of_others() const {
@@ -241,10 +225,10 @@ std::optional<Diagnostic> Journal::add(Done done) {
     } catch (const Json::exception&) {
         return {}; // a name that is not UTF-8: it will be done again
     }
-    const ssize_t n = ::write(fd_, line.data(), line.size());
-    const int error = n < 0 ? errno : ENOSPC;
+    const auto n = write_some(file_, std::as_bytes(std::span(line)));
+    const int error = n ? ENOSPC : errno;
     all_.insert_or_assign(done.asset, std::move(done));
-    if (n == static_cast<ssize_t>(line.size())) return {};
+    if (n == line.size()) return {};
     return unwritable(error);
 }
 
@@ -294,17 +278,18 @@ std::optional<Diagnostic> Journal::compact() {
         }
     }
     const fs::path part = path_.string() + ".part";
-    const int fd = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-    if (fd < 0) return unwritable(errno);
-    ::flock(fd, LOCK_EX | LOCK_NB); // nobody else has a name for it
-    const ssize_t n = ::write(fd, text.data(), text.size());
-    if (n != static_cast<ssize_t>(text.size()) || ::rename(part.c_str(), path_.c_str()) != 0) {
-        const int error = n < 0 ? errno : ENOSPC;
-        ::close(fd);
-        ::unlink(part.c_str());
+    Descriptor file = open_file(
+        part, {.what = OpenFor::both, .create = Create::if_missing, .truncates = true, .appends = true});
+    if (!file) return unwritable(errno);
+    try_lock(file); // nobody else has a name for it
+    const auto n = write_some(file, std::as_bytes(std::span(text)));
+    if (n != text.size() || !rename_file(part, path_)) {
+        const int error = n ? ENOSPC : errno;
+        file.close();
+        remove_file(part);
         return unwritable(error);
     }
-    ::close(std::exchange(fd_, fd));
+    file_ = std::move(file);
     return {};
 }
 

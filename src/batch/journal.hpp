@@ -2,6 +2,7 @@
 // What batches have done in an output folder, so that the next one leaves alone whatever has not changed.
 
 #include "base/error.hpp"
+#include "platform/descriptor.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -48,7 +49,6 @@ class Journal {
   public:
     /// name: of the pipeline. Makes the folder. Throws output: E-BUSY when another batch holds it, E-WRITE.
     Journal(const std::filesystem::path& folder, const std::string& name);
-    ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
@@ -83,7 +83,7 @@ class Journal {
     bool remove_output(const std::string& path, const std::string& sha256);
 
     std::filesystem::path folder_, path_;
-    int fd_ = -1;
+    Descriptor file_; ///< locked
     bool told_ = false;
     std::map<std::string, Done> all_;
 };

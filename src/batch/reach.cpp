@@ -1,7 +1,6 @@
 #include "batch/reach.hpp"
 
-#include <optional>
-#include <sys/stat.h>
+#include "platform/file_status.hpp"
 
 namespace facetmill::batch {
 
@@ -9,10 +8,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::optional<dev_t> device_of(const fs::path& path) {
-    struct stat about {};
-    if (::stat(path.c_str(), &about) != 0) return {};
-    return about.st_dev;
+std::optional<std::uint64_t> device_of(const fs::path& path) {
+    const auto about = FileStamp::of(path);
+    return about ? std::optional(about->device) : std::nullopt;
 }
 
 bool is_mount_point(const fs::path& folder) {

@@ -4,7 +4,6 @@
 #include "base/out_of_memory.hpp"
 #include "base/stopwatch.hpp"
 #include "batch/batch.hpp"
-#include "batch/interrupts.hpp"
 #include "batch/jobserver.hpp"
 #include "batch/journal.hpp"
 #include "batch/pool.hpp"
@@ -14,6 +13,8 @@
 #include "parallel/memory.hpp"
 #include "parallel/parallel.hpp"
 #include "platform/cores.hpp"
+#include "platform/interrupts.hpp"
+#include "platform/temporary_files.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -102,7 +103,7 @@ class BatchRun {
                 }
                 finish(i, kept_outcome(*keeping[i]), nullptr);
             }
-        for (const auto& folder : folders) io::remove_abandoned(folder);
+        for (const auto& folder : folders) remove_abandoned(folder);
         const PoolSettings pool{summary_.jobs, memory(), tokens_.get()};
         Pool(pool, std::move(jobs), [this](const Job& job, const auto& beside) {
             return work(job, beside);

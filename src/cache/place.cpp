@@ -2,12 +2,11 @@
 
 #include "base/error.hpp"
 #include "options/byte_count.hpp"
+#include "platform/file_status.hpp"
 
 #include <cerrno>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace facetmill::cache {
 
@@ -22,14 +21,13 @@ std::string variable(const char* name) {
 
 /// Of this user, or not there yet.
 bool is_own_or_missing(const fs::path& folder) {
-    struct stat about {};
-    if (::stat(folder.c_str(), &about) == 0) return about.st_uid == ::geteuid();
-    return errno == ENOENT;
+    const auto about = status_of(folder);
+    return about ? about->is_own() : errno == ENOENT;
 }
 
 bool is_own(const fs::path& folder) {
-    struct stat about {};
-    return ::stat(folder.c_str(), &about) == 0 && about.st_uid == ::geteuid();
+    const auto about = status_of(folder);
+    return about && about->is_own();
 }
 
 } // namespace

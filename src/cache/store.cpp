@@ -4,18 +4,19 @@
 #include "base/text/readable_numbers.hpp"
 #include "io/outputs/clean_up.hpp"
 #include "io/outputs/output_files.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/file_names.hpp"
+#include "platform/file_status.hpp"
+#include "platform/free_space.hpp"
 #include "platform/nearest_existing.hpp"
+#include "platform/temporary_files.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <limits>
-#include <sys/stat.h>
-#include <sys/statvfs.h>
-#include <unistd.h>
 
 namespace facetmill::cache {
 
@@ -57,16 +58,10 @@ void for_each_file(const fs::path& folder, Take&& take) {
         std::error_code inner;
         for (fs::directory_iterator file(it->path(), inner), last; !inner && file != last;
              file.increment(inner)) {
-            struct stat about {};
-            if (::lstat(file->path().c_str(), &about) == 0 && S_ISREG(about.st_mode))
-                take(file->path(), about);
+            const auto about = status_of_link(file->path());
+            if (about && about->kind == FileKind::regular) take(file->path(), about->stamp);
         }
     }
-}
-
-std::int64_t nanoseconds_of(const timespec& time) {
-    constexpr std::int64_t in_a_second = 1'000'000'000;
-    return time.tv_sec * in_a_second + time.tv_nsec;
 }
 
 /// Of looking at all entries, by those of one folder of 256: keys are spread evenly.
@@ -82,67 +77,48 @@ double seconds_to_count(const fs::path& folder) {
 /// Whether what is too small to count is counted this time: by chance, so that it has its limit, too.
 bool is_one_in_many() {
     constexpr int many = 64;
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
-    return now.tv_nsec / 1000 % many == 0;
+    return nanoseconds_now() / 1000 % many == 0;
 }
 
 /// Only what this user has put there is believed: a plain file of his own, not a link or a pipe.
-bool is_own_file(const struct stat& about) { return S_ISREG(about.st_mode) && about.st_uid == ::geteuid(); }
-
-/// Reads at most so many bytes more.
-void read_more(int fd, io::Bytes& bytes, std::size_t more) {
-    std::size_t at = bytes.size();
-    bytes.resize(at + more);
-    while (at < bytes.size()) {
-        const ssize_t n = ::read(fd, bytes.data() + at, bytes.size() - at);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        at += static_cast<std::size_t>(n);
-    }
-    bytes.resize(at);
+bool is_own_file(const std::optional<FileStatus>& about) {
+    return about && about->kind == FileKind::regular && about->is_own();
 }
 
-struct OpenFile {
-    int fd;
-    ~OpenFile() {
-        if (fd >= 0) ::close(fd);
-    }
-};
+/// Reads at most so many bytes more.
+void read_more(const Descriptor& file, io::Bytes& bytes, std::size_t more) {
+    const std::size_t at = bytes.size();
+    bytes.resize(at + more);
+    bytes.resize(at + read_whole(file, std::span(bytes).subspan(at)));
+}
 
 /// What is not begun as an entry of that name is not read further, and nothing of one beyond the limit: the
 /// result is then shorter than a head. None when there is no file of ours. Read rather than mapped: a file
 /// that shrinks while it is mapped would end the process.
 std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std::uint64_t max_bytes) {
-    const OpenFile file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
-    struct stat about {};
-    if (file.fd < 0 || ::fstat(file.fd, &about) != 0 || !is_own_file(about)) return {};
-    const auto size = static_cast<std::uint64_t>(about.st_size);
+    const Descriptor file = open_file(path, {.follows_links = false, .waits = false});
+    const auto about = file ? status_of(file) : std::nullopt;
+    if (!is_own_file(about)) return {};
+    const std::uint64_t size = about->stamp.bytes;
     io::Bytes bytes;
     if (size < head || size > max_bytes) return bytes;
-    read_more(file.fd, bytes, head);
+    read_more(file, bytes, head);
     const std::string end = path.filename().string() + "\n";
     if (!io::as_text(bytes).starts_with(magic) || !io::as_text(bytes).ends_with(end)) return io::Bytes();
-    read_more(file.fd, bytes, static_cast<std::size_t>(size) - head);
+    read_more(file, bytes, static_cast<std::size_t>(size) - head);
     return bytes;
 }
 
+constexpr unsigned of_the_user = 0700;
+
 /// Makes what is missing of it, the last one for this user alone.
-void make_folder(const fs::path& folder) {
-    constexpr mode_t of_the_user = 0700;
-    if (::mkdir(folder.c_str(), of_the_user) != 0 && errno != EEXIST)
+void make_own_folder(const fs::path& folder) {
+    if (!make_folder(folder, of_the_user) && errno != EEXIST)
         throw fs::filesystem_error("mkdir", folder, std::error_code(errno, std::generic_category()));
 }
 
 /// Others need the disk more than the cache does: twice the entry stays free beside this much.
 constexpr std::uint64_t reserve = std::uint64_t{64} << 20;
-
-/// None where the system does not say.
-std::optional<std::uint64_t> free_space(const fs::path& folder) {
-    struct statvfs about {};
-    if (::statvfs(folder.c_str(), &about) != 0) return {};
-    return static_cast<std::uint64_t>(about.f_bavail) * about.f_frsize;
-}
 
 bool has_space(const fs::path& folder, std::uint64_t bytes) {
     const auto space = free_space(folder);
@@ -174,14 +150,13 @@ fs::path Store::path_of(const std::string& key, Kind kind) const {
 }
 
 void Store::use(const fs::path& path) {
-    ::utimensat(AT_FDCWD, path.c_str(), nullptr,
-                AT_SYMLINK_NOFOLLOW); // one that is not ours to touch is only removed earlier
+    touch_file(path); // one that is not ours to touch is only removed earlier
     const std::lock_guard lock(known_->guard);
     if (used_.insert(path).second) ++known_->used[path];
 }
 
 void Store::drop(const fs::path& path, const char* why) {
-    ::unlink(path.c_str());
+    remove_file(path);
     if (settings_.tell)
         settings_.tell({Severity::note,
                         "W-CACHE",
@@ -213,8 +188,7 @@ std::optional<io::Bytes> Store::get(const std::string& key, Kind kind) {
 bool Store::has(const std::string& key, Kind kind) {
     if (!is_key(key)) return false;
     const fs::path path = path_of(key, kind);
-    struct stat about {};
-    if (::lstat(path.c_str(), &about) != 0 || !is_own_file(about)) return false;
+    if (!is_own_file(status_of_link(path))) return false;
     use(path);
     return true;
 }
@@ -255,16 +229,16 @@ namespace {
 struct PartFile {
     fs::path path;
     io::CleanUp* clean_up = nullptr;
-    int fd = -1;
+    Descriptor file;
 
     explicit PartFile(const fs::path& folder) {
         static std::atomic<std::uint64_t> number{0}; // stores of one process may share a folder
         constexpr int max_attempts = 1000;           // leftovers of a process of the same id
         for (int attempt = 0;; ++attempt) {
-            path = folder / fmt::format(".{}-{}{}", ::getpid(), number++, temporary);
+            path = folder / fmt::format(".{}-{}{}", process_id(), number++, temporary);
             clean_up = io::clean_up_file(path);
-            fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-            if (fd >= 0) return;
+            file = open_file(path, {.what = OpenFor::writing, .create = Create::always, .permissions = 0600});
+            if (file) return;
             const int why = errno;
             io::keep(clean_up);
             if (why != EEXIST || attempt >= max_attempts) io::cannot_write(path, why);
@@ -273,13 +247,13 @@ struct PartFile {
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
     ~PartFile() {
-        if (fd >= 0) ::close(fd);
-        ::unlink(path.c_str());
+        file.close();
+        remove_file(path);
         io::keep(clean_up);
     }
     /// Whether the file took the name: not when somebody has cleared the cache. Throws output.
     bool take_name(const fs::path& name) {
-        const bool renamed = ::close(std::exchange(fd, -1)) == 0 && ::rename(path.c_str(), name.c_str()) == 0;
+        const bool renamed = file.close() && rename_file(path, name);
         if (!renamed && errno != ENOENT) io::cannot_write(path, errno);
         return renamed;
     }
@@ -291,21 +265,20 @@ bool make_folders(const fs::path& folder) {
     std::error_code error;
     if (fs::is_directory(folder, error)) return true;
     if (!folder.parent_path().empty()) fs::create_directories(folder.parent_path(), error);
-    constexpr mode_t of_the_user = 0700;
-    return ::mkdir(folder.c_str(), of_the_user) == 0 || fs::is_directory(folder, error);
+    return make_folder(folder, of_the_user) || fs::is_directory(folder, error);
 }
 
 bool Store::write(const fs::path& path, io::Span head, io::Span bytes) {
     if (!settings_.folder.parent_path().empty()) fs::create_directories(settings_.folder.parent_path());
-    make_folder(settings_.folder);
+    make_own_folder(settings_.folder);
     if (!has_space(settings_.folder, head.size() + bytes.size())) {
         tell_of_full_disk();
         return false;
     }
-    make_folder(path.parent_path());
+    make_own_folder(path.parent_path());
     PartFile part(path.parent_path());
-    io::write_all(part.fd, head, part.path);
-    io::write_all(part.fd, bytes, part.path);
+    io::write_all(part.file, head, part.path);
+    io::write_all(part.file, bytes, part.path);
     return part.take_name(path);
 }
 
@@ -363,9 +336,7 @@ std::uint64_t Store::limit(std::uint64_t bytes) const {
 
 std::string Store::hindrance() const {
     const fs::path there = nearest_existing(settings_.folder);
-    return ::access(there.c_str(), W_OK | X_OK) == 0
-               ? ""
-               : fmt::format("'{}': {}", there.string(), std::strerror(errno));
+    return may_write_in(there) ? "" : fmt::format("'{}': {}", there.string(), std::strerror(errno));
 }
 
 bool Store::make_room(std::uint64_t bytes, Kind kind) {
@@ -396,9 +367,9 @@ bool Store::make_room(std::uint64_t bytes, Kind kind) {
 
 Contents Store::contents() const {
     Contents all;
-    for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
+    for_each_file(settings_.folder, [&](const fs::path& path, const FileStamp& about) {
         if (!is_entry(path)) return;
-        all.bytes += static_cast<std::uint64_t>(about.st_size);
+        all.bytes += about.bytes;
         ++all.entries;
         all.scenes += path.extension() == suffixes[static_cast<std::size_t>(Kind::scene)];
     });
@@ -414,11 +385,10 @@ Contents Store::shrink(std::uint64_t limit) {
     };
     std::vector<Entry> entries;
     std::uint64_t total = 0;
-    for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
-        const auto bytes = static_cast<std::uint64_t>(about.st_size);
+    for_each_file(settings_.folder, [&](const fs::path& path, const FileStamp& about) {
         if (!is_entry(path)) return;
-        total += bytes;
-        entries.push_back({nanoseconds_of(about.st_mtim), path, bytes});
+        total += about.bytes;
+        entries.push_back({about.modified, path, about.bytes});
     });
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
         return std::tie(a.used, a.path) < std::tie(b.used, b.path);
@@ -426,7 +396,7 @@ Contents Store::shrink(std::uint64_t limit) {
     Contents gone;
     for (const auto& entry : entries) {
         if (total <= limit) break;
-        if (known_->used.contains(entry.path) || ::unlink(entry.path.c_str()) != 0) continue;
+        if (known_->used.contains(entry.path) || !remove_file(entry.path)) continue;
         total -= entry.bytes;
         gone.bytes += entry.bytes;
         ++gone.entries;
@@ -435,12 +405,12 @@ Contents Store::shrink(std::uint64_t limit) {
 }
 
 void Store::remove_leftovers(std::int64_t older_than) const {
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
-    for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
+    constexpr std::int64_t in_a_second = 1'000'000'000;
+    const std::int64_t now = nanoseconds_now() / in_a_second;
+    for_each_file(settings_.folder, [&](const fs::path& path, const FileStamp& about) {
         if (path.extension() == temporary && path.filename().string().starts_with('.') &&
-            now.tv_sec - about.st_mtim.tv_sec >= older_than)
-            ::unlink(path.c_str());
+            now - about.modified / in_a_second >= older_than)
+            remove_file(path);
     });
 }
 
@@ -453,10 +423,10 @@ Contents Store::collect() {
 Contents Store::clear() {
     remove_leftovers(std::numeric_limits<std::int64_t>::min()); // who is writing one finds that it is gone
     Contents gone;
-    for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
-        if (!is_entry(path) || ::unlink(path.c_str()) != 0) return;
+    for_each_file(settings_.folder, [&](const fs::path& path, const FileStamp& about) {
+        if (!is_entry(path) || !remove_file(path)) return;
         ++gone.entries;
-        gone.bytes += static_cast<std::uint64_t>(about.st_size);
+        gone.bytes += about.bytes;
     });
     return gone;
 }

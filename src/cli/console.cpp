@@ -4,12 +4,13 @@
 #include "base/text/readable_numbers.hpp"
 #include "cli/command.hpp"
 #include "cli/pipe_hints.hpp"
+#include "platform/signals.hpp"
+#include "platform/terminal.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -17,16 +18,12 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
-#include <unistd.h>
 
 namespace facetmill::cli {
 
 void print(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-    if (errno == EPIPE) { // the reader went away: end as a filter does
-        std::signal(SIGPIPE, SIG_DFL);
-        std::raise(SIGPIPE);
-    }
+    if (errno == EPIPE) end_by_closed_pipe();
     throw Error(ErrorKind::output, "E-WRITE", fmt::format("standard output: {}", std::strerror(errno)));
 }
 
@@ -44,7 +41,7 @@ void tell(fmt::format_string<Args...> format, Args&&... args) {
 
 bool terminal() {
     const char* kind = std::getenv("TERM");
-    return isatty(STDERR_FILENO) && !(kind && std::string_view(kind) == "dumb");
+    return standard_error_is_terminal() && !(kind && std::string_view(kind) == "dumb");
 }
 
 void line(const Json& object) {

@@ -5,7 +5,7 @@
 #include "cli/command.hpp"
 #include "cli/exhaustion.hpp"
 #include "io/outputs/outputs.hpp"
-#include "parallel/storage.hpp"
+#include "platform/pages.hpp"
 
 #include <algorithm>
 

@@ -3,18 +3,15 @@
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
 #include "parallel/memory.hpp"
-#include "parallel/storage.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/pages.hpp"
 #include "platform/sandbox.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <functional>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 namespace facetmill::io {
@@ -23,14 +20,6 @@ namespace {
 
 /// Below this a file is read rather than mapped, unless less is asked for: nobody can shrink memory under us.
 constexpr std::size_t map_from = std::size_t{16} << 20;
-
-struct Descriptor {
-    int fd;
-    bool own;
-    ~Descriptor() {
-        if (own) ::close(fd);
-    }
-};
 
 [[noreturn]] void cannot_read(const std::string& name, int error) {
     if (error == ENOENT || error == ENOTDIR)
@@ -59,12 +48,10 @@ std::size_t stream_limit() {
 constexpr std::size_t max_device_bytes = std::size_t{64} << 20;
 
 /// Reads up to room bytes; 0 at the end.
-std::size_t read_some(int fd, std::byte* to, std::size_t room, const std::string& name) {
-    while (true) {
-        const ssize_t got = ::read(fd, to, std::min(room, std::size_t{1} << 30));
-        if (got >= 0) return static_cast<std::size_t>(got);
-        if (errno != EINTR) cannot_read(name, errno);
-    }
+std::size_t read_piece(const Descriptor& file, std::span<std::byte> to, const std::string& name) {
+    const auto got = read_some(file, to);
+    if (!got) cannot_read(name, errno);
+    return *got;
 }
 
 /// Memory that is filled from a file, and so not with zeros before.
@@ -89,7 +76,7 @@ Piece joined(std::vector<Piece> pieces, std::size_t size) {
 
 /// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink). Read in pieces:
 /// a buffer that grows would be there twice, which for what never ends is twice the limit.
-Piece read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
+Piece read_all(const Descriptor& file, std::size_t expected, std::size_t limit, const std::string& name) {
     constexpr std::size_t least = std::size_t{64} << 10, most = std::size_t{64} << 20;
     limit = std::min(limit, SIZE_MAX - 1);
     std::vector<Piece> pieces;
@@ -99,7 +86,7 @@ Piece read_all(int fd, std::size_t expected, std::size_t limit, const std::strin
         Piece piece(room);
         std::size_t got = 0;
         while (piece.size < room &&
-               (got = read_some(fd, piece.bytes.get() + piece.size, room - piece.size, name)) > 0)
+               (got = read_piece(file, {piece.bytes.get() + piece.size, room - piece.size}, name)) > 0)
             piece.size += got;
         size += piece.size;
         if (size > limit) too_large(name, limit);
@@ -109,60 +96,40 @@ Piece read_all(int fd, std::size_t expected, std::size_t limit, const std::strin
     }
 }
 
-std::shared_ptr<const void> map_file(int fd, std::size_t size) {
-    void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (at == MAP_FAILED) return nullptr;
-    ::madvise(at, size, MADV_SEQUENTIAL);
-    return {at, [size](const void* p) { ::munmap(const_cast<void*>(p), size); }};
-}
-
 } // namespace
-
-template <class Stat>
-Input::Stamp Input::stamp_of(const Stat& about) {
-    return {about.st_dev,         about.st_ino,          static_cast<std::uint64_t>(about.st_size),
-            about.st_mtim.tv_sec, about.st_mtim.tv_nsec, about.st_ctim.tv_sec,
-            about.st_ctim.tv_nsec};
-}
 
 void Input::release(Span part) const {
     const auto before = [](const std::byte* a, const std::byte* b) { return std::less<>()(a, b); };
     const std::byte *const begin = part.data(), *const end = begin + part.size();
     if (!mapped_ || before(begin, stored_.data()) || before(stored_.data() + stored_.size(), end)) return;
-    const std::size_t page = page_size();
-    const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page,
-               last = reinterpret_cast<std::uintptr_t>(end) / page * page;
-    if (first < last) (void)::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+    release_pages(part);
 }
 
-bool Input::is_as_opened() const {
-    struct stat about {};
-    return !mapped_ || (::stat(path_.c_str(), &about) == 0 && stamp_of(about) == *mapped_);
-}
+bool Input::is_as_opened() const { return !mapped_ || FileStamp::of(path_) == mapped_; }
 
 Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
     Input input;
     const bool standard = path == "-";
     input.name_ = standard ? "standard input" : path.string();
-    const Descriptor file{standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard};
-    if (file.fd < 0) cannot_read(input.name_, errno);
-    struct stat about {};
-    if (::fstat(file.fd, &about) != 0) cannot_read(input.name_, errno);
-    if (S_ISDIR(about.st_mode)) cannot_read(input.name_, EISDIR);
+    const Descriptor file = standard ? Descriptor::standard_input() : open_file(path);
+    if (!file) cannot_read(input.name_, errno);
+    const auto about = status_of(file);
+    if (!about) cannot_read(input.name_, errno);
+    if (about->kind == FileKind::folder) cannot_read(input.name_, EISDIR);
 
-    const bool regular = S_ISREG(about.st_mode) && !standard;
-    const auto size = static_cast<std::size_t>(regular ? about.st_size : 0);
+    const bool regular = about->kind == FileKind::regular && !standard;
+    const auto size = static_cast<std::size_t>(regular ? about->stamp.bytes : 0);
     if (regular) input.path_ = path;
-    if (size >= std::min(map_from, max_stream)) input.owner_ = map_file(file.fd, size);
+    if (size >= std::min(map_from, max_stream)) input.owner_ = map_file(file, size);
     if (input.owner_) {
         input.bytes_ = {static_cast<const std::byte*>(input.owner_.get()), size};
-        input.mapped_ = stamp_of(about);
+        input.mapped_ = about->stamp;
     } else {
-        const bool device = S_ISCHR(about.st_mode) || S_ISBLK(about.st_mode);
+        const bool device = about->kind == FileKind::device;
         const std::size_t limit = regular  ? SIZE_MAX - 1
                                   : device ? std::min(max_stream, max_device_bytes)
                                            : std::min(max_stream, stream_limit());
-        Piece all = read_all(file.fd, size, limit, input.name_);
+        Piece all = read_all(file, size, limit, input.name_);
         input.bytes_ = {all.bytes.get(), all.size};
         input.owner_ = std::shared_ptr<const std::byte[]>(std::move(all.bytes));
     }

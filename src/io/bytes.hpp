@@ -2,13 +2,13 @@
 // Bytes of inputs and outputs. Files are mapped when they can be, so a reader sees one contiguous span.
 
 #include "base/error.hpp"
+#include "platform/file_status.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,16 +76,7 @@ class Input {
 
     std::string name_;
     std::filesystem::path path_;
-    /// What the system says of a file when it is opened.
-    struct Stamp {
-        std::uint64_t device = 0, inode = 0, size = 0;
-        std::int64_t seconds = 0, nanoseconds = 0, status_seconds = 0, status_nanoseconds = 0;
-        bool operator==(const Stamp&) const = default;
-    };
-    template <class Stat>
-    static Stamp stamp_of(const Stat& about);
-
-    std::optional<Stamp> mapped_; ///< none: the bytes are a copy
+    std::optional<FileStamp> mapped_; ///< none: the bytes are a copy
     std::shared_ptr<const void> owner_, stored_owner_;
     std::shared_ptr<const Instead> instead_;
     std::vector<std::filesystem::path> asset_roots_;

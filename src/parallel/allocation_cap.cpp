@@ -1,6 +1,6 @@
 #include "parallel/allocation_cap.hpp"
 
-#include "parallel/storage.hpp"
+#include "platform/pages.hpp"
 
 #include <cstdlib>
 #include <limits>

@@ -1,16 +1,13 @@
 #pragma once
 // How much memory there still is, so that what cannot fit is refused before it starts.
 
-#include <cstdint>
-#include <optional>
+#include "platform/available_memory.hpp"
+
 #include <string>
 
 namespace facetmill {
 
-/// Bytes that this process may still take: the least of what the machine has available, what its cgroups
-/// leave, and what RLIMIT_AS leaves. None where the system does not say.
-std::optional<std::uint64_t> available_memory();
-/// The same, and 4 GiB where the system does not say.
+/// available_memory(), and 4 GiB where the system does not say.
 std::uint64_t memory_there();
 
 /// From now on the process is meant to take no more bytes than that (0: no limit). Call it once, at the

@@ -5,12 +5,12 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "pipeline/between_stages.hpp"
 #include "pipeline/join.hpp"
+#include "platform/available_memory.hpp"
 #include "stage/known_surfaces.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <span>
-#include <sys/resource.h>
 
 namespace facetmill::pipeline {
 
@@ -31,12 +31,6 @@ bool looks_ahead(const Step& step) {
 }
 
 } // namespace
-
-std::size_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 ProgressScope Engine::beside_stages(const std::string& what) const {
     if (settings.progress) settings.progress->beside_stages(what);

@@ -1,20 +1,19 @@
 #include "platform/sandbox.hpp"
 
+#include "platform/file_names.hpp"
+#include "platform/file_status.hpp"
 #include "platform/nearest_existing.hpp"
 
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstddef>
 #include <cstdint>
 #include <fcntl.h>
 #include <link.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
+#include <memory>
+#include <seccomp.h>
 #include <set>
 #include <sys/prctl.h>
-#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -38,6 +37,12 @@ constexpr bool possible = false;
 constexpr bool possible = true;
 #endif
 
+#if defined(__x86_64__) || defined(__aarch64__)
+constexpr bool filters_calls = possible;
+#else // where clone may have its arguments in another order
+constexpr bool filters_calls = false;
+#endif
+
 std::atomic<int> files_version{0};
 std::atomic<bool> calls_given_up{false};
 
@@ -47,13 +52,13 @@ constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446; // on 
 
 constexpr std::uint64_t right(int bit) { return std::uint64_t{1} << bit; }
 constexpr std::uint64_t run_file = right(0), write_file = right(1), read_file = right(2),
-                        read_folder = right(3), remove_folder = right(4), remove_file = right(5),
-                        make_folder = right(7), make_file = right(8), truncate_file = right(14);
+                        read_folder = right(3), remove_folders = right(4), remove_files = right(5),
+                        make_folders = right(7), make_files = right(8), truncate_file = right(14);
 /// Those that a rule for a file, and not a folder, may give.
 constexpr std::uint64_t of_a_file = run_file | write_file | read_file | truncate_file;
 constexpr std::uint64_t reading = read_file | read_folder;
 constexpr std::uint64_t writing =
-    reading | write_file | truncate_file | make_folder | make_file | remove_folder | remove_file;
+    reading | write_file | truncate_file | make_folders | make_files | remove_folders | remove_files;
 
 struct Ruleset {
     std::uint64_t files, network, scopes;
@@ -80,43 +85,39 @@ std::size_t size_of(int version) { return version >= 6 ? 24 : version >= 4 ? 16 
 class Rules {
   public:
     explicit Rules(int version) : handled_(all_of(version)) {
-        descriptor_ = static_cast<int>(::syscall(create_ruleset, &handled_, size_of(version), 0));
+        descriptor_ = Descriptor(static_cast<int>(::syscall(create_ruleset, &handled_, size_of(version), 0)));
     }
-    ~Rules() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    Rules(const Rules&) = delete;
-    Rules& operator=(const Rules&) = delete;
 
     /// What is not there, or cannot be named (the other end of a pipe, which is never refused), needs no
     /// rule.
     void allow(const fs::path& path, std::uint64_t rights) {
-        const int fd = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+        const Descriptor file(::open(path.c_str(), O_PATH | O_CLOEXEC));
         // Without descriptors or memory a rule would lack, and what the plan names be refused: then there are
         // no rules.
-        if (fd < 0) whole_ = whole_ && errno != EMFILE && errno != ENFILE && errno != ENOMEM && errno != EIO;
-        if (fd < 0) return;
-        struct stat about {};
-        if (::fstat(fd, &about) == 0) {
-            const std::uint64_t possible_rights =
-                S_ISDIR(about.st_mode) ? handled_.files : handled_.files & of_a_file;
-            const BeneathRule rule{rights & possible_rights, fd};
-            constexpr int beneath_path = 1;
-            whole_ =
-                (::syscall(add_rule, descriptor_, beneath_path, &rule, 0) == 0 || errno != ENOMEM) && whole_;
-        } else
+        if (!file) whole_ = whole_ && errno != EMFILE && errno != ENFILE && errno != ENOMEM && errno != EIO;
+        if (!file) return;
+        const auto about = status_of(file);
+        if (!about) {
             whole_ = false;
-        ::close(fd);
+            return;
+        }
+        const std::uint64_t possible_rights =
+            about->kind == FileKind::folder ? handled_.files : handled_.files & of_a_file;
+        const BeneathRule rule{rights & possible_rights, file.number()};
+        constexpr int beneath_path = 1;
+        whole_ =
+            (::syscall(add_rule, descriptor_.number(), beneath_path, &rule, 0) == 0 || errno != ENOMEM) &&
+            whole_;
     }
 
     bool enforce() const {
-        return whole_ && descriptor_ >= 0 && ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-               ::syscall(restrict_self, descriptor_, 0) == 0;
+        return whole_ && descriptor_ && ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+               ::syscall(restrict_self, descriptor_.number(), 0) == 0;
     }
 
   private:
     Ruleset handled_;
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     bool whole_ = true;
 };
 
@@ -144,134 +145,58 @@ std::vector<fs::path> loaded_files() {
 
 // --- seccomp
 
-#if defined(__x86_64__)
-#define FACETMILL_CALLS_OF AUDIT_ARCH_X86_64
-#elif defined(__aarch64__)
-#define FACETMILL_CALLS_OF AUDIT_ARCH_AARCH64
-#endif
-
-#ifdef FACETMILL_CALLS_OF
-/// Calls that fail; of those that only one architecture or a newer kernel has, where the headers know them.
-constexpr unsigned refused_calls[] = {
+/// Calls that fail; those that the architecture does not have are left out.
+constexpr int refused_calls[] = {
     // other programs
-    SYS_execve,
-    SYS_execveat,
-    SYS_ptrace,
-    SYS_process_vm_readv,
-    SYS_process_vm_writev,
-    SYS_kcmp,
-    SYS_personality,
+    SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(fork), SCMP_SYS(vfork), SCMP_SYS(ptrace),
+    SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(kcmp), SCMP_SYS(personality),
     // networks, and what opens files and sockets past this filter
-    SYS_socket,
-    SYS_socketpair,
-    SYS_connect,
-    SYS_bind,
-    SYS_listen,
-    SYS_accept,
-    SYS_accept4,
-    425,
-    426,
-    427, // io_uring
+    SCMP_SYS(socket), SCMP_SYS(socketpair), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen),
+    SCMP_SYS(accept), SCMP_SYS(accept4), SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter),
+    SCMP_SYS(io_uring_register),
     // mounts, namespaces, keys
-    SYS_mount,
-    SYS_umount2,
-    SYS_pivot_root,
-    SYS_chroot,
-    SYS_unshare,
-    SYS_setns,
-    SYS_add_key,
-    SYS_request_key,
-    SYS_keyctl,
-    428,
-    429,
-    430,
-    431,
-    432,
-    433,
-    442, // open_tree, move_mount, fsopen, fsconfig, fsmount, fspick, mount_setattr
-    SYS_name_to_handle_at,
-    SYS_open_by_handle_at,
+    SCMP_SYS(mount), SCMP_SYS(umount2), SCMP_SYS(pivot_root), SCMP_SYS(chroot), SCMP_SYS(unshare),
+    SCMP_SYS(setns), SCMP_SYS(add_key), SCMP_SYS(request_key), SCMP_SYS(keyctl), SCMP_SYS(open_tree),
+    SCMP_SYS(move_mount), SCMP_SYS(fsopen), SCMP_SYS(fsconfig), SCMP_SYS(fsmount), SCMP_SYS(fspick),
+    SCMP_SYS(mount_setattr), SCMP_SYS(name_to_handle_at), SCMP_SYS(open_by_handle_at),
     // the kernel and the machine
-    SYS_bpf,
-    SYS_perf_event_open,
-    SYS_userfaultfd,
-    SYS_init_module,
-    SYS_finit_module,
-    SYS_delete_module,
-    SYS_kexec_load,
-    SYS_reboot,
-    SYS_swapon,
-    SYS_swapoff,
-    SYS_sethostname,
-    SYS_setdomainname,
-    SYS_settimeofday,
-    SYS_clock_settime,
-    SYS_adjtimex,
-    SYS_clock_adjtime,
-    SYS_syslog,
-    SYS_acct,
-    SYS_quotactl,
-    SYS_vhangup,
-    SYS_fanotify_init,
-    // other processes by a descriptor: pidfd_send_signal, pidfd_open, pidfd_getfd, process_madvise
-    424,
-    434,
-    438,
-    440,
-#ifdef SYS_kexec_file_load
-    SYS_kexec_file_load,
-#endif
-#ifdef __x86_64__
-    SYS_fork,
-    SYS_vfork,
-    SYS_iopl,
-    SYS_ioperm,
-    SYS_modify_ldt,
-    SYS_uselib,
-    SYS_ustat,
-    SYS_sysfs,
-#endif
+    SCMP_SYS(bpf), SCMP_SYS(perf_event_open), SCMP_SYS(userfaultfd), SCMP_SYS(init_module),
+    SCMP_SYS(finit_module), SCMP_SYS(delete_module), SCMP_SYS(kexec_load), SCMP_SYS(kexec_file_load),
+    SCMP_SYS(reboot), SCMP_SYS(swapon), SCMP_SYS(swapoff), SCMP_SYS(sethostname), SCMP_SYS(setdomainname),
+    SCMP_SYS(settimeofday), SCMP_SYS(clock_settime), SCMP_SYS(adjtimex), SCMP_SYS(clock_adjtime),
+    SCMP_SYS(syslog), SCMP_SYS(acct), SCMP_SYS(quotactl), SCMP_SYS(vhangup), SCMP_SYS(fanotify_init),
+    SCMP_SYS(iopl), SCMP_SYS(ioperm), SCMP_SYS(modify_ldt), SCMP_SYS(uselib), SCMP_SYS(ustat),
+    SCMP_SYS(sysfs),
+    // other processes by a descriptor
+    SCMP_SYS(pidfd_send_signal), SCMP_SYS(pidfd_open), SCMP_SYS(pidfd_getfd),
+    440, // process_madvise, which libseccomp 2.5 does not know
 };
 
-constexpr std::uint32_t of_this = offsetof(seccomp_data, nr), of_architecture = offsetof(seccomp_data, arch);
-/// The lower half of an argument: both architectures have it first.
-constexpr std::uint32_t argument(std::size_t i) {
-    return static_cast<std::uint32_t>(offsetof(seccomp_data, args) + 8 * i);
+using Filter = std::unique_ptr<void, decltype(&seccomp_release)>;
+
+bool refuse(const Filter& filter, int call, int error = EPERM) {
+    return seccomp_rule_add_array(filter.get(), SCMP_ACT_ERRNO(error), call, 0, nullptr) == 0;
 }
 
-constexpr std::uint32_t failing(int error) { return SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error); }
-
-constexpr sock_filter load(std::uint32_t at) { return BPF_STMT(BPF_LD | BPF_W | BPF_ABS, at); }
-constexpr sock_filter answer(std::uint32_t what) { return BPF_STMT(BPF_RET | BPF_K, what); }
-/// The next answers if the value is that, or has one of the bits; else as many are skipped.
-constexpr sock_filter unless_equal(std::uint32_t value, std::uint8_t skip) {
-    return BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, skip);
-}
-constexpr sock_filter unless_any_bit(std::uint32_t bits, std::uint8_t skip) {
-    return BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, bits, 0, skip);
+/// Only where the bits of an argument are these. Flags and requests have 32 bits, whatever is above them.
+bool refuse_if(const Filter& filter, int call, unsigned argument, std::uint64_t mask, std::uint64_t bits) {
+    const scmp_arg_cmp condition{argument, SCMP_CMP_MASKED_EQ, mask, bits};
+    return seccomp_rule_add_array(filter.get(), SCMP_ACT_ERRNO(EPERM), call, 1, &condition) == 0;
 }
 
-std::vector<sock_filter> filter() {
-    constexpr std::uint32_t of_x32 = 0x40000000, thread = 0x00010000, clone3 = 435;
-    constexpr std::uint32_t types_for_terminal = 0x5412, pastes_in_console = 0x541c; // TIOCSTI, TIOCLINUX
-    const sock_filter refusal = answer(failing(EPERM)), permission = answer(SECCOMP_RET_ALLOW);
-    std::vector<sock_filter> program{
-        load(of_architecture), BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, FACETMILL_CALLS_OF, 1, 0), refusal,
-        load(of_this), unless_any_bit(of_x32, 1), // a second set of numbers for the same calls
-        refusal,
-        // clone3 tells its flags in memory, which no filter sees: the C library then takes clone
-        unless_equal(clone3, 1), answer(failing(ENOSYS)), unless_equal(SYS_clone, 4), load(argument(0)),
-        unless_any_bit(thread, 1), permission, refusal, unless_equal(SYS_ioctl, 6), load(argument(1)),
-        unless_equal(types_for_terminal, 1), refusal, unless_equal(pastes_in_console, 1), refusal,
-        permission};
-    for (const unsigned call : refused_calls) {
-        program.push_back(unless_equal(call, 1));
-        program.push_back(refusal);
-    }
-    program.push_back(permission);
-    return program;
+/// Calls of another architecture (x32 too) are refused, which are a second set of numbers for the same calls.
+bool fill(const Filter& filter) {
+    constexpr std::uint64_t thread = 0x00010000, request = UINT32_MAX;
+    constexpr std::uint64_t types_for_terminal = 0x5412, pastes_in_console = 0x541c; // TIOCSTI, TIOCLINUX
+    bool whole = seccomp_attr_set(filter.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_ERRNO(EPERM)) == 0 &&
+                 seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1) == 0;
+    for (const int call : refused_calls) whole = whole && refuse(filter, call);
+    // clone3 has its flags in memory, which no filter sees: the C library then takes clone.
+    return whole && refuse(filter, SCMP_SYS(clone3), ENOSYS) &&
+           refuse_if(filter, SCMP_SYS(clone), 0, thread, 0) &&
+           refuse_if(filter, SCMP_SYS(ioctl), 1, request, types_for_terminal) &&
+           refuse_if(filter, SCMP_SYS(ioctl), 1, request, pastes_in_console);
 }
-#endif
 
 } // namespace
 
@@ -279,10 +204,8 @@ Protections offered_protections() {
     Protections offered;
     if (!possible) return offered;
     offered.files = landlock_version();
-#ifdef FACETMILL_CALLS_OF
-    const std::uint32_t action = SECCOMP_RET_ERRNO;
-    offered.calls = ::syscall(SYS_seccomp, SECCOMP_GET_ACTION_AVAIL, 0, &action) == 0;
-#endif
+    constexpr unsigned for_all_threads = 2; // of the levels of seccomp_api_get(3)
+    offered.calls = filters_calls && seccomp_api_get() >= for_all_threads;
     return offered;
 }
 
@@ -302,30 +225,23 @@ bool confine_files(const AllowedFiles& allowed) {
     std::set<fs::path> written;
     for (const auto& path : allowed.written) written.insert(nearest_existing(path));
     for (const auto& path : written) rules.allow(path, writing);
-    for (const auto& path : allowed.folders_made) rules.allow(path, make_folder | remove_folder);
+    for (const auto& path : allowed.folders_made) rules.allow(path, make_folders | remove_folders);
     if (!rules.enforce()) return false;
     files_version = version;
     return true;
 }
 
 bool confine_calls() {
-#ifdef FACETMILL_CALLS_OF
-    if (!possible || calls_given_up) return calls_given_up;
-    auto program = filter();
-    const sock_fprog all{static_cast<unsigned short>(program.size()), program.data()};
-    calls_given_up = ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-                     ::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &all) == 0;
+    if (!filters_calls || calls_given_up) return calls_given_up;
+    const Filter filter(seccomp_init(SCMP_ACT_ALLOW), &seccomp_release);
+    calls_given_up = filter && fill(filter) && seccomp_load(filter.get()) == 0;
     return calls_given_up;
-#else
-    return false;
-#endif
 }
 
 std::string sandbox_hint(const fs::path& file, int error) {
     if (files_version == 0 || error != EACCES) return {};
     const bool there = ::access(file.c_str(), F_OK) == 0;
-    const bool permitted =
-        there ? ::access(file.c_str(), R_OK) == 0 : ::access(nearest_existing(file).c_str(), W_OK) == 0;
+    const bool permitted = there ? may_read(file) : may_write(nearest_existing(file));
     return permitted ? "the plan does not name it, so the sandbox refuses it: --no-sandbox runs without one"
                      : "";
 }

@@ -2,14 +2,13 @@
 
 #include "cells/storage/packed_numbers.hpp"
 #include "cells/storage/stream.hpp"
-#include "io/outputs/output_files.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/temporary_files.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <utility>
 
 namespace facetmill::cells {
@@ -44,29 +43,6 @@ std::uint64_t digest_of(io::Span bytes) {
         "--scratch DIR names another folder for it, --keep-cells DIR for cells that are kept");
 }
 
-/// A file that has no name, or has lost it.
-int nameless_file(const fs::path& folder) {
-    const int nameless = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (nameless >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return nameless;
-    for (int attempt = 0;; ++attempt) { // a file system that knows no such files
-        const fs::path path = folder / io::temporary_name("cells", attempt);
-        const int named = ::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
-        if (named < 0 && errno == EEXIST) continue;
-        if (named >= 0) ::unlink(path.c_str());
-        return named;
-    }
-}
-
-void write_at(int file, io::Span bytes, off_t at, const fs::path& folder) {
-    while (!bytes.empty()) {
-        const ssize_t n = ::pwrite(file, bytes.data(), bytes.size(), at);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) cannot_write_there(folder, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
-        at += n;
-    }
-}
-
 } // namespace
 
 void unreadable_scratch(const fs::path& folder) {
@@ -76,12 +52,8 @@ void unreadable_scratch(const fs::path& folder) {
 }
 
 ScratchFile::ScratchFile(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {
-    file_ = nameless_file(folder_);
-    if (file_ < 0) cannot_write_there(folder_, errno);
-}
-
-ScratchFile::~ScratchFile() {
-    if (file_ >= 0) ::close(file_);
+    file_ = unnamed_file(folder_);
+    if (!file_) cannot_write_there(folder_, errno);
 }
 
 void ScratchFile::append(io::Span bytes) {
@@ -91,7 +63,7 @@ void ScratchFile::append(io::Span bytes) {
 }
 
 void ScratchFile::write() {
-    write_at(file_, waiting_, static_cast<off_t>(size_), folder_);
+    if (!write_at(file_, size_, waiting_)) cannot_write_there(folder_, errno);
     size_ += waiting_.size();
     waiting_.clear();
 }
@@ -99,29 +71,30 @@ void ScratchFile::write() {
 std::shared_ptr<const ReadFile> ScratchFile::finish() {
     write();
     waiting_ = {};
-    return std::make_shared<const ReadFile>(std::exchange(file_, -1), folder_);
+    return std::make_shared<const ReadFile>(std::move(file_), folder_);
 }
 
 BlockFile::BlockFile(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {
-    file_ = nameless_file(folder_);
-    if (file_ < 0) cannot_write_there(folder_, errno);
+    file_ = unnamed_file(folder_);
+    if (!file_) cannot_write_there(folder_, errno);
 }
 
 BlockFile::BlockFile(const fs::path& file, Named how) : folder_(file) {
-    const int flags = how == Named::anew ? O_RDWR | O_CREAT | O_TRUNC : O_RDONLY;
-    file_ = ::open(file.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file_ < 0) cannot_write_there(folder_, errno);
+    file_ = how == Named::anew ? open_file(file, {.what = OpenFor::both,
+                                                  .create = Create::if_missing,
+                                                  .truncates = true,
+                                                  .follows_links = false})
+                               : open_file(file, {.follows_links = false});
+    if (!file_) cannot_write_there(folder_, errno);
 }
 
-BlockFile::~BlockFile() { ::close(file_); }
-
 void BlockFile::sync() const {
-    if (!io::synced(file_)) cannot_write_there(folder_, errno);
+    if (!synced(file_)) cannot_write_there(folder_, errno);
 }
 
 Block BlockFile::put(io::Span bytes) {
     const Block block{end_.fetch_add(bytes.size()), bytes.size(), digest_of(bytes)};
-    write_at(file_, bytes, static_cast<off_t>(block.offset), folder_);
+    if (!write_at(file_, block.offset, bytes)) cannot_write_there(folder_, errno);
     return block;
 }
 
@@ -136,8 +109,8 @@ void BlockFile::get(const Block& block, std::byte* to) const {
 }
 
 bool BlockFile::is_as_written(const Block& block) const {
-    const off_t end = ::lseek(file_, 0, SEEK_END);
-    if (end < 0 || block.size > static_cast<std::uint64_t>(end)) return false;
+    const auto about = FileStamp::of(file_);
+    if (!about || block.size > about->bytes) return false;
     io::Bytes bytes(block.size);
     return read(block, bytes.data());
 }

@@ -21,7 +21,6 @@ class ScratchFile {
   public:
     /// Throws output (E-WRITE, E-SPACE).
     explicit ScratchFile(const std::filesystem::path& folder);
-    ~ScratchFile();
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
 
@@ -33,7 +32,7 @@ class ScratchFile {
   private:
     void write();
     std::filesystem::path folder_;
-    int file_ = -1;
+    Descriptor file_;
     io::Bytes waiting_;
     std::uint64_t size_ = 0;
 };
@@ -46,7 +45,6 @@ class BlockFile {
     /// A file with a name, which stays: an empty one, to be written; or one that is there, to be read. Throws
     /// output (E-WRITE, E-SPACE).
     BlockFile(const std::filesystem::path& file, Named how);
-    ~BlockFile();
     BlockFile(const BlockFile&) = delete;
     BlockFile& operator=(const BlockFile&) = delete;
 
@@ -65,7 +63,7 @@ class BlockFile {
   private:
     bool read(const Block& block, std::byte* to) const;
     std::filesystem::path folder_; ///< or the file, where it has a name
-    int file_ = -1;
+    Descriptor file_;
     std::atomic<std::uint64_t> end_{0};
 };
 

@@ -3,15 +3,12 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "cells/storage/block_file.hpp"
+#include "platform/file_names.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace facetmill::cells {
 
@@ -38,26 +35,19 @@ CellFolder::CellFolder(Settings settings) : settings_(std::move(settings)) {
     std::error_code error;
     fs::create_directories(settings_.path, error);
     if (error) cannot_keep(settings_.path, error.message());
-    take_lock(std::string(lock_name), settings_.beside.empty() ? LOCK_EX : LOCK_SH);
-    if (!settings_.beside.empty()) take_lock(fmt::format("facetmill-{}.lock", settings_.beside), LOCK_EX);
-}
-
-CellFolder::~CellFolder() { leave(); }
-
-void CellFolder::leave() {
-    for (const int lock : locks_) ::close(lock);
-    locks_.clear();
+    take_lock(std::string(lock_name), settings_.beside.empty() ? Lock::exclusive : Lock::shared);
+    if (!settings_.beside.empty())
+        take_lock(fmt::format("facetmill-{}.lock", settings_.beside), Lock::exclusive);
 }
 
 /// The file stays: were it removed, a third run could lock a new one while a second waits for this one.
-void CellFolder::take_lock(const std::string& name, int how) {
+void CellFolder::take_lock(const std::string& name, Lock how) {
     const fs::path path = file(name);
-    const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (lock >= 0) locks_.push_back(lock);
-    if (lock >= 0 && ::flock(lock, how | LOCK_NB) == 0) return;
+    Descriptor lock =
+        open_file(path, {.what = OpenFor::both, .create = Create::if_missing, .follows_links = false});
+    if (lock && try_lock(lock, how)) return locks_.push_back(std::move(lock));
     const int why = errno;
-    leave();
-    if (lock < 0 || why != EWOULDBLOCK) cannot_keep(settings_.path, std::strerror(why));
+    if (!lock || why != EWOULDBLOCK) cannot_keep(settings_.path, std::strerror(why));
     throw Error(ErrorKind::output, "E-BUSY",
                 fmt::format("another run is at work on the cells in '{}'", settings_.path.string()),
                 "wait for its end, or name another folder with --keep-cells");
@@ -71,7 +61,7 @@ void CellFolder::write(const std::string& name, std::initializer_list<io::Span> 
         if (settings_.sync) written.sync();
     }
     // The new name is left to the system: what is not there after a loss of power is made again.
-    if (::rename(part.c_str(), file(name).c_str()) != 0) cannot_keep(settings_.path, std::strerror(errno));
+    if (!rename_file(part, file(name))) cannot_keep(settings_.path, std::strerror(errno));
 }
 
 std::optional<io::Bytes> CellFolder::read(const std::string& name) const {
@@ -136,8 +126,7 @@ void CellFolder::set_time(const std::string& name, fs::file_time_type time) cons
 }
 
 void CellFolder::touch(const std::string& name) const {
-    if (::utimensat(AT_FDCWD, file(name).c_str(), nullptr, 0) != 0)
-        cannot_keep(settings_.path, std::strerror(errno));
+    if (!touch_file(file(name))) cannot_keep(settings_.path, std::strerror(errno));
 }
 
 } // namespace facetmill::cells

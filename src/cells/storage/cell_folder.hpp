@@ -2,6 +2,7 @@
 // A named folder in which cells outlive the run that made them (docs/large-meshes.md describes its files).
 
 #include "io/bytes.hpp"
+#include "platform/file_lock.hpp"
 
 #include <functional>
 #include <optional>
@@ -22,7 +23,6 @@ class CellFolder {
     };
     /// Makes it. Throws output: E-BUSY when another run holds it, E-WRITE, E-SPACE.
     explicit CellFolder(Settings settings);
-    ~CellFolder();
     CellFolder(const CellFolder&) = delete;
     CellFolder& operator=(const CellFolder&) = delete;
 
@@ -56,11 +56,10 @@ class CellFolder {
     bool is_alone() const { return settings_.beside.empty(); }
 
   private:
-    void take_lock(const std::string& name, int how);
-    void leave();
+    void take_lock(const std::string& name, Lock how);
 
     Settings settings_;
-    std::vector<int> locks_;
+    std::vector<Descriptor> locks_;
 };
 
 } // namespace facetmill::cells

@@ -2,74 +2,22 @@
 
 #include "cells/storage/block_file.hpp"
 #include "io/text.hpp"
+#include "platform/file_bytes.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace facetmill::cells {
 
-std::size_t read_at(int file, std::uint64_t offset, std::span<std::byte> to) {
-    std::size_t done = 0;
-    while (done < to.size()) {
-        const ssize_t n =
-            ::pread(file, to.data() + done, to.size() - done, static_cast<off_t>(offset + done));
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        done += static_cast<std::size_t>(n);
-    }
-    return done;
-}
-
-namespace {
-
-constexpr std::int64_t nanoseconds = 1000000000; // of a second
-
-std::int64_t time_in(const timespec& time) {
-    return std::int64_t{time.tv_sec} * nanoseconds + std::int64_t{time.tv_nsec};
-}
-
-FileStamp stamp_of(const struct stat& about) {
-    return {static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_dev),
-            static_cast<std::uint64_t>(about.st_ino), time_in(about.st_mtim), time_in(about.st_ctim)};
-}
-
-} // namespace
-
-std::optional<FileStamp> FileStamp::of(const std::filesystem::path& path) {
-    struct stat about {};
-    return ::stat(path.c_str(), &about) == 0 ? std::optional(stamp_of(about)) : std::nullopt;
-}
-
-std::optional<FileStamp> FileStamp::of(int file) {
-    struct stat about {};
-    return ::fstat(file, &about) == 0 ? std::optional(stamp_of(about)) : std::nullopt;
-}
-
-bool FileStamp::has_contents_of(const FileStamp& other) const {
-    FileStamp same = *this;
-    same.changed = other.changed;
-    return same == other;
-}
-
-bool FileStamp::is_settled(std::int64_t now) const {
-    constexpr std::int64_t coarsest = 2 * nanoseconds; // FAT
-    return std::max(modified, changed) + coarsest < now;
-}
-
 ReadFile::ReadFile(const std::filesystem::path& path) : path_(path) {
-    file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file_ < 0)
+    file_ = open_file(path);
+    if (!file_)
         throw Error(ErrorKind::missing, "E-FILE",
                     fmt::format("'{}' cannot be read: {}", path.string(), std::strerror(errno)));
     stamp_ = FileStamp::of(file_);
 }
-
-ReadFile::~ReadFile() { ::close(file_); }
 
 void ReadFile::read(std::uint64_t offset, std::span<std::byte> to) const {
     const std::size_t done = read_at(file_, offset, to);

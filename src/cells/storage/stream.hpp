@@ -3,30 +3,9 @@
 
 #include "base/hash.hpp"
 #include "io/bytes.hpp"
-
-#include <optional>
+#include "platform/file_status.hpp"
 
 namespace facetmill::cells {
-
-/// Reads a file from that byte on; returns how many bytes there were, fewer than asked for at its end or
-/// where it cannot be read.
-std::size_t read_at(int file, std::uint64_t offset, std::span<std::byte> to);
-
-/// What the system says of a file.
-struct FileStamp {
-    std::uint64_t bytes = 0, device = 0, inode = 0;
-    std::int64_t modified = 0, changed = 0; ///< nanoseconds since 1970, of its contents and of anything of it
-    bool operator==(const FileStamp&) const = default;
-
-    /// None where there is no such file.
-    static std::optional<FileStamp> of(const std::filesystem::path& path);
-    static std::optional<FileStamp> of(int file);
-    /// Whether it tells of the same contents; another name, owner or number of links is no other.
-    bool has_contents_of(const FileStamp& other) const;
-    /// Whether a file that is written to at that time, or later, gets other times, also where the system
-    /// counts in seconds.
-    bool is_settled(std::int64_t now) const;
-};
 
 /// A file that is open for reading.
 class ReadFile {
@@ -34,9 +13,8 @@ class ReadFile {
     /// Throws missing.
     explicit ReadFile(const std::filesystem::path& path);
     /// Temporary data without a name, in that folder: it is closed here.
-    ReadFile(int file, std::filesystem::path folder)
-        : path_(std::move(folder)), file_(file), temporary_(true) {}
-    ~ReadFile();
+    ReadFile(Descriptor file, std::filesystem::path folder)
+        : path_(std::move(folder)), file_(std::move(file)), temporary_(true) {}
     ReadFile(const ReadFile&) = delete;
     ReadFile& operator=(const ReadFile&) = delete;
     /// Any thread. Throws malformed (E-CHANGED) when the file ends before; output (E-SCRATCH) when it is
@@ -53,7 +31,7 @@ class ReadFile {
   private:
     std::filesystem::path path_;
     std::optional<FileStamp> stamp_;
-    int file_ = -1;
+    Descriptor file_;
     bool temporary_ = false;
 };
 

@@ -4,10 +4,10 @@
 #include "base/text/markup.hpp"
 #include "base/text/spelling.hpp"
 #include "parallel/memory.hpp"
+#include "platform/file_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace facetmill::io {
 
@@ -131,7 +131,7 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         return bytes;
     } catch (const Error& error) {
         // A fault of the disk or too many open files: without its picture the result would be another one.
-        if (error.kind() == ErrorKind::missing && ::access(path->c_str(), R_OK) == 0) throw;
+        if (error.kind() == ErrorKind::missing && may_read(*path)) throw;
         log.unrepeatable = true; // it is there, and may be readable the next time
         return refuse(error.diagnostics().front().message, "check the permissions of the image");
     }

@@ -1,19 +1,18 @@
 #include "io/outputs/clean_up.hpp"
 
 #include "io/outputs/outputs.hpp"
+#include "platform/file_names.hpp"
+#include "platform/signals.hpp"
 
 #include <atomic>
-#include <csignal>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <unistd.h>
 
 namespace facetmill::io {
 
 struct CleanUp {
-    std::string path, aside{}; ///< aside: what is renamed to path; empty: path is removed
+    std::filesystem::path path, aside{}; ///< aside: what is renamed to path; empty: path is removed
     bool directory = false;
     std::atomic<bool> active{true};
     CleanUp* next = nullptr;
@@ -29,11 +28,7 @@ std::atomic<int> waiting_signal{0};
 std::atomic<CleanUp*> entries{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<CleanUp*>::is_always_lock_free);
 
-[[noreturn]] void wait_for_the_end() {
-    while (true) ::pause();
-}
-
-CleanUp* enter(std::string path, std::string aside, bool directory) {
+CleanUp* enter(std::filesystem::path path, std::filesystem::path aside, bool directory) {
     auto* entry = new CleanUp;
     entry->path = std::move(path);
     entry->aside = std::move(aside);
@@ -50,12 +45,12 @@ void undo_all() {
     for (const CleanUp* e = entries; e; e = e->next)
         if (e->active && !e->directory) {
             if (e->aside.empty())
-                ::unlink(e->path.c_str());
+                remove_file(e->path);
             else
-                ::rename(e->aside.c_str(), e->path.c_str());
+                rename_file(e->aside, e->path);
         }
     for (const CleanUp* e = entries; e; e = e->next) // the last made first
-        if (e->active && e->directory) ::rmdir(e->path.c_str());
+        if (e->active && e->directory) remove_folder(e->path);
 }
 
 extern "C" void end_by_signal(int number) {
@@ -65,39 +60,22 @@ extern "C" void end_by_signal(int number) {
         return;
     }
     undo_all();
-    // The default action makes the exit status 128+n; the signal is delivered when the handler returns.
-    struct sigaction plain {};
-    plain.sa_handler = SIG_DFL;
-    ::sigaction(number, &plain, nullptr);
-    ::raise(number);
+    end_by(number);
 }
 
 extern "C" void end_by_lost_input(int number) {
-    static const char message[] = "facetmill: error[E-FILE]: an input shrank while it was read\n";
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
+    write_to_standard_error("facetmill: error[E-FILE]: an input shrank while it was read\n");
     if (state != dying) undo_all();
-    struct sigaction plain {};
-    plain.sa_handler = SIG_DFL;
-    ::sigaction(number, &plain, nullptr);
-    ::raise(number);
-}
-
-void install(int number, void (*handler)(int)) {
-    struct sigaction before {
-    }, action{};
-    ::sigaction(number, nullptr, &before);
-    if (before.sa_handler == SIG_IGN) return;
-    action.sa_handler = handler;
-    ::sigaction(number, &action, nullptr);
+    end_by(number);
 }
 
 } // namespace
 
-CleanUp* clean_up_file(const std::filesystem::path& path) { return enter(path.string(), {}, false); }
+CleanUp* clean_up_file(const std::filesystem::path& path) { return enter(path, {}, false); }
 CleanUp* clean_up_restore(const std::filesystem::path& aside, const std::filesystem::path& path) {
-    return enter(path.string(), aside.string(), false);
+    return enter(path, aside, false);
 }
-CleanUp* clean_up_directory(const std::filesystem::path& path) { return enter(path.string(), {}, true); }
+CleanUp* clean_up_directory(const std::filesystem::path& path) { return enter(path, {}, true); }
 void keep(CleanUp* entry) {
     if (entry) entry->active = false;
 }
@@ -109,8 +87,8 @@ void end_at_once(int exit_code, std::string_view message) {
         std::this_thread::yield(); // another gives outputs their names: all of them or none
     }
     undo_all();
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
-    ::_exit(exit_code);
+    write_to_standard_error(message);
+    exit_now(exit_code);
 }
 
 namespace {
@@ -126,15 +104,14 @@ HoldSignals::HoldSignals() {
 
 HoldSignals::~HoldSignals() {
     state = idle;
-    if (const int number = waiting_signal.exchange(0)) ::raise(number);
+    if (const int number = waiting_signal.exchange(0)) raise_signal(number);
     holders.unlock();
 }
 
 void clean_up_on_signals() {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) install(number, end_by_signal);
-    install(SIGBUS, end_by_lost_input);
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);
+    on_end_signals(end_by_signal);
+    on_lost_pages(end_by_lost_input);
+    ignore_write_signals();
 }
 
 } // namespace facetmill::io

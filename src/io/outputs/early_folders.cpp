@@ -1,11 +1,10 @@
 #include "io/outputs/early_folders.hpp"
 
 #include "io/outputs/clean_up.hpp"
+#include "platform/file_lock.hpp"
+#include "platform/file_names.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <cerrno>
 
 namespace facetmill::io {
 
@@ -20,10 +19,10 @@ constexpr std::size_t max_open_folders = 128;
 
 void EarlyFolders::use(const fs::path& folder, bool made) {
     Folder& own =
-        folders_.emplace_back(Folder{folder, -1, made, made ? clean_up_directory(folder) : nullptr});
+        folders_.emplace_back(Folder{folder, {}, made, made ? clean_up_directory(folder) : nullptr});
     if (folders_.size() > max_open_folders) return;
-    own.lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (own.lock >= 0) ::flock(own.lock, LOCK_SH | LOCK_NB);
+    own.lock = open_file(folder, {.is_folder = true});
+    if (own.lock) try_lock(own.lock, Lock::shared);
 }
 
 void EarlyFolders::make(const fs::path& folder) {
@@ -35,7 +34,7 @@ void EarlyFolders::make(const fs::path& folder) {
             if (fs::is_directory(folder, error)) return; // locked, so it stays
         } else {
             make(folder.parent_path());
-            if (::mkdir(folder.c_str(), 0777) == 0) return use(folder, true);
+            if (make_folder(folder)) return use(folder, true);
             if (errno != ENOENT && errno != EEXIST) return;
             if (fs::exists(fs::symlink_status(folder, error)) && !fs::is_directory(folder, error)) return;
         }
@@ -51,10 +50,10 @@ std::vector<fs::path> EarlyFolders::made_in() const {
 
 EarlyFolders::~EarlyFolders() {
     for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
-        const bool free = folder->lock < 0 || ::flock(folder->lock, LOCK_EX | LOCK_NB) == 0;
-        if (folder->made && free) ::rmdir(folder->path.c_str()); // unless something is in it
+        const bool free = !folder->lock || try_lock(folder->lock);
+        if (folder->made && free) remove_folder(folder->path); // unless something is in it
         if (folder->made) keep(folder->clean_up);
-        if (folder->lock >= 0) ::close(folder->lock);
+        folder->lock.close();
     }
 }
 

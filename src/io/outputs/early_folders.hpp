@@ -2,7 +2,8 @@
 // Folders of outputs that are made before the sandbox closes: what is made later would have no right of its
 // own.
 
-#include <filesystem>
+#include "platform/descriptor.hpp"
+
 #include <vector>
 
 namespace facetmill::io {
@@ -26,7 +27,7 @@ class EarlyFolders {
   private:
     struct Folder {
         std::filesystem::path path;
-        int lock = -1; ///< held open and locked, shared, while this lives
+        Descriptor lock; ///< held open and locked, shared, while this lives
         bool made = false;
         CleanUp* clean_up = nullptr;
     };

@@ -1,17 +1,15 @@
 #include "io/outputs/output_files.hpp"
 
 #include "base/progress.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/file_names.hpp"
+#include "platform/file_status.hpp"
 #include "platform/sandbox.hpp"
+#include "platform/temporary_files.hpp"
 
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace facetmill::io {
 
@@ -46,30 +44,14 @@ void cannot_write(const fs::path& target, int error) {
                 hint_to_write(target, error));
 }
 
-void write_all(int fd, Span bytes, const fs::path& target) {
+void write_all(const Descriptor& file, Span bytes, const fs::path& target) {
     const auto all = static_cast<double>(bytes.size());
     while (!bytes.empty()) {
         ProgressScope::report(1 - static_cast<double>(bytes.size()) / all);
-        const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{16} << 20));
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) cannot_write(target, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
+        const auto n = write_some(file, bytes.first(std::min(bytes.size(), std::size_t{16} << 20)));
+        if (!n) cannot_write(target, errno);
+        bytes = bytes.subspan(*n);
     }
-}
-
-void begin_sync(int fd) {
-#ifdef SYNC_FILE_RANGE_WRITE
-    ::sync_file_range(fd, 0, 0, SYNC_FILE_RANGE_WRITE);
-#else
-    static_cast<void>(fd);
-#endif
-}
-
-bool synced(int fd) {
-    int done = 0;
-    do done = ::fsync(fd);
-    while (done != 0 && errno == EINTR);
-    return done == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
 }
 
 bool is_stream(const fs::path& target) {
@@ -101,53 +83,12 @@ fs::path identity(const fs::path& path) {
     return error ? fs::absolute(path).lexically_normal() : whole;
 }
 
-std::string temporary_name(const fs::path& target, int attempt) {
-    const std::string tail =
-        fmt::format(".facetmill-{}{}~", ::getpid(), attempt ? fmt::format("-{}", attempt) : "");
-    constexpr std::size_t longest_name = 255;
-    return fmt::format(".{}{}", target.filename().string().substr(0, longest_name - 1 - tail.size()), tail);
-}
-
-int writer_of(std::string_view name) {
-    constexpr std::string_view mark = ".facetmill-";
-    const auto at = name.rfind(mark);
-    if (name.size() < 2 || name.front() != '.' || name.back() != '~' || at == std::string_view::npos ||
-        at == 0)
-        return 0;
-    int pid = 0, attempt = 0;
-    const char* const end = name.data() + name.size() - 1;
-    auto read = std::from_chars(name.data() + at + mark.size(), end, pid);
-    if (read.ec == std::errc{} && read.ptr != end && *read.ptr == '-')
-        read = std::from_chars(read.ptr + 1, end, attempt);
-    return read.ec == std::errc{} && read.ptr == end && pid > 0 ? pid : 0;
-}
-
-bool is_abandoned(const fs::path& temporary, int pid) {
-    if (pid == ::getpid() || ::kill(pid, 0) == 0 || errno != ESRCH) return false;
-    const int fd = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (fd < 0) return false;
-    const bool free = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
-    ::close(fd);
-    return free;
-}
-
-void remove_abandoned(const fs::path& directory) {
-    std::error_code error;
-    for (fs::directory_iterator it(directory.empty() ? "." : directory, error), end; !error && it != end;
-         it.increment(error)) {
-        const int pid = writer_of(it->path().filename().native());
-        if (pid && is_abandoned(it->path(), pid)) ::unlink(it->path().c_str());
-    }
-}
-
-void keep_permissions(int fd, const fs::path& target, const fs::path& given) {
-    struct stat about {};
-    if (::stat(target.c_str(), &about) != 0) return;
-    if (S_ISDIR(about.st_mode)) cannot_write(given, EISDIR);
-    if (::access(target.c_str(), W_OK) != 0) cannot_write(given, errno);
-    const bool owned = (about.st_uid == ::geteuid() && about.st_gid == ::getegid()) ||
-                       ::fchown(fd, about.st_uid, about.st_gid) == 0;
-    ::fchmod(fd, about.st_mode & (owned ? 07777 : 0777));
+void keep_permissions(const Descriptor& file, const fs::path& target, const fs::path& given) {
+    const auto about = status_of(target);
+    if (!about) return;
+    if (about->kind == FileKind::folder) cannot_write(given, EISDIR);
+    if (!may_write(target)) cannot_write(given, errno);
+    take_permissions(file, *about);
 }
 
 fs::path set_aside(const fs::path& target) {

@@ -4,17 +4,17 @@
 #include "io/outputs/clean_up.hpp"
 #include "io/outputs/output_files.hpp"
 #include "parallel/parallel.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/file_lock.hpp"
+#include "platform/file_names.hpp"
+#include "platform/temporary_files.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <mutex>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 namespace facetmill::io {
@@ -37,16 +37,16 @@ constexpr std::size_t max_locks = 128;
 bool is_streamed(const Outputs::File& file) { return file.temporary.empty() && !file.is_input; }
 
 void stream_out(const Outputs::File& file) {
-    const bool standard = file.target == "-";
-    const int fd = standard ? STDOUT_FILENO : ::open(file.target.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC);
-    if (fd < 0) cannot_write(file, errno);
+    Descriptor to = file.target == "-"
+                        ? Descriptor::standard_output()
+                        : open_file(file.target, {.what = OpenFor::writing, .truncates = true});
+    if (!to) cannot_write(file, errno);
     try {
-        write_all(fd, file.stream, file.target);
+        write_all(to, file.stream, file.target);
     } catch (Error& e) {
-        if (!standard) ::close(fd);
         throw e.at(file.where);
     }
-    if (!standard && ::close(fd) != 0) cannot_write(file, errno);
+    if (!to.close()) cannot_write(file, errno);
 }
 
 } // namespace
@@ -58,7 +58,7 @@ void Outputs::make_directory(const fs::path& directory) {
     constexpr int max_attempts = 1000;
     for (int attempt = 0; !directory.empty() && !fs::is_directory(directory, error); ++attempt) {
         make_directory(directory.parent_path());
-        if (::mkdir(directory.c_str(), 0777) == 0) {
+        if (make_folder(directory)) {
             made_directories_.push_back({directory, clean_up_directory(directory)});
             return;
         }
@@ -104,28 +104,28 @@ void Outputs::stage(File& file, const std::function<void(const Put&)>& produce) 
     for (int attempt = 0;; ++attempt) {
         file.temporary = directory / temporary_name(file.resolved, attempt);
         file.clean_up = clean_up_file(file.temporary);
-        file.lock = ::open(file.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file.lock >= 0) break;
+        file.lock = open_file(file.temporary, {.what = OpenFor::writing, .create = Create::always});
+        if (file.lock) break;
         const int why = errno;
         keep(file.clean_up);
         if (attempt >= max_attempts || (why != EEXIST && why != ENOENT)) cannot_write(file, why);
         if (why == ENOENT) make_directory(directory); // another run that failed had made it, and removed it
     }
     try {
-        ::flock(file.lock, LOCK_EX | LOCK_NB);
+        try_lock(file.lock);
         keep_permissions(file.lock, file.resolved, file.target);
         produce([&](Span bytes) { write_all(file.lock, bytes, file.target); });
         if (settings_.sync) begin_sync(file.lock);
         // Network file systems say only at a close that there is no room; the lock lives in the other
         // descriptor.
-        if (const int copy = ::dup(file.lock); copy < 0 || ::close(copy) != 0) cannot_write(file, errno);
+        if (Descriptor copy = duplicate(file.lock); !copy || !copy.close()) cannot_write(file, errno);
     } catch (...) {
-        ::close(file.lock);
-        ::unlink(file.temporary.c_str());
+        file.lock.close();
+        remove_file(file.temporary);
         keep(file.clean_up);
         throw;
     }
-    if (files_.size() >= max_locks) ::close(std::exchange(file.lock, -1));
+    if (files_.size() >= max_locks) file.lock.close();
 }
 
 namespace {
@@ -232,9 +232,9 @@ template <class AllRenamed>
 void put_back(const AllRenamed& all) {
     for (const auto& renamed : all) {
         if (renamed.aside.empty())
-            ::unlink(renamed.file->resolved.c_str());
+            remove_file(renamed.file->resolved);
         else
-            ::rename(renamed.aside.c_str(), renamed.file->resolved.c_str());
+            rename_file(renamed.aside, renamed.file->resolved);
         keep(renamed.clean_up);
     }
 }
@@ -255,7 +255,7 @@ void Outputs::leave_unchanged() {
         } catch (const Error&) {
             continue; // it cannot be read, so it is replaced
         }
-        ::unlink(file->temporary.c_str());
+        remove_file(file->temporary);
         keep(file->clean_up);
         file->clean_up = nullptr;
         file->temporary.clear();
@@ -268,11 +268,9 @@ void Outputs::sync_contents() const {
     if (!settings_.sync) return;
     for (const auto& file : files_) {
         if (file->temporary.empty()) continue;
-        const int fd = file->lock >= 0 ? file->lock : ::open(file->temporary.c_str(), O_RDONLY | O_CLOEXEC);
-        if (fd < 0) cannot_write(*file, errno);
-        const int why = synced(fd) ? 0 : errno;
-        if (fd != file->lock) ::close(fd);
-        if (why != 0) cannot_write(*file, why);
+        const Descriptor again = file->lock ? Descriptor() : open_file(file->temporary);
+        if (!file->lock && !again) cannot_write(*file, errno);
+        if (!synced(file->lock ? file->lock : again)) cannot_write(*file, errno);
     }
 }
 
@@ -285,10 +283,8 @@ void Outputs::sync_names() const {
         if (!file->temporary.empty()) folders.insert(file->resolved.parent_path());
     for (const auto& made : made_directories_) folders.insert(made.path.parent_path());
     for (const auto& folder : folders) {
-        const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (fd < 0) continue;
-        synced(fd);
-        ::close(fd);
+        const Descriptor names = open_file(folder.empty() ? "." : folder, {.is_folder = true});
+        if (names) synced(names);
     }
 }
 
@@ -298,7 +294,7 @@ std::vector<Outputs::Renamed> Outputs::rename_all(bool streams_follow) {
         for (const auto& file : files_) {
             if (file->temporary.empty()) continue;
             fs::path aside = files_.size() > 1 ? set_aside(file->resolved) : fs::path();
-            if (::rename(file->temporary.c_str(), file->resolved.c_str()) != 0) {
+            if (!rename_file(file->temporary, file->resolved)) {
                 const int why = errno;
                 std::error_code ignored;
                 fs::remove(aside, ignored);
@@ -359,14 +355,14 @@ void Outputs::commit() {
 
 void Outputs::forget(bool remove) {
     for (const auto& file : files_) {
-        if (remove && !file->temporary.empty()) ::unlink(file->temporary.c_str());
-        if (file->lock >= 0) ::close(file->lock);
+        if (remove && !file->temporary.empty()) remove_file(file->temporary);
+        file->lock.close();
         keep(file->clean_up);
     }
     files_.clear();
     by_identity_.clear();
     for (auto it = made_directories_.rbegin(); it != made_directories_.rend(); ++it) {
-        if (remove) ::rmdir(it->path.c_str());
+        if (remove) remove_folder(it->path);
         keep(it->clean_up);
     }
     made_directories_.clear();

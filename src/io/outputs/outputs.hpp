@@ -4,6 +4,7 @@
 // were. After kill -9 a temporary may stay; the next run that writes into that directory removes it.
 
 #include "io/bytes.hpp"
+#include "platform/descriptor.hpp"
 
 #include <functional>
 #include <map>
@@ -36,8 +37,8 @@ class Outputs {
         Bytes stream;
         std::size_t bytes = 0;
         std::string sha256;
-        Mark where;    ///< what asked for it, for messages
-        int lock = -1; ///< the temporary, held open and locked while this process lives
+        Mark where;      ///< what asked for it, for messages
+        Descriptor lock; ///< the temporary, held open and locked while this process lives
         CleanUp* clean_up = nullptr;
     };
 

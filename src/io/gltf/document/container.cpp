@@ -5,17 +5,16 @@
 #include "io/gltf/document/accessor.hpp"
 #include "io/images/image_files.hpp"
 #include "parallel/memory.hpp"
+#include "platform/file_bytes.hpp"
+#include "platform/file_status.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <set>
-#include <sys/stat.h>
 #include <system_error>
 #include <tiny_gltf.h>
-#include <unistd.h>
 
 namespace facetmill::io::gltf {
 
@@ -116,30 +115,22 @@ bool file_exists(const std::string&, void* user) {
 
 std::string same_path(const std::string& path, void*) { return path; }
 
-/// Closes what was opened for reading, where an error of close tells nothing.
-struct OpenNeighbour {
-    const int fd;
-    ~OpenNeighbour() { ::close(fd); }
-};
-
 /// At most so many bytes of the file; what kept it from being read is an errno, 0 for nothing.
 int read_prefix(const fs::path& path, std::size_t most, std::vector<unsigned char>& out) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return errno;
-    const OpenNeighbour closing{fd};
-    int why = 0;
-    struct stat about {};
-    if (::fstat(fd, &about) != 0) why = errno;
+    const Descriptor file = open_file(path);
+    if (!file) return errno;
+    const auto about = status_of(file);
+    if (!about) return errno;
     // glTF allows files longer than byteLength; tinygltf does not. The file may be sparse: its size costs
     // nothing.
-    if (why == 0) out.resize(std::min(static_cast<std::size_t>(about.st_size), most));
-    for (std::size_t at = 0; why == 0 && at < out.size();) {
-        const ssize_t got = ::read(fd, out.data() + at, std::min(out.size() - at, std::size_t{1} << 30));
-        if (got > 0) at += static_cast<std::size_t>(got);
-        if (got < 0 && errno != EINTR) why = errno;
-        if (got == 0) out.resize(at); // it has become shorter
+    out.resize(std::min<std::size_t>(about->stamp.bytes, most));
+    for (std::size_t at = 0; at < out.size();) {
+        const auto got = read_some(file, std::as_writable_bytes(std::span(out).subspan(at)));
+        if (!got) return errno;
+        if (*got == 0) out.resize(at); // it has become shorter
+        at += *got;
     }
-    return why;
+    return 0;
 }
 
 bool read_file(std::vector<unsigned char>* out, std::string* error, const std::string&, void* user) {

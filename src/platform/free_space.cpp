@@ -1,0 +1,13 @@
+#include "platform/free_space.hpp"
+
+#include <sys/statvfs.h>
+
+namespace facetmill {
+
+std::optional<std::uint64_t> free_space(const std::filesystem::path& folder) {
+    struct statvfs about {};
+    if (::statvfs(folder.c_str(), &about) != 0) return {};
+    return static_cast<std::uint64_t>(about.f_bavail) * about.f_frsize;
+}
+
+} // namespace facetmill
