@@ -3,6 +3,7 @@
 // of them on shared threads, what an earlier batch has done already, and one summary.
 
 #include "base/text/markup.hpp"
+#include "batch/figures.hpp"
 #include "pipeline/run.hpp"
 
 #include <map>
@@ -90,9 +91,8 @@ struct Outcome {
     bool kept = false; ///< an earlier batch has done it, and nothing has changed since
     int exit_code = 0;
     double seconds = 0;
-    std::uint64_t faces_in = 0, faces_out = 0; ///< as loaded first, and at the end
-    std::uint64_t bytes = 0;                   ///< of all outputs, without reports
-    std::vector<std::string> outputs;          ///< from the output folder of the batch
+    Figures figures;
+    std::vector<std::string> outputs; ///< from the output folder of the batch
     std::vector<Diagnostic> warnings, errors;
     std::string picture; ///< a PNG in base64, or empty
 };

@@ -58,20 +58,20 @@ std::string to_html(const Summary& summary) {
         const Outcome& out = summary.outcomes[i];
         const std::string code_text =
             out.verdict == Outcome::Verdict::ok || out.exit_code != 0 ? std::to_string(out.exit_code) : "";
+        std::string figures;
+        for (const Column& column : columns()) figures += number_cell(column.cell(out.figures.*column.value));
         rows += fmt::format(
-            "<tr>{}{}{}{}{}{}{}<td class=\"notes\">{}</td></tr>\n", picture_cell(asset, out, bytes),
+            "<tr>{}{}{}{}{}<td class=\"notes\">{}</td></tr>\n", picture_cell(asset, out, bytes),
             cell(fmt::format("<span class=\"{}\">{}</span>", kind_of(out), verdict_word(out.verdict))),
-            cell(report::path_code(asset.name)), number_cell(code_text), number_cell(grouped(out.faces_in)),
-            number_cell(grouped(out.faces_out)), number_cell(sized(out.bytes)), notes_of(out));
+            cell(report::path_code(asset.name)), number_cell(code_text), figures, notes_of(out));
     }
     const bool good = count(summary, Outcome::Verdict::ok) == summary.assets.size();
     std::string page = report::html_begin(short_name(summary.pipeline),
                                           fmt::format("{} assets", summary.assets.size()), summary.pipeline);
     page += fmt::format("<p class=\"verdict {}\">{}</p>\n", good ? "good" : "bad", verdict_line(summary));
-    page += report::table("Assets",
-                          report::heads({"picture", "outcome", "asset", "#exit code", "#faces in",
-                                         "#faces out", "#bytes", "notes and outputs"}),
-                          rows);
+    std::string heads = report::heads({"picture", "outcome", "asset", "#exit code"});
+    for (const Column& column : columns()) heads += report::heads({fmt::format("#{}", column.title).c_str()});
+    page += report::table("Assets", heads + report::heads({"notes and outputs"}), rows);
     return page + report::html_end();
 }
 
@@ -83,12 +83,16 @@ std::string to_markdown(const Summary& summary) {
         for (const auto* all : {&out.errors, &out.warnings})
             for (const auto& d : *all)
                 notes += (notes.empty() ? "" : "<br>") + markdown_escaped(d.id + ": " + d.message);
-        rows.push_back({verdict_word(out.verdict), markdown_escaped(summary.assets[i].name),
-                        grouped(out.faces_in), grouped(out.faces_out), sized(out.bytes), notes});
+        auto& row = rows.emplace_back(
+            std::vector<std::string>{verdict_word(out.verdict), markdown_escaped(summary.assets[i].name)});
+        for (const Column& column : columns()) row.push_back(column.cell(out.figures.*column.value));
+        row.push_back(std::move(notes));
     }
+    std::vector<std::string> heads{"outcome", "asset"};
+    for (const Column& column : columns()) heads.emplace_back(column.title);
+    heads.emplace_back("notes");
     return fmt::format("## {}\n\n{}\n", markdown_escaped(summary.pipeline), verdict_line(summary)) +
-           report::markdown_table("Assets", {"outcome", "asset", "faces in", "faces out", "size", "notes"},
-                                  rows);
+           report::markdown_table("Assets", heads, rows);
 }
 
 std::string render_for(const std::string& path, const Summary& summary) {

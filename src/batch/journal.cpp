@@ -37,20 +37,20 @@ std::vector<Stamp> stamps_from(const Json& json) {
 }
 
 Json done_json(const Done& done) {
-    return {{"asset", done.asset},
-            {"digest", done.digest},
-            {"source", done.source},
-            {"mount_point", done.mount_point},
-            {"of_table", done.of_table},
-            {"inputs", stamps_json(done.inputs)},
-            {"outputs", stamps_json(done.outputs)},
-            {"absent", done.absent},
-            {"former", done.former},
-            {"faces", {done.faces_in, done.faces_out}},
-            {"bytes", done.bytes},
-            {"written", done.written},
-            {"warnings", done.warnings},
-            {"picture", done.picture}};
+    Json json = {{"asset", done.asset},
+                 {"digest", done.digest},
+                 {"source", done.source},
+                 {"mount_point", done.mount_point},
+                 {"of_table", done.of_table},
+                 {"inputs", stamps_json(done.inputs)},
+                 {"outputs", stamps_json(done.outputs)},
+                 {"absent", done.absent},
+                 {"former", done.former},
+                 {"written", done.written},
+                 {"warnings", done.warnings},
+                 {"picture", done.picture}};
+    for (const Column& column : columns()) json[column.key] = done.figures.*column.value;
+    return json;
 }
 
 Done done_from(const Json& json) {
@@ -64,9 +64,8 @@ Done done_from(const Json& json) {
     done.outputs = stamps_from(json.at("outputs"));
     json.at("absent").get_to(done.absent);
     json.at("former").get_to(done.former);
-    json.at("faces").at(0).get_to(done.faces_in);
-    json.at("faces").at(1).get_to(done.faces_out);
-    json.at("bytes").get_to(done.bytes);
+    for (const Column& column : columns()) // another release may lack some
+        done.figures.*column.value = json.value(column.key, std::uint64_t{0});
     json.at("written").get_to(done.written);
     json.at("warnings").get_to(done.warnings);
     json.at("picture").get_to(done.picture);

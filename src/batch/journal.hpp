@@ -2,6 +2,7 @@
 // What batches have done in an output folder, so that the next one leaves alone whatever has not changed.
 
 #include "base/error.hpp"
+#include "batch/figures.hpp"
 #include "platform/descriptor.hpp"
 
 #include <cstdint>
@@ -33,7 +34,7 @@ struct Done {
     std::vector<Stamp> inputs, outputs;
     std::vector<std::string> absent; ///< files that inputs name and that were not there
     std::vector<std::pair<std::string, std::string>> former; ///< outputs of runs before, and their digests
-    std::uint64_t faces_in = 0, faces_out = 0, bytes = 0;
+    Figures figures;
     std::vector<std::string> written; ///< outputs without reports, as a summary has them
     std::vector<std::pair<std::string, std::string>> warnings; ///< ids and messages
     std::string picture;

@@ -43,15 +43,8 @@ Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     out.exit_code = record.exit_code;
     out.verdict = record.exit_code == 0 ? Verdict::ok : Verdict::failed;
     out.seconds = record.seconds;
-    for (const auto& stage : record.stages) {
-        if (!stage.after) continue;
-        if (out.faces_in == 0) out.faces_in = stage.after->faces;
-        out.faces_out = stage.after->faces;
-    }
-    for (const auto& file : record.outputs) {
-        out.bytes += file.bytes;
-        out.outputs.push_back(from_folder(asset, file.path));
-    }
+    out.figures = figures_of(record);
+    for (const auto& file : record.outputs) out.outputs.push_back(from_folder(asset, file.path));
     for (auto& stage : record.stages)
         if (!stage.picture.empty()) out.picture = std::move(stage.picture);
     return out;
@@ -142,9 +135,7 @@ class BatchRun {
         Outcome out;
         out.verdict = Verdict::ok;
         out.kept = true;
-        out.faces_in = done.faces_in;
-        out.faces_out = done.faces_out;
-        out.bytes = done.bytes;
+        out.figures = done.figures;
         out.outputs = done.written;
         for (const auto& [id, message] : done.warnings)
             out.warnings.push_back({Severity::warning, id, message, {}, {}});
@@ -263,9 +254,7 @@ class BatchRun {
             done.outputs.push_back(complete({from_folder(work.asset, file.path), 0, 0, file.sha256}));
         for (const auto& report : record.reports)
             done.outputs.push_back(complete({from_folder(work.asset, report), 0, 0, ""}));
-        done.faces_in = out.faces_in;
-        done.faces_out = out.faces_out;
-        done.bytes = out.bytes;
+        done.figures = out.figures;
         done.written = out.outputs;
         for (const auto& warning : out.warnings) done.warnings.emplace_back(warning.id, warning.message);
         done.picture = out.picture;

@@ -39,9 +39,10 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
     d.field("asset", asset_name, "Its input, or what names its row of the table");
     d.choice("verdict", of_outcome(&Outcome::verdict), verdicts, "");
     d.field("exit_code", of_outcome(&Outcome::exit_code), "");
-    d.field("faces_in", of_outcome(&Outcome::faces_in), "As loaded first");
-    d.field("faces_out", of_outcome(&Outcome::faces_out), "At the end");
-    d.field("bytes", of_outcome(&Outcome::bytes), "Of all outputs, without reports");
+    for (const Column& column : columns())
+        d.field(
+            column.key, [value = column.value](const AssetOutcome& one) { return one.out->figures.*value; },
+            column.help);
     d.field("outputs", of_outcome(&Outcome::outputs), "From the output folder");
     refer(d.list("errors", of_outcome(&Outcome::errors), "Why it failed",
                  report::declare_diagnostic<Diagnostic>),

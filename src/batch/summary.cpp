@@ -58,11 +58,9 @@ void add_line(const Asset& asset, const Outcome& out, BatchForm form, Painted& t
     text.paint(bad ? "1;31" : "32", fmt::format("{:<11}", word)) += "  " + one_line(asset.name);
     if (out.verdict == Outcome::Verdict::failed) text += fmt::format("  exit code {}", out.exit_code);
     if (terminal && !out.errors.empty()) text += "  " + ids_of(out.errors);
-    if (out.verdict == Outcome::Verdict::ok && out.faces_in + out.faces_out > 0)
-        text += fmt::format("  {} -> {} {}", grouped(out.faces_in), grouped(out.faces_out),
-                            noun_for(out.faces_out, "face"));
-    if (out.verdict == Outcome::Verdict::ok && !out.outputs.empty())
-        text += fmt::format("  {}", sized(out.bytes));
+    for (const Column& column : columns())
+        if (out.verdict == Outcome::Verdict::ok && column.phrase)
+            if (const std::string phrase = column.phrase(out.figures); !phrase.empty()) text += "  " + phrase;
     if (terminal && out.seconds > 0) text += fmt::format("  {}", timed(out.seconds));
     if (!out.warnings.empty()) text += "  " + counted(out.warnings.size(), "warning");
     text += "\n";

@@ -1,6 +1,7 @@
 #include "pipeline/cell_source.hpp"
 
 #include "base/stopwatch.hpp"
+#include "mesh/power_scale.hpp"
 #include "parallel/memory.hpp"
 #include "pipeline/between_stages.hpp"
 

@@ -3,6 +3,7 @@
 #include "base/stopwatch.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/power_scale.hpp"
 #include "pipeline/between_stages.hpp"
 #include "pipeline/join.hpp"
 #include "platform/available_memory.hpp"

@@ -86,7 +86,4 @@ class Engine {
     bool run_part_arms(const Step& step, SceneState& flow);
 };
 
-/// Of this process, in bytes.
-std::size_t peak_memory();
-
 } // namespace facetmill::pipeline

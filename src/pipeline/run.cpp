@@ -6,6 +6,7 @@
 #include "parallel/parallel.hpp"
 #include "pipeline/cell_source.hpp"
 #include "pipeline/observers.hpp"
+#include "platform/available_memory.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>

@@ -164,7 +164,8 @@ std::string section(const RunRecord& record, std::size_t number, std::size_t& la
                                    stage.name == stage.stage ? "" : code(stage.stage), counts(stage));
     for (const auto& line : stage.said) told += fmt::format("<p>{}</p>\n", escaped(line));
     for (const auto& w : stage.warnings)
-        told += fmt::format("<p class=\"warn\">{}: {}</p>\n", escaped(w.id), escaped(w.message));
+        told += fmt::format("<p class=\"warn\">{}: {}{}</p>\n", escaped(w.id), escaped(w.message),
+                            w.hint.empty() ? "" : "<br>hint: " + escaped(w.hint));
     const std::string shown = picture_of(record, number, last);
     std::string out = fmt::format("<section class=\"stage{}\">\n", shown.empty() ? "" : " pictured");
     if (!shown.empty()) out += fmt::format("<div class=\"shown\">{}</div>\n", shown);

@@ -34,6 +34,7 @@ constexpr std::size_t most_lines = 20; ///< of a stage on a terminal
 
 void add_warning(const Diagnostic& warning, const std::string& lead, Painted& out) {
     out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
+    if (!warning.hint.empty()) out += fmt::format("{}hint: {}\n", lead, warning.hint);
 }
 
 void add_stage(const StageRecord& stage, std::size_t width, Form form, Painted& out) {

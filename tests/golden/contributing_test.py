@@ -79,7 +79,7 @@ class Named(unittest.TestCase):
 class Walks(support.Case):
     def test_there_are_the_promised_walks(self):
         paths = [path for path, _, _ in walks()]
-        for start in ("src/stages/merge/", "src/stages/drop/", "tests/stages/", "src/io/", "src/geometry/inspect/"):
+        for start in ("src/stages/merge/", "src/stages/drop/", "tests/stages/", "src/io/", "src/geometry/inspect/", "src/batch/"):
             self.assertTrue(any(path.startswith(start) for path in paths), start)
 
     def flags(self, like):

@@ -166,6 +166,7 @@ TEST_CASE("the text for people", "[report]") {
           "  cut       1,200 -> 12 faces\n"
           "              1 cap & no more\n"
           "            warning[W-CAP]: one loop stays open\n"
+          "            hint: close it\n"
           "  relax     skipped\n"
           "checks: 1 passed, 1 known, 2 failed\n"
           "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"

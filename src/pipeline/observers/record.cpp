@@ -1,5 +1,6 @@
 #include "geometry/inspect/inspect.hpp"
 #include "pipeline/observers.hpp"
+#include "report/render.hpp"
 #include "report/scene_picture.hpp"
 
 namespace facetmill::pipeline {

@@ -1,0 +1,30 @@
+#pragma once
+// The figures of an asset: the columns of numbers in the summary of a batch. JSON, its schema, HTML,
+// Markdown, text and the journal read columns().
+
+#include "report/record.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace facetmill::batch {
+
+struct Figures {
+    std::uint64_t faces_in = 0, faces_out = 0, bytes = 0;
+};
+
+struct Column {
+    const char* key;   ///< in JSON
+    const char* title; ///< in tables
+    const char* help;  ///< in the schema
+    std::uint64_t Figures::*value;
+    std::string (*cell)(std::uint64_t);
+    std::string (*phrase)(const Figures&); ///< on the asset's line of a text; null or empty: none
+};
+
+/// In the order of the tables.
+std::span<const Column> columns();
+Figures figures_of(const report::RunRecord& record);
+
+} // namespace facetmill::batch
