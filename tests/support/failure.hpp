@@ -8,7 +8,7 @@
 
 namespace facetmill::test {
 
-inline const char* to_string(ErrorKind kind) {
+inline const char* kind_name(ErrorKind kind) {
     switch (kind) {
     case ErrorKind::check:
         return "check";
@@ -36,7 +36,7 @@ std::string failure(Body&& body) {
         body();
     } catch (const Error& error) {
         const Diagnostic& d = error.diagnostics().front();
-        std::string text = fmt::format("{} [{}] ", to_string(error.kind()), d.id);
+        std::string text = fmt::format("{} [{}] ", kind_name(error.kind()), d.id);
         if (d.where.known()) text += facetmill::to_string(d.where) + ": ";
         text += d.message;
         return d.hint.empty() ? text : text + " | " + d.hint;
