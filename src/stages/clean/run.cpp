@@ -69,6 +69,7 @@ CrossingFacePolicy crossing_faces(const CleanOptions& o) {
 
 const RegisterStage registered = make_stage<CleanOptions>(
     {.name = "clean",
+     .also_called = "repair fix heal weld fill_holes close_holes fill",
      .about = help::clean::about,
      .details = help::clean::details,
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",

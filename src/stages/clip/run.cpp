@@ -313,6 +313,7 @@ void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
 
 const RegisterStage clip_stage = make_stage<ClipOptions>(
     {.name = "clip",
+     .also_called = "cut trim slice_plane",
      .about = help::clip::about,
      .details = help::clip::details,
      .examples = {"clip: z=0.2", "clip: {plane: {normal: [0, 0, 1], through: centre}, cap: true}",

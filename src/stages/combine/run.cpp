@@ -302,6 +302,7 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
 
 const RegisterStage registered = make_stage<CombineOptions>(
     {.name = "combine",
+     .also_called = "boolean bool csg union difference subtract intersection intersect",
      .about = help::combine::about,
      .details = help::combine::details,
      .examples = {"combine", "combine: {operation: difference, with: drill}",

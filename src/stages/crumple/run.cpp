@@ -101,6 +101,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
 
 const RegisterStage registered = make_stage<CrumpleOptions>(
     {.name = "crumple",
+     .also_called = "noise jitter displace",
      .about = help::crumple::about,
      .details = help::crumple::details,
      .examples = {"crumple: 0.2%", "crumple: {grid: 3, amplitude: 0.5mm, seed: 7}",

@@ -105,6 +105,7 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context, GenerateRepor
 
 const RegisterStage registered = make_stage<GenerateOptions>(
     {.name = "generate",
+     .also_called = "create primitive sphere cube",
      .about = help::generate::about,
      .details = help::generate::details,
      .examples = {"generate: sphere", "generate: {shape: menger, subdivisions: 3, quads: true}",

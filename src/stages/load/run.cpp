@@ -208,6 +208,7 @@ io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path, c
 
 const RegisterStage registered{make_stage<LoadOptions>(
     {.name = "load",
+     .also_called = "read open import input",
      .about = help::load::about,
      .details = help::load::details,
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",

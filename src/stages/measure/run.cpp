@@ -85,6 +85,7 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context, MeasureReport&
 
 const RegisterStage registered =
     make_stage<MeasureOptions>({.name = "measure",
+                                .also_called = "volume area mass",
                                 .about = help::measure::about,
                                 .details = help::measure::details,
                                 .examples = {"measure", "measure: {density: 7.85, path: part.json}",

@@ -88,6 +88,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
 
 const RegisterStage registered =
     make_stage<MergeOptions>({.name = "merge",
+                              .also_called = "join concatenate append",
                               .about = help::merge::about,
                               .details = help::merge::details,
                               .examples = {"merge", "merge: body", "merge: {weld: true}"},

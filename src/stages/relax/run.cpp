@@ -94,6 +94,7 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
 
 const RegisterStage registered = make_stage<RelaxOptions>(
     {.name = "relax",
+     .also_called = "smooth laplacian taubin fair",
      .about = help::relax::about,
      .details = help::relax::details,
      .examples = {"relax: 3", "relax: {iterations: 10, lambda: 0.5, boundary: slide}",

@@ -243,6 +243,7 @@ Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& r
 
 const RegisterStage registered{make_stage<RenderOptions>(
     {.name = "render",
+     .also_called = "screenshot snapshot thumbnail",
      .about = help::render::about,
      .details = help::render::details,
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",

@@ -146,6 +146,7 @@ void run_on_cells(const SectionOptions& o, CellFlow& flow, Context& context) {
 
 const RegisterStage registered{make_stage<SectionOptions>(
     {.name = "section",
+     .also_called = "slice contours cross_section",
      .about = help::section::about,
      .details = help::section::details,
      .examples = {"section: z=50%",

@@ -77,6 +77,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
 
 const RegisterStage registered = make_stage<SeparateOptions>(
     {.name = "separate",
+     .also_called = "explode components",
      .about = help::separate::about,
      .details = help::separate::details,
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"},

@@ -8,6 +8,7 @@ namespace {
 
 const RegisterStage registered = make_stage<SimplifyOptions>(
     {.name = "simplify",
+     .also_called = "decimate decimation reduce quadric qem",
      .about = help::simplify::about,
      .details = help::simplify::details,
      .examples = {"simplify: 25%", "simplify: {faces: 5000, lock: [boundary, seams]}",

@@ -210,6 +210,7 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
 
 const RegisterStage registered = make_stage<TexturesOptions>(
     {.name = "textures",
+     .also_called = "ktx toktx webp",
      .about = help::textures::about,
      .details = help::textures::details,
      .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",

@@ -101,6 +101,7 @@ CrossingFacePolicy crossing_faces(const ThickenOptions& o) {
 
 const RegisterStage registered = make_stage<ThickenOptions>(
     {.name = "thicken",
+     .also_called = "shell hollow offset solidify extrude wireframe",
      .about = help::thicken::about,
      .details = help::thicken::details,
      .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",

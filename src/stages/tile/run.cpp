@@ -182,6 +182,7 @@ Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& repor
 
 const RegisterStage registered{make_stage<TileOptions>(
     {.name = "tile",
+     .also_called = "chunk tiler",
      .about = help::tile::about,
      .details = help::tile::details,
      .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",

@@ -155,6 +155,7 @@ void run_on_cells(const TransformOptions& o, CellFlow& flow, Context& context) {
 
 const RegisterStage registered = make_stage<TransformOptions>(
     {.name = "transform",
+     .also_called = "translate rotate scale resize move center centre mirror convert_units",
      .about = help::transform::about,
      .details = help::transform::details,
      .examples = {"transform: {scale: 0.001}",

@@ -83,6 +83,7 @@ Scene run(Scene scene, const TwoSidedOptions& o, Context& context, TwoSidedRepor
 
 const RegisterStage registered =
     make_stage<TwoSidedOptions>({.name = "two-sided",
+                                 .also_called = "double_sided doublesided doubleside",
                                  .about = help::two_sided::about,
                                  .details = help::two_sided::details,
                                  .examples = {"two-sided", "two-sided: material"},

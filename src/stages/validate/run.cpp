@@ -112,6 +112,7 @@ StageFiles files(const ValidateOptions& o) {
 
 const RegisterStage registered{make_stage<ValidateOptions>(
     {.name = "validate",
+     .also_called = "check inspect info",
      .about = help::validate::about,
      .details = help::validate::details,
      .examples = {"validate", "validate: {closed: true, euler: 2}", "validate: {for: printing, per: part}",

@@ -253,6 +253,7 @@ CrossingFacePolicy crossing_faces(const WriteOptions& o) {
 
 const RegisterStage registered = make_stage<WriteOptions>(
     {.name = "write",
+     .also_called = "save export output convert",
      .about = help::write::about,
      .details = help::write::details,
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
