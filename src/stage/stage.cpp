@@ -105,15 +105,6 @@ std::vector<std::string> stage_names() {
     return names;
 }
 
-namespace {
-
-bool has_word(std::string_view words, std::string_view word) {
-    return !word.empty() && word.find(' ') == word.npos &&
-           fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
-}
-
-} // namespace
-
 const StageInfo* stage_called(std::string_view other_name) {
     const std::string word = lower_case(std::string(other_name));
     for (const auto& s : registry())

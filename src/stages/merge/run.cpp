@@ -1,5 +1,6 @@
 #include "base/text/unique_names.hpp"
 #include "mesh/skin.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stage/stage.hpp"
 #include "stages/merge/help.hpp"
 
@@ -19,7 +20,8 @@ void declare(Declare<MergeOptions>& d) {
     d.option("name", &MergeOptions::name,
              "The name of the joined part; the name of the first part unless given.")
         .primary();
-    d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.");
+    d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.")
+        .also_called(weld_synonyms);
 }
 
 struct MergeReport {
