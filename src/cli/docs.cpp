@@ -8,7 +8,7 @@
 #include "docs/manual.hpp"
 #include "docs/messages.hpp"
 #include "docs/stages.hpp"
-#include "stage/other_names.hpp"
+#include "stage/stage.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -82,8 +82,8 @@ int print_docs(const std::string& name, const CommandLine& line, Console& consol
         const MessageId* message = message_id(docs::id_of(name));
         if (!message)
             throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no topic '{}'", name),
-                        !(stage_called(name).empty() && chain_called(name).empty()) ? hint_for_stage(name, {})
-                                                                                    : names_near(name),
+                        stage_called(name) || !chain_called(name).empty() ? hint_for_stage(name, {})
+                                                                          : names_near(name),
                         line.find(name));
         print(docs::message_page(*message));
         return 0;

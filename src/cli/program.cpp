@@ -7,7 +7,6 @@
 #include "docs/versions.hpp"
 #include "platform/sandbox.hpp"
 #include "stage/common_keys.hpp"
-#include "stage/other_names.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -84,7 +83,7 @@ std::string hint_for(const std::vector<std::string>& words, const std::vector<st
     if (docs::ready_pipeline(name))
         return fmt::format("a pipeline runs by facetmill run {} -D input=FILE", name);
     if (const std::string_view chain = chain_called(name); !chain.empty()) return std::string(chain);
-    if (const std::string_view stage = stage_called(name); !stage.empty()) return as_pipe(stage, words);
+    if (const StageInfo* stage = stage_called(name)) return as_pipe(stage->name, words);
     return suggestion(name, names);
 }
 

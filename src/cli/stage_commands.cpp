@@ -2,7 +2,6 @@
 
 #include "base/text/markup.hpp"
 #include "io/codec.hpp"
-#include "options/other_names.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -64,7 +63,7 @@ class StageWords {
     const Option* add_option(const std::string& word) {
         const auto end = std::min(word.find('='), word.size());
         std::string name = word.substr(2, end - 2);
-        const auto called = options_of_same_value(name, stage_.options->names());
+        const auto called = options_of_same_value(name, stage_.options->known_names());
         if (!stage_.options->find(name) && !called.empty()) name = called.front();
         taken_ += " " + for_shell("--" + name + word.substr(end));
         return stage_.options->find(name);

@@ -3,7 +3,7 @@
 #include "docs/stages.hpp"
 #include "base/text/spelling.hpp"
 #include "cli/command.hpp"
-#include "stage/other_names.hpp"
+#include "stage/stage.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include "base/text/plain_number.hpp"
 #include "base/text/spelling.hpp"
 #include "options/mark_at.hpp"
-#include "options/other_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,6 +94,12 @@ const Option* Declaration::primary() const {
 std::vector<std::string> Declaration::names() const {
     std::vector<std::string> all;
     for (const auto& o : options) all.push_back(o.name);
+    return all;
+}
+
+std::vector<KnownName> Declaration::known_names() const {
+    std::vector<KnownName> all;
+    for (const auto& o : options) all.push_back({o.name, o.synonyms});
     return all;
 }
 
@@ -285,8 +290,9 @@ std::string where_listed(std::string_view owner, std::size_t names) {
 /// A bare value where none may stand: often the name of an option, as it is here or elsewhere.
 std::string hint_of_bare_value(const Declaration& declaration, std::string_view owner, const Value& value) {
     const std::vector<std::string> names = declaration.names();
-    const std::vector<std::string> called =
-        value.is_scalar() ? options_called(value.text, names) : std::vector<std::string>{};
+    const std::vector<std::string> called = value.is_scalar()
+                                                ? options_called(value.text, declaration.known_names())
+                                                : std::vector<std::string>{};
     const Option* option =
         value.is_scalar() ? declaration.find(called.empty() ? value.text : called.front()) : nullptr;
     if (option)
@@ -350,13 +356,15 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
             good &= parse_option(*o, entry.value, target, problems);
             continue;
         }
-        std::vector<std::string> known = names();
-        known.insert(known.end(), also_known.begin(), also_known.end());
+        std::vector<KnownName> known = known_names();
+        for (const auto& name : also_known) known.push_back({name});
         problems.add(entry.key_mark, "E-KEY", fmt::format("{} has no option '{}'", owner, entry.key),
                      hint_for_option(entry.key, known, where_listed(owner, known.size())));
         const std::vector<std::string> called = options_called(entry.key, known);
         meant.insert(called.begin(), called.end());
-        meant.insert(nearest(entry.key, known));
+        std::vector<std::string> near = names();
+        near.insert(near.end(), also_known.begin(), also_known.end());
+        meant.insert(nearest(entry.key, near));
         good = false;
     }
     for (const auto& o : options)

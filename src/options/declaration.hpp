@@ -19,6 +19,7 @@
 // members' initialisers, so they are written once.
 
 #include "base/function.hpp"
+#include "options/synonyms.hpp"
 #include "options/types.hpp"
 
 #include <cstddef>
@@ -60,7 +61,8 @@ struct Option {
     Function<bool(const Option&, const Value&, void* target, Problems&)> parse;
     /// The number in the struct that the range limits, if there is one.
     Function<std::optional<double>(const void* target)> magnitude;
-    bool may_be_true = false; ///< true is one of its values, beside others
+    std::vector<Synonyms> synonyms; ///< what other programs call it
+    bool may_be_true = false;       ///< true is one of its values, beside others
 
     /// Whether a value may be a list: several, or one that is a list.
     bool may_be_list() const;
@@ -103,6 +105,7 @@ struct Declaration {
     const Option* find(std::string_view name) const;
     const Option* primary() const;
     std::vector<std::string> names() const;
+    std::vector<KnownName> known_names() const; ///< for hints
     Json schema() const;
 
     /// Reads a stage's value into the options struct at target: null takes the defaults, a map sets options
@@ -151,6 +154,11 @@ class OptionRef {
     /// For numbers whose type does not say it: a double that is a count, an integer that is bytes.
     OptionRef& measures(Dimension dimension) {
         option().dimension = dimension;
+        return *this;
+    }
+    /// The words of other programs, separated by blanks. how: what to write, where the name does not say it.
+    OptionRef& also_called(std::string_view words, std::string_view how = {}) {
+        option().synonyms.push_back({std::string(words), std::string(how)});
         return *this;
     }
     Option& option() { return owner_->options[index_]; }

@@ -3,7 +3,6 @@
 #include "base/math/numbers.hpp"
 #include "base/text/words.hpp"
 #include "geometry/inspect/inspect.hpp"
-#include "options/other_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,9 +17,7 @@ namespace {
 /// By its name, or by what other programs call it.
 const Property* property_meant(std::string_view word) {
     if (const Property* property = property_named(word)) return property;
-    std::vector<std::string> names;
-    for (const Property& property : property_table()) names.emplace_back(property.name);
-    const auto called = options_of_same_value(word, names);
+    const auto called = options_of_same_value(word, known_properties());
     return called.empty() ? nullptr : property_named(called.front());
 }
 

@@ -2,7 +2,7 @@
 #include "pipeline/placeholders.hpp"
 #include "pipeline/planner.hpp"
 #include "stage/common_keys.hpp"
-#include "stage/other_names.hpp"
+#include "stage/stage.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,8 +38,7 @@ std::vector<std::string> all_stage_names() {
 std::string hint_of_no_stage(const std::string& name) {
     const std::size_t word_end = std::min(name.size(), name.find_first_of(" :\t\"'!"));
     const std::string word = name.substr(0, word_end);
-    if (word_end < name.size() &&
-        (is_stage(word) || !stage_called(word).empty())) { // "write a.glb", "simplify:10%"
+    if (word_end < name.size() && (is_stage(word) || stage_called(word))) { // "write a.glb", "simplify:10%"
         if (name.find_first_of("!+|") != std::string::npos)
             return "its words are arguments of their own: leave out the quotes around all of them";
         std::size_t value = name.find_first_not_of(" :\t", word_end);

@@ -75,6 +75,7 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
                                                       : Dimension::none;
         o.choices = word_choices(p);
         o.help = help_of(p);
+        o.synonyms = synonyms_of(p);
         o.schema = schema["properties"][o.name];
         o.parse = [member, owner](const Option& self, const Value& v, void* target, Problems& problems) {
             const Value map = Value::map({{self.name, v.mark, v}}, v.mark);

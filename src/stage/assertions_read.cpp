@@ -1,7 +1,6 @@
 // Assertions from what people write, of stage/assertions.hpp.
 #include "base/math/numbers.hpp"
 #include "options/lists.hpp"
-#include "options/other_names.hpp"
 #include "stage/assertions.hpp"
 #include "stage/options/convention.hpp"
 
@@ -12,12 +11,6 @@
 namespace facetmill {
 
 namespace {
-
-std::vector<std::string> property_names() {
-    std::vector<std::string> names;
-    for (const auto& p : property_table()) names.emplace_back(p.name);
-    return names;
-}
 
 const char* wanted(PropertyKind kind) {
     switch (kind) {
@@ -225,8 +218,8 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
         if (also_known.contains(entry.key)) continue;
         const Property* property = property_named(entry.key);
         if (!property) {
-            auto known = property_names();
-            known.insert(known.end(), also_known.begin(), also_known.end());
+            auto known = known_properties();
+            for (const auto& name : also_known) known.push_back({name});
             problems.add(entry.key_mark, "E-KEY", fmt::format("{} knows no property '{}'", owner, entry.key),
                          hint_for_option(entry.key, known, "facetmill stages validate lists the properties"));
             good = false;

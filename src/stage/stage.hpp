@@ -57,7 +57,13 @@ class Stage;
 
 /// What is true of a stage, whatever its options.
 struct StageInfo {
-    std::string name;  ///< the verb users write
+    std::string name; ///< the verb users write
+    /// What other programs call it, separated by blanks. For hints only: a stage has one name.
+    const char* also_called = "";
+    /// An operation of other programs that this stage does together with other stages.
+    struct Chain {
+        const char *words = "", *stages = ""; ///< separated by blanks; a hint with the stages
+    } chain = {};
     std::string about; ///< one line
     /// Paragraphs of short lines: what it guarantees, what it does to attributes, its source.
     const char* details = "";
@@ -130,6 +136,13 @@ struct RegisterStage {
 const std::vector<StageInfo>& stages();
 const StageInfo* stage_named(std::string_view name);
 std::vector<std::string> stage_names();
+
+/// The stage that other programs call by this name, or null.
+const StageInfo* stage_called(std::string_view other_name);
+/// A hint for an operation of other programs that takes several stages (remesh); empty for other words.
+std::string_view chain_called(std::string_view other_name);
+/// A hint for a word that names no stage: the stage of this meaning, or the nearest of the names.
+std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names);
 
 /// Runs the stage on faces as it needs them (crossing_faces), and warns of the surface that it loses.
 Scene perform(const Stage& stage, Scene scene, Context& context);

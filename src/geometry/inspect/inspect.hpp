@@ -3,6 +3,7 @@
 // values, and a table with one row for each.
 
 #include "mesh/scene.hpp"
+#include "options/synonyms.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -126,6 +127,8 @@ struct Property {
     using EvidenceOf = std::vector<Evidence> (*)(const Scene& scene, const EvidenceQuery& query);
 
     std::string_view name; ///< as users write it
+    /// What other programs call it, and call the opposite of it, separated by blanks. For hints only.
+    std::string_view also_called = {}, opposite = {};
     PropertyKind kind = PropertyKind::count;
     Join join = Join::sum;
     std::string_view help; ///< for the manual
@@ -162,6 +165,9 @@ struct Property {
 
 /// In the order in which `info` and the report list them; see "The rooms" in docs/architecture.md.
 std::span<const Property> property_table();
+std::vector<Synonyms> synonyms_of(const Property& property);
+/// The names of all properties, for hints.
+std::vector<KnownName> known_properties();
 /// Null when there is none of that name.
 const Property* property_named(std::string_view name);
 

@@ -3,6 +3,7 @@
 #include "geometry/inspect/measures.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill {
 
@@ -59,6 +60,7 @@ constexpr const char* no_stage = "no stage changes it: correct it where the mesh
 // Constant, so that stages can be declared from it before main.
 constexpr Property table[] = {
     {.name = "vertices",
+     .also_called = "points verts vertex_count num_vertices target_vertices",
      .help = "Vertices of the surface, including isolated ones.",
      .hint = fewer_or_more,
      .member = &P::vertices,
@@ -74,6 +76,8 @@ constexpr Property table[] = {
      .member = &P::edges,
      .is_size = true},
     {.name = "faces",
+     .also_called = "polygons polys tris triangles face_count num_faces target_faces target_face_count "
+                    "targetfacenum count polycount",
      .help = "Polygons of the surface.",
      .hint = fewer_or_more,
      .member = &P::faces,
@@ -90,11 +94,13 @@ constexpr Property table[] = {
      .is_size = true,
      .where_any = true},
     {.name = "components",
+     .also_called = "shells bodies islands body_count connected_components",
      .help = "Sets of faces connected through vertices.",
      .hint = "clean: {components: {keep: 1}} keeps only the largest, separate makes them parts",
      .member = &P::components,
      .locations = components},
     {.name = "euler",
+     .also_called = "euler_number euler_characteristic",
      .help = "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 with one component.",
      .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
      .member = &P::euler,
@@ -109,6 +115,7 @@ constexpr Property table[] = {
      .locations = uncancelled_edges,
      .evidence = by_boundary},
     {.name = "boundary_loops",
+     .also_called = "holes hole_count open_boundaries",
      .help = "Closed chains of boundary edges.",
      .hint = fills_holes,
      .mend = "clean --holes minimal ! orient",
@@ -116,6 +123,7 @@ constexpr Property table[] = {
      .locations = uncancelled_edges,
      .evidence = by_boundary},
     {.name = "boundary_edges",
+     .also_called = "open_edges border_edges naked_edges",
      .help = "Edges with a face on one side only.",
      .hint = fills_holes,
      .mend = "clean --holes minimal ! orient",
@@ -123,6 +131,7 @@ constexpr Property table[] = {
      .locations = uncancelled_edges,
      .evidence = by_boundary},
     {.name = "closed",
+     .also_called = "watertight is_watertight water_tight airtight solid is_closed",
      .kind = Kind::truth,
      .join = Join::all,
      .help = "At every edge the directions of its faces cancel.",
@@ -134,6 +143,8 @@ constexpr Property table[] = {
      .evidence = by_boundary,
      .counts_locations = true},
     {.name = "edge_manifold",
+     .also_called = "manifold is_manifold 2_manifold",
+     .opposite = "non_manifold nonmanifold non_manifold_edges",
      .kind = Kind::truth,
      .join = Join::all,
      .help = "At most two faces at every edge.",
@@ -144,6 +155,8 @@ constexpr Property table[] = {
      .locations = crowded_edges,
      .counts_locations = true},
     {.name = "vertex_manifold",
+     .also_called = "manifold is_manifold 2_manifold",
+     .opposite = "non_manifold_vertices",
      .kind = Kind::truth,
      .join = Join::all,
      .help = "The faces around every vertex form one fan.",
@@ -154,6 +167,8 @@ constexpr Property table[] = {
      .locations = vertices_of_several_fans,
      .counts_locations = true},
     {.name = "oriented",
+     .also_called = "winding consistent_winding is_winding_consistent",
+     .opposite = "flipped",
      .kind = Kind::truth,
      .join = Join::all,
      .help = "Neighbouring faces are oriented consistently.",
@@ -164,6 +179,7 @@ constexpr Property table[] = {
      .locations = disagreeing_edges,
      .counts_locations = true},
     {.name = "degenerate_faces",
+     .also_called = "degenerate degenerates zero_area slivers",
      .help = "Faces of exactly zero area.",
      .hint = clean_removes,
      .mend = "clean",
@@ -171,6 +187,7 @@ constexpr Property table[] = {
      .soundness = Soundness::surface,
      .locations = faces_without_area},
     {.name = "duplicate_faces",
+     .also_called = "duplicates doubles",
      .help = "Faces beyond the first with the same vertices.",
      .hint = clean_removes,
      .mend = "clean",
@@ -178,12 +195,14 @@ constexpr Property table[] = {
      .soundness = Soundness::file,
      .locations = repeated_faces},
     {.name = "isolated_vertices",
+     .also_called = "unreferenced unreferenced_vertices unused_vertices loose_vertices",
      .help = "Vertices that no face and no line uses.",
      .hint = clean_removes,
      .mend = "clean",
      .member = &P::isolated_vertices,
      .locations = isolated_vertices},
     {.name = "self_intersections",
+     .also_called = "self_intersecting self_intersection intersections overlapping_faces",
      .join = Join::sum_if_all,
      .help = "Pairs of faces that intersect, decided exactly; this takes time.",
      .hint = untangles,
@@ -217,6 +236,7 @@ constexpr Property table[] = {
      .evidence = by_boundary,
      .lowest = -HUGE_VAL},
     {.name = "bounds",
+     .also_called = "bbox bounding_box aabb extents",
      .kind = Kind::box,
      .join = Join::around,
      .help = "The bounding box: its lowest corner is at least {min: [x, y, z]}, its highest at most {max: "
@@ -225,6 +245,7 @@ constexpr Property table[] = {
      .member = &P::bounds,
      .evidence = by_box_corners},
     {.name = "unit",
+     .also_called = "units scale_unit convert_to to_unit",
      .kind = Kind::word,
      .join = Join::of_scene,
      .help = "The unit of positions.",
@@ -233,6 +254,7 @@ constexpr Property table[] = {
      .evidence = no_evidence,
      .words = unit_words},
     {.name = "up",
+     .also_called = "up_axis upaxis y_up z_up",
      .kind = Kind::word,
      .join = Join::of_scene,
      .help = "The axis that points up.",
@@ -335,6 +357,8 @@ constexpr Property table[] = {
      .locations = uncancelled_edges,
      .evidence = by_boundary},
     {.name = "outward_oriented",
+     .also_called = "normals_outward outward",
+     .opposite = "inside_out inverted",
      .kind = Kind::truth,
      .join = Join::all,
      .help = "Every component has its front outside (a cavity: towards the hollow), as orient would turn it.",
@@ -353,6 +377,7 @@ constexpr Property table[] = {
              return locations_of_pairs(m, coplanar_overlaps(m), q.limit);
          }},
     {.name = "wall_thickness",
+     .also_called = "thickness min_thickness minimum_thickness",
      .kind = Kind::length,
      .join = Join::least,
      .help = "The smallest distance through the solid, measured from the centroids of faces along the inward "
@@ -413,6 +438,7 @@ constexpr Property table[] = {
      .locations = too_high_joints,
      .counts_locations = true},
     {.name = "max_extent",
+     .also_called = "size dimensions",
      .kind = Kind::length,
      .join = Join::most,
      .help = "The longest side of a part's bounding box.",
@@ -423,6 +449,20 @@ constexpr Property table[] = {
 } // namespace
 
 std::span<const Property> property_table() { return table; }
+
+std::vector<Synonyms> synonyms_of(const Property& property) {
+    std::vector<Synonyms> all{{std::string(property.also_called), {}}};
+    if (!property.opposite.empty())
+        all.push_back({std::string(property.opposite),
+                       fmt::format("({}: true), which says the opposite", property.name)});
+    return all;
+}
+
+std::vector<KnownName> known_properties() {
+    std::vector<KnownName> known;
+    for (const Property& p : table) known.push_back({std::string(p.name), synonyms_of(p)});
+    return known;
+}
 
 const Property* property_named(std::string_view name) {
     const auto found =

@@ -12,7 +12,8 @@ template <class S>
 void declare_cap(Declare<S>& d, bool S::*cap, std::string S::*material) {
     d.option("cap", cap,
              "Close what the cut opens with faces in the plane, of a material and a group of their own, "
-             "numbered in the face attribute cut_id.");
+             "numbered in the face attribute cut_id.")
+        .also_called("close capped fill fill_cut");
     d.option("cap_material", material,
              "Name of the caps' material; made when the scene has none of that name.");
 }

@@ -1,6 +1,7 @@
 #include "stage/options/mask.hpp"
 
 #include "base/text/words.hpp"
+#include "stage/options/synonyms.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ void declare_mask(Declare<MaskSettings>& d) {
     d.option("attribute", &MaskSettings::attribute,
              "A vertex, wedge or face attribute: its first component, clamped to 0 .. 1, is the share of the "
              "move.")
+        .also_called(attribute_synonyms)
         .primary();
     d.option("invert", &MaskSettings::invert, "Inverts the mask: each share becomes 1 minus the share.");
     d.at_least_one({"material", "group", "attribute"});

@@ -1,7 +1,9 @@
 #include "stages/clean/options.hpp"
 
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/transform.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 
 namespace facetmill::clean_stage {
 
@@ -59,6 +61,7 @@ void declare_self_intersections(Declare<CleanOptions>& d) {
                "closed components that pass through each other or themselves become one solid, exactly"},
               {"all", Untangle::all, "union, then local for what remains (also: true)"}},
              "What is done with intersecting faces.")
+            .also_called(property_named("self_intersections")->also_called)
             .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
         const auto yes = v.is_scalar() && !v.deferred ? v.as_bool() : std::nullopt;
@@ -74,16 +77,18 @@ void declare_self_intersections(Declare<CleanOptions>& d) {
 
 void declare_clean(Declare<CleanOptions>& d) {
     d.choice<Nearness>(
-        "weld", &CleanOptions::weld,
-        nearness(
-            "vertices at exactly the same position",
-            "also the ends of boundary edges within `tolerance` of each other, except corners of one face"),
-        "Merges vertices; their attributes stay separate, so seams stay seams.");
+         "weld", &CleanOptions::weld,
+         nearness(
+             "vertices at exactly the same position",
+             "also the ends of boundary edges within `tolerance` of each other, except corners of one face"),
+         "Merges vertices; their attributes stay separate, so seams stay seams.")
+        .also_called(weld_synonyms);
     d.option("degenerate", &CleanOptions::degenerate,
              "Removes faces of exactly zero area and repeated corners, and closes the gaps that this opens.");
     d.option("duplicates", &CleanOptions::duplicates,
              "Keeps one of several faces with the same vertices, and removes inner walls made of two "
-             "opposite faces.");
+             "opposite faces.")
+        .also_called("remove_duplicates remove_doubles dedup");
     d.choice<Nearness>("t_junctions", &CleanOptions::t_junctions,
                        nearness("where a vertex lies exactly on a boundary edge",
                                 "also where it lies within `tolerance` of it"),
@@ -98,16 +103,20 @@ void declare_clean(Declare<CleanOptions>& d) {
     declare_self_intersections(d);
     d.group("holes", &CleanOptions::holes, "Fills holes: true, or how; if not given, they stay open.",
             declare_holes)
+        .also_called("fill_holes close_holes fill fill_hole", "holes: {method: smooth}")
         .option()
         .may_be_true = true;
     d.group("components", &CleanOptions::components, "Removes small components; if not given, they are kept.",
-            declare_components);
+            declare_components)
+        .also_called(property_named("components")->also_called)
+        .also_called("keep_largest largest largest_component", "components: {keep: 1}");
     d.option("open_components", &CleanOptions::open_components,
              "Removes components that stay open (sheets, fins on a solid), where closed ones are left.");
     d.option("inner_components", &CleanOptions::inner_components,
              "Removes closed components that lie inside others.");
     d.option("isolated", &CleanOptions::isolated,
-             "Removes vertices that no face uses, but for those of a part without faces, a cloud of points.");
+             "Removes vertices that no face uses, but for those of a part without faces, a cloud of points.")
+        .also_called("remove_unreferenced remove_isolated unreferenced");
     d.option("tolerance", &CleanOptions::tolerance, "The distance for steps that are set to near.").above(0);
     d.choice<bool>(
         "precision", &CleanOptions::single,

@@ -71,6 +71,7 @@ void CleanStage::on_cells(CellFlow& flow, Context& context) const {
 
 const RegisterStage registered = make_stage<CleanStage>(
     {.name = "clean",
+     .also_called = "repair fix heal weld fill_holes close_holes fill",
      .about = help::clean::about,
      .details = help::clean::details,
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",

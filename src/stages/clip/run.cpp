@@ -7,6 +7,7 @@
 #include "stage/options/kept_parts.hpp"
 #include "stage/options/plane.hpp"
 #include "stage/options/snap.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stage/stage.hpp"
 #include "stage/world_outline.hpp"
 #include "stages/clip/help.hpp"
@@ -49,7 +50,9 @@ struct ClipReport {
 };
 
 void declare(Declare<ClipOptions>& d) {
-    d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane).primary();
+    d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane)
+        .also_called(plane_synonyms, plane_is)
+        .primary();
     d.option("planes", &ClipOptions::planes, "Several planes, each as for plane; one after the other.");
     d.group("box", &ClipOptions::box, "A box to clip by; its front is the inside.", declare_box);
     d.exactly_one({"plane", "planes", "box"});
@@ -315,6 +318,7 @@ void ClipStage::on_cells(CellFlow& flow, Context& context) const {
 
 const RegisterStage registered = make_stage<ClipStage>(
     {.name = "clip",
+     .also_called = "cut trim slice_plane",
      .about = help::clip::about,
      .details = help::clip::details,
      .examples = {"clip: z=0.2", "clip: {plane: {normal: [0, 0, 1], through: centre}, cap: true}",

@@ -5,6 +5,7 @@
 #include "geometry/cut/cap_paint.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/transform.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stage/stage.hpp"
 #include "stages/combine/help.hpp"
 
@@ -32,8 +33,9 @@ void declare(Declare<CombineOptions>& d) {
          "What is made of the parts.")
         .primary();
     d.option(
-        "with", &CombineOptions::with,
-        "The parts to combine the others with: names or globs of parts or materials; \"!glob\" excludes.");
+         "with", &CombineOptions::with,
+         "The parts to combine the others with: names or globs of parts or materials; \"!glob\" excludes.")
+        .also_called(with_synonyms);
     d.option("keep", &CombineOptions::keep, "Keeps the parts of `with` in the scene.");
 }
 
@@ -304,6 +306,7 @@ struct CombineStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<CombineStage>(
     {.name = "combine",
+     .also_called = "boolean bool csg union difference subtract intersection intersect",
      .about = help::combine::about,
      .details = help::combine::details,
      .examples = {"combine", "combine: {operation: difference, with: drill}",

@@ -1,5 +1,6 @@
 #include "stages/crumple/options.hpp"
 
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/float32_ulp.hpp"
 #include "mesh/power_scale.hpp"
 #include "options/mark_at.hpp"
@@ -63,7 +64,8 @@ void declare_crumple(Declare<CrumpleOptions>& d) {
                               "displacement, or stay in place"},
                              {"forbid", Intersections::forbid, "fails when faces would intersect"}},
                             "What is done when faces of a part would intersect or fold over. With avoid and "
-                            "forbid, positions are rounded to float32, the precision of most files.");
+                            "forbid, positions are rounded to float32, the precision of most files.")
+        .also_called(property_named("self_intersections")->also_called);
     declare_caps(d, &CrumpleOptions::caps);
     d.group("mask", &CrumpleOptions::mask, mask_help, declare_mask);
     declare_noise(d);

@@ -110,6 +110,7 @@ struct CrumpleStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<CrumpleStage>(
     {.name = "crumple",
+     .also_called = "noise jitter displace",
      .about = help::crumple::about,
      .details = help::crumple::details,
      .examples = {"crumple: 0.2%", "crumple: {grid: 3, amplitude: 0.5mm, seed: 7}",

@@ -1,6 +1,7 @@
 #include "stages/generate/options.hpp"
 
 #include "base/text/words.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
 
@@ -66,6 +67,7 @@ void declare_counts(Declare<GenerateOptions>& d) {
              "The number of triangles of the sphere: segments and rings are chosen to come nearest to it "
              "with faces at the equator that are at most twice as wide as high, or the reverse (a count; "
              "4000 unless given, which is 80 segments and 26 rings).")
+        .also_called(property_named("faces")->also_called)
         .between(6, 700e6);
     d.option("segments", &GenerateOptions::segments,
              "Segments around the axis of sphere, torus, cylinder and cone (a count; 48 unless given).")
@@ -145,7 +147,8 @@ void declare_generate(Declare<GenerateOptions>& d) {
         .at_least(0);
     d.option("seed", &GenerateOptions::seed, "The seed of the noise (an integer, without unit).").at_least(0);
     d.choice<Unit>("unit", &GenerateOptions::unit, unit_choices("auto", "the scene's"),
-                   "The unit of the shape's numbers.");
+                   "The unit of the shape's numbers.")
+        .also_called(property_named("unit")->also_called);
     d.option("name", &GenerateOptions::name, "The name of the new part; the name of the shape unless given.");
 }
 

@@ -111,6 +111,7 @@ struct GenerateStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<GenerateStage>(
     {.name = "generate",
+     .also_called = "create primitive sphere cube",
      .about = help::generate::about,
      .details = help::generate::details,
      .examples = {"generate: sphere", "generate: {shape: menger, subdivisions: 3, quads: true}",

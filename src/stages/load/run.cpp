@@ -4,10 +4,12 @@
 #include "base/text/spelling.hpp"
 #include "base/text/words.hpp"
 #include "cells/partition/kept_partition.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "io/convert.hpp"
 #include "io/stated.hpp"
 #include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stage/read_recorded.hpp"
 #include "stage/stage.hpp"
 #include "stages/load/help.hpp"
@@ -34,22 +36,27 @@ struct LoadOptions {
 void declare(Declare<LoadOptions>& d) {
     d.option("path", &LoadOptions::path,
              "The mesh file, a glob (scan_*.ply), or a list of these; - is standard input.")
+        .also_called(path_synonyms)
         .primary()
         .required();
     d.choice<Unit>("unit", &LoadOptions::unit,
                    unit_choices("auto", "as the file or its format states, otherwise unknown"),
-                   "The unit of the file's numbers.");
+                   "The unit of the file's numbers.")
+        .also_called(property_named("unit")->also_called);
     d.choice<UpAxis>("up", &LoadOptions::up,
                      up_choices("auto", "as the file or its format states, otherwise unknown"),
-                     "The axis that points up in the file.");
+                     "The axis that points up in the file.")
+        .also_called(property_named("up")->also_called);
     d.option("format", &LoadOptions::format,
-             "The name of the format, when neither content nor suffix shows it.");
+             "The name of the format, when neither content nor suffix shows it.")
+        .also_called(format_synonyms);
     d.choice<io::Weld>(
-        "weld", &LoadOptions::weld,
-        {{"auto", io::Weld::automatic, "where the format has no indices (STL) or splits vertices (glTF)"},
-         {"none", io::Weld::off, "never"},
-         {"exact", io::Weld::exact, "always"}},
-        "Whether vertices at exactly the same position are merged.");
+         "weld", &LoadOptions::weld,
+         {{"auto", io::Weld::automatic, "where the format has no indices (STL) or splits vertices (glTF)"},
+          {"none", io::Weld::off, "never"},
+          {"exact", io::Weld::exact, "always"}},
+         "Whether vertices at exactly the same position are merged.")
+        .also_called(weld_synonyms);
     d.choice<bool>("instances", &LoadOptions::expand_instances,
                    {{"keep", false, "one part, which stages see once (W-INSTANCING); glTF keeps them all"},
                     {"expand", true, "each is a part"}},
@@ -208,6 +215,7 @@ void LoadStage::on_cells(CellFlow& flow, Context& context) const {
 
 const RegisterStage registered = make_stage<LoadStage>(
     {.name = "load",
+     .also_called = "read open import input",
      .about = help::load::about,
      .details = help::load::details,
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",

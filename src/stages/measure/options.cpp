@@ -3,6 +3,7 @@
 #include "base/refusal.hpp"
 #include "base/text/spelling.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stages/measure/face_table.hpp"
 
 #include <algorithm>
@@ -38,17 +39,21 @@ void declare_measure(Declare<MeasureOptions>& d) {
     Option& attributes =
         d.option("attributes", &MeasureOptions::attributes,
                  "Keeps these as attributes of faces or vertices, in world space and scene units.")
+            .also_called("areas", "attributes: area")
+            .also_called("curvature curvatures", "attributes: [mean_curvature, gaussian_curvature]")
             .option();
     for (const Quantity& q : quantities()) attributes.choices.push_back({std::string(q.name), told(q)});
     d.option("with", &MeasureOptions::with,
-             "The mesh file that deviation is measured from. Default: the scene as loaded.");
+             "The mesh file that deviation is measured from. Default: the scene as loaded.")
+        .also_called(with_synonyms);
     d.option("missing", &MeasureOptions::missing,
              "What attributes are set to where there is no number. Default: nan, which render shows as \"no "
              "value\" and PLY keeps; files of other formats get 0 (W-NAN).");
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files; the suffix decides the format. .json gets all results, "
              ".csv one line per face; - is JSON on standard output. The columns of the table: " +
-                 face_table_help() + ".");
+                 face_table_help() + ".")
+        .also_called(path_synonyms);
 }
 
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems) {

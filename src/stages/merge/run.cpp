@@ -1,5 +1,6 @@
 #include "base/text/unique_names.hpp"
 #include "mesh/skin.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stage/stage.hpp"
 #include "stages/merge/help.hpp"
 
@@ -19,7 +20,8 @@ void declare(Declare<MergeOptions>& d) {
     d.option("name", &MergeOptions::name,
              "The name of the joined part; the name of the first part unless given.")
         .primary();
-    d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.");
+    d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.")
+        .also_called(weld_synonyms);
 }
 
 struct MergeReport {
@@ -88,6 +90,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
 
 const RegisterStage registered =
     make_stage<StageOf<run>>({.name = "merge",
+                              .also_called = "join concatenate append",
                               .about = help::merge::about,
                               .details = help::merge::details,
                               .examples = {"merge", "merge: body", "merge: {weld: true}"},

@@ -519,6 +519,7 @@ Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeRepor
 
 const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "optimize",
+     .also_called = "dedup prune instance palette reorder",
      .about = help::optimize::about,
      .details = help::optimize::details,
      .examples = {"optimize", "optimize: {join: false}", "optimize: {keep_names: true}",

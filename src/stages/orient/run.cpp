@@ -103,6 +103,7 @@ Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientR
 
 const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "orient",
+     .also_called = "flip invert fix_normals reorient",
      .about = help::orient::about,
      .details = help::orient::details,
      .examples = {"orient", "orient: consistent", "orient: flip", "orient: {nested: solids}"},

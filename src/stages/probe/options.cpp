@@ -4,6 +4,7 @@
 #include "io/csv.hpp"
 #include "options/lists.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 #include "stage/read_recorded.hpp"
 
 #include <array>
@@ -112,8 +113,9 @@ void declare_probe(Declare<ProbeOptions>& d) {
              "The maximum number of answers in the report (a count); files contain all of them.")
         .between(0, 1e6);
     d.option(
-        "path", &ProbeOptions::path,
-        "The file to write all answers to, or a list of files, .csv or .json; - is JSON on standard output.");
+         "path", &ProbeOptions::path,
+         "The file to write all answers to, or a list of files, .csv or .json; - is JSON on standard output.")
+        .also_called(path_synonyms);
     d.exactly_one({"points", "points_of", "segments", "rays", "along"});
 }
 

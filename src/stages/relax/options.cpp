@@ -31,6 +31,7 @@ void declare_methods(Declare<RelaxOptions>& d) {
              "How far each vertex moves towards the mean of its neighbours; 1 is all the way (a ratio, "
              "without unit; 1 unless given, 0.5 for taubin, which needs less than 0.7; implicit takes any "
              "value, and 10 smooths about as much as 10 iterations).")
+        .also_called("strength factor weight")
         .above(0)
         .at_most(1e6);
     d.option("pass_band", &RelaxOptions::pass_band,
@@ -86,6 +87,7 @@ void declare_relax(Declare<RelaxOptions>& d) {
     d.option(
          "iterations", &RelaxOptions::iterations,
          "The number of iterations (a count; 1 unless given, 1000 with until); 0 leaves the mesh as it is.")
+        .also_called("steps passes iters n")
         .between(0, 1000000)
         .primary();
     declare_methods(d);

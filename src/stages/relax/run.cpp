@@ -98,6 +98,7 @@ struct RelaxStage : StageOf<run> {
 
 const RegisterStage registered =
     make_stage<RelaxStage>({.name = "relax",
+                            .also_called = "smooth laplacian taubin fair",
                             .about = help::relax::about,
                             .details = help::relax::details,
                             .examples = {"relax: 3", "relax: {iterations: 10, lambda: 0.5, boundary: slide}",

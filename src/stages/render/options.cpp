@@ -2,9 +2,11 @@
 
 #include "base/math/portable_math.hpp"
 #include "base/text/spelling.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "geometry/quantities/quantities.hpp"
 #include "options/lists.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -113,13 +115,16 @@ Json OptionType<ColourRange>::schema() {
 
 void declare_render(Declare<RenderOptions>& d) {
     d.option("path", &RenderOptions::path, "The PNG file to write; - is standard output.")
+        .also_called(path_synonyms)
         .required()
         .primary();
     d.option("with", &RenderOptions::with,
              "Another mesh file, drawn to the right of the scene by the same camera, at the same scale and "
              "with the "
-             "same colours for numbers; width and height apply to one of the two.");
-    d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "Where the scene is seen from.");
+             "same colours for numbers; width and height apply to one of the two.")
+        .also_called(with_synonyms);
+    d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "Where the scene is seen from.")
+        .also_called("camera direction");
     d.option("views", &RenderOptions::views,
              "Several views in one image, four in a row, at one scale; turntable is eight around the scene. "
              "width and height apply to one view.");
@@ -152,19 +157,21 @@ void declare_render(Declare<RenderOptions>& d) {
              "Whether folds and corners, which receive less ambient light, are darker.");
     d.option("silhouettes", &RenderOptions::silhouettes, "Whether outlines are drawn.");
     d.choice<Paint>(
-        "colours", &RenderOptions::colours,
-        {{"material", Paint::material,
-          "the base colour multiplied by its texture and the colours of vertices and faces, with the "
-          "material's normal, emissive and occlusion textures and its alpha"},
-         {"part", Paint::part, "one colour for each part"},
-         {"normal", Paint::normal, "the normal of the face, with x, y, z as red, green, blue"},
-         {"plain", Paint::plain, "grey"}},
-        "How faces are coloured.");
+         "colours", &RenderOptions::colours,
+         {{"material", Paint::material,
+           "the base colour multiplied by its texture and the colours of vertices and faces, with the "
+           "material's normal, emissive and occlusion textures and its alpha"},
+          {"part", Paint::part, "one colour for each part"},
+          {"normal", Paint::normal, "the normal of the face, with x, y, z as red, green, blue"},
+          {"plain", Paint::plain, "grey"}},
+         "How faces are coloured.")
+        .also_called("colors color_by");
     d.option("attribute", &RenderOptions::attribute,
              fmt::format("Colours by this attribute where a part has it: identifiers (group, failed, cut_id) "
                          "get distinct colours, other numbers a scale from dark blue over green to yellow "
                          "(viridis). What no part has is measured: {}.",
-                         fmt::join(quantity_names(), ", ")));
+                         fmt::join(quantity_names(), ", ")))
+        .also_called(attribute_synonyms);
     d.option("range", &RenderOptions::range,
              "The numbers at the ends of the scale: auto (the smallest and largest, or, if few outliers "
              "take up more than half of that, the 1st and 99th percentile), percentile, all (the "
@@ -174,9 +181,10 @@ void declare_render(Declare<RenderOptions>& d) {
         "Whether the scale is drawn beside the scene, with numbers. It is left out where it would take more "
         "than half of the width, or does not fit into the height.");
     d.option(
-        "unit", &RenderOptions::unit,
-        "The unit of the attribute, for the legend. Of what is measured it is known, if that of the scene "
-        "is.");
+         "unit", &RenderOptions::unit,
+         "The unit of the attribute, for the legend. Of what is measured it is known, if that of the scene "
+         "is.")
+        .also_called(property_named("unit")->also_called);
     d.choice<EdgeLines>("edges", &RenderOptions::edges,
                         {{"few", EdgeLines::few, "if the scene has at most 6000 faces"},
                          {"all", EdgeLines::all, "always"},
@@ -189,7 +197,8 @@ void declare_render(Declare<RenderOptions>& d) {
                       {"grey", Ground::grey, "light grey"},
                       {"dark", Ground::dark, "nearly black"},
                       {"black", Ground::black, "black"}},
-                     "The background of the image.");
+                     "The background of the image.")
+        .also_called("bg");
     d.option("point", &RenderOptions::point,
              "The side of the squares drawn for the vertices of parts without faces, in pixels.")
         .between(0.5, 100)

@@ -253,6 +253,7 @@ struct RenderStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<RenderStage>(
     {.name = "render",
+     .also_called = "screenshot snapshot thumbnail",
      .about = help::render::about,
      .details = help::render::details,
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",

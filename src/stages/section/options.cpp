@@ -3,6 +3,7 @@
 #include "base/math/portable_math.hpp"
 #include "io/drawing/drawing.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,10 @@ namespace facetmill::section_stage {
 namespace {
 
 void declare_hatch(Declare<HatchOption>& d) {
-    d.option("spacing", &HatchOption::spacing, "The distance between lines.").above(0).primary();
+    d.option("spacing", &HatchOption::spacing, "The distance between lines.")
+        .also_called("layer_height layer step distance interval")
+        .above(0)
+        .primary();
     d.option("angle", &HatchOption::angle, "The angle from the frame's u axis to the lines, anticlockwise.");
     d.choice<polygon::Keep>("keep", &HatchOption::keep,
                             {{"inside", polygon::Keep::inside, "hatch the material"},
@@ -24,13 +28,16 @@ void declare_hatch(Declare<HatchOption>& d) {
 void declare_section(Declare<SectionOptions>& d) {
     d.group("plane", &SectionOptions::plane, "The plane, or the first of a stack; z=50% unless given.",
             declare_plane)
+        .also_called(plane_synonyms, plane_is)
         .primary();
     d.option("spacing", &SectionOptions::spacing,
              "The distance between the planes of a stack, along the normal.")
+        .also_called("layer_height layer step distance interval")
         .above(0);
     d.option("count", &SectionOptions::count,
              "The number of planes: with spacing, starting at the plane; without it, in the middle of this "
              "many equal slices of the extent.")
+        .also_called("slices number layers")
         .between(1, max_planes);
     d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections: true, or how.",
             declare_hatch)
@@ -38,7 +45,8 @@ void declare_section(Declare<SectionOptions>& d) {
         .may_be_true = true;
     d.option("path", &SectionOptions::path,
              "The drawing to write, to scale, or a list of drawings; the suffix decides the format: .svg, "
-             ".dxf or .json.");
+             ".dxf or .json.")
+        .also_called(path_synonyms);
 }
 
 void verify_section(const SectionOptions& o, const Value& given, Problems& problems) {

@@ -152,6 +152,7 @@ void SectionStage::on_cells(CellFlow& flow, Context& context) const {
 
 const RegisterStage registered = make_stage<SectionStage>(
     {.name = "section",
+     .also_called = "slice contours cross_section",
      .about = help::section::about,
      .details = help::section::details,
      .examples = {"section: z=50%",

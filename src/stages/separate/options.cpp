@@ -2,6 +2,7 @@
 
 #include "geometry/clean/clean.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -74,7 +75,8 @@ void declare_separate(Declare<SeparateOptions>& d) {
                  "What becomes a separate part.")
         .primary();
     d.option("attribute", &SeparateOptions::attribute,
-             "The face attribute that numbers the groups (with group).");
+             "The face attribute that numbers the groups (with group).")
+        .also_called(attribute_synonyms);
     d.option("cavities", &SeparateOptions::cavities,
              "With component: cavities (closed components that face inward) become parts of their own; "
              "without this they stay with the solid that they lie in.");

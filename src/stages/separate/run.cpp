@@ -83,6 +83,7 @@ struct SeparateStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<SeparateStage>(
     {.name = "separate",
+     .also_called = "explode components",
      .about = help::separate::about,
      .details = help::separate::details,
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"},

@@ -2,6 +2,7 @@
 
 #include "base/math/portable_math.hpp"
 #include "base/text/spelling.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "options/lists.hpp"
 #include "options/mark_at.hpp"
 
@@ -131,17 +132,22 @@ void declare_share(Declare<SimplifyOptions>& d) {
 void declare_targets(Declare<SimplifyOptions>& d) {
     d.option("ratio", &SimplifyOptions::ratio,
              "The ratio of the triangles that remain, for all parts together: 25%, or 0.25.")
+        .also_called("percent percentage target_ratio fraction target keep")
+        .also_called("reduction target_reduction", "ratio, the share that stays and not the one that goes")
         .above(0)
         .at_most(1)
         .primary();
     d.option("faces", &SimplifyOptions::faces,
              "The maximum number of triangles that remain (a count), of all parts together.")
+        .also_called(property_named("faces")->also_called)
         .at_least(1);
     d.option("vertices", &SimplifyOptions::vertices,
              "The maximum number of vertices that remain (a count), of all parts together.")
+        .also_called(property_named("vertices")->also_called)
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
              "The largest deviation from the input, measured in both directions.")
+        .also_called("error tolerance threshold epsilon deviation max_deviation")
         .above(0);
     declare_share(d);
     declare_max_quadric_error(d);
@@ -167,18 +173,20 @@ void declare_settings(Declare<SimplifySettings>& d) {
                         {"allow", Topology::allow,
                          "small components may vanish, holes may close and handles may be pinched off; the "
                          "report counts them"}},
-                       "Whether the topology may change.");
+                       "Whether the topology may change.")
+        .also_called("preserve_topology preservetopology", "(topology: keep)");
     d.group("weights", &SimplifySettings::weights,
             "The weights of attributes in the error of the quadric methods, relative to the shape; 0 ignores "
             "an attribute.",
             declare_weights);
     d.choice<Intersections>(
-        "self_intersections", &SimplifySettings::self_intersections,
-        {{"ignore", Intersections::ignore, "they are not searched for"},
-         {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
-         {"avoid", Intersections::avoid,
-          "new intersections are avoided: where faces would intersect, fewer are removed"}},
-        "What is done about faces that would intersect.");
+         "self_intersections", &SimplifySettings::self_intersections,
+         {{"ignore", Intersections::ignore, "they are not searched for"},
+          {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
+          {"avoid", Intersections::avoid,
+           "new intersections are avoided: where faces would intersect, fewer are removed"}},
+         "What is done about faces that would intersect.")
+        .also_called(property_named("self_intersections")->also_called);
 }
 
 std::vector<double> levels_of(const SimplifyOptions& o) {
@@ -236,7 +244,10 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
     d.group("lock", &SimplifyOptions::lock,
             "What is kept vertex by vertex. Boundaries, seams and borders that are not locked collapse only "
             "along themselves.",
-            declare_lock);
+            declare_lock)
+        .also_called(
+            "preserve_boundary preserve_border lock_border lock_boundary preserve_borders keep_boundary",
+            "lock: {boundary: true}");
     d.option("feature_angle", &SimplifyOptions::feature_angle,
              "Seams that exist only in the normals are merged at edges whose dihedral angle is below this "
              "(an angle between the normals of the two faces); flat-shaded meshes stay flat-shaded. 0 keeps "

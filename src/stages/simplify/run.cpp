@@ -18,6 +18,7 @@ struct SimplifyStage : StageOf<simplify_parts> {
 
 const RegisterStage registered = make_stage<SimplifyStage>(
     {.name = "simplify",
+     .also_called = "decimate decimation reduce quadric qem",
      .about = help::simplify::about,
      .details = help::simplify::details,
      .examples = {"simplify: 25%", "simplify: {faces: 5000, lock: [boundary, seams]}",

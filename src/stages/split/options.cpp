@@ -59,6 +59,7 @@ void declare_split(Declare<SplitOptions>& d) {
     d.option("passes", &SplitOptions::passes,
              "The number of passes (a count; 1 unless given); with max_edge or max_faces, the maximum number "
              "(100 unless given). A warning says when max_edge was not reached.")
+        .also_called("iterations levels level depth")
         .between(0, 100);
     d.choice<Cut>("cut", &SplitOptions::cut,
                   {{"longest-edge", Cut::longest_edge, "in the middle of the longest edge"},
@@ -69,6 +70,7 @@ void declare_split(Declare<SplitOptions>& d) {
     d.option("max_edge", &SplitOptions::max_edge,
              "Split until no edge is longer than this (a length): with bisect only where needed; with "
              "midpoint, quads, loop, butterfly and catmull-clark everywhere.")
+        .also_called("edge_length target_length target_edge_length max_edge_length")
         .above(0);
     d.option(
          "min_angle", &SplitOptions::min_angle,

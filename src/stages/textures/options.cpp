@@ -2,6 +2,7 @@
 
 #include "io/images/ktx_workers.hpp"
 #include "options/mark_at.hpp"
+#include "stage/options/synonyms.hpp"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -24,9 +25,12 @@ std::vector<NamedChoice<F>> formats() {
 }
 
 void declare_role(Declare<RoleOptions>& d) {
-    d.option("max_size", &RoleOptions::max_size, "As above, for these.").between(1, longest_side);
+    d.option("max_size", &RoleOptions::max_size, "As above, for these.")
+        .also_called("resize resolution texture_size")
+        .between(1, longest_side);
     d.option("power_of_two", &RoleOptions::power_of_two, "As above, for these.");
-    d.choice<MaybeFormat>("format", &RoleOptions::format, formats<MaybeFormat>(), "As above, for these.");
+    d.choice<MaybeFormat>("format", &RoleOptions::format, formats<MaybeFormat>(), "As above, for these.")
+        .also_called(format_synonyms);
     d.option("quality", &RoleOptions::quality, "As above, for these.").between(1, 100);
     d.option("lossless", &RoleOptions::lossless, "As above, for these.");
 }
@@ -62,12 +66,14 @@ void declare_textures(Declare<TexturesOptions>& d) {
     d.option(
          "max_size", &TexturesOptions::max_size,
          "The longest side in pixels: larger images are scaled down to it (a count; if not given, none are).")
+        .also_called("resize resolution texture_size")
         .between(1, longest_side)
         .primary();
     d.option("power_of_two", &TexturesOptions::power_of_two,
              "Scales each side down to a power of two, as some older hardware needs it.");
     d.choice<Format>("format", &TexturesOptions::format, formats<Format>(),
-                     "The format of the images, as far as they become smaller in it.");
+                     "The format of the images, as far as they become smaller in it.")
+        .also_called(format_synonyms);
     d.option("quality", &TexturesOptions::quality,
              "Of JPEG, WebP and KTX2, where an image is written anew; if not given, 80 for colours and 90 "
              "for the "

@@ -216,6 +216,7 @@ struct TexturesStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<TexturesStage>(
     {.name = "textures",
+     .also_called = "ktx toktx webp",
      .about = help::textures::about,
      .details = help::textures::details,
      .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",

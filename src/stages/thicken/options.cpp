@@ -1,5 +1,7 @@
 #include "stages/thicken/options.hpp"
 
+#include "geometry/inspect/inspect.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill::thicken_stage {
@@ -19,6 +21,7 @@ void declare_self_intersections(Declare<ThickenOptions>& d) {
               {"resolve", resolve,
                "where walls fold or intersect, the solid is made again without that, by boolean operations"}},
              "What is done about walls that intersect.")
+            .also_called(property_named("self_intersections")->also_called)
             .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
         const auto yes = v.is_scalar() && !v.deferred ? v.as_bool() : std::nullopt;
@@ -34,6 +37,7 @@ void declare_self_intersections(Declare<ThickenOptions>& d) {
 void declare_thickness(Declare<ThickenOptions>& d) {
     Option& o = d.option("thickness", &ThickenOptions::thickness,
                          "The thickness of the solid, or the diameter of cylinders.")
+                    .also_called("distance offset width amount wall")
                     .above(0)
                     .required()
                     .primary()

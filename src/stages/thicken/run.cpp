@@ -103,6 +103,7 @@ struct ThickenStage : StageOf<run> {
 
 const RegisterStage registered =
     make_stage<ThickenStage>({.name = "thicken",
+                              .also_called = "shell hollow offset solidify extrude wireframe",
                               .about = help::thicken::about,
                               .details = help::thicken::details,
                               .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",

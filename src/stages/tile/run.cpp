@@ -184,6 +184,7 @@ struct TileStage : StageOf<run> {
 
 const RegisterStage registered =
     make_stage<TileStage>({.name = "tile",
+                           .also_called = "chunk tiler",
                            .about = help::tile::about,
                            .details = help::tile::details,
                            .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",

@@ -1,6 +1,7 @@
 #include "stages/transform/options.hpp"
 
 #include "base/math/portable_math.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
 
@@ -45,19 +46,23 @@ Transform from_numbers(const std::vector<double>& m) {
 
 void declare_transform(Declare<TransformOptions>& d) {
     d.choice<Unit>(
-        "unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
-        "The unit of the numbers from here on; they are converted so that physical sizes stay the same.");
+         "unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
+         "The unit of the numbers from here on; they are converted so that physical sizes stay the same.")
+        .also_called(property_named("unit")->also_called);
     d.choice<UpAxis>(
-        "up", &TransformOptions::up,
-        {{"unknown", UpAxis::unknown, "as it is"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
-        "The axis that points up from here on; the scene is rotated so that up stays up, unless it had no up "
-        "axis (W-UP).");
+         "up", &TransformOptions::up,
+         {{"unknown", UpAxis::unknown, "as it is"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
+         "The axis that points up from here on; the scene is rotated so that up stays up, unless it had no "
+         "up "
+         "axis (W-UP).")
+        .also_called(property_named("up")->also_called);
     d.option("scale", &TransformOptions::scale, "One factor, or one for each axis; negative factors mirror.");
     d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise when looking against the axis.",
             [](Declare<TransformRotation>& r) {
                 r.option("angle", &TransformRotation::angle, "The angle of rotation.").primary();
                 r.option("axis", &TransformRotation::axis, "The axis of rotation.");
-            });
+            })
+        .also_called("rotation rotate_x rotate_y rotate_z rx ry rz", "rotate: {angle: 90, axis: [0, 0, 1]}");
     d.choice<Pivot>("pivot", &TransformOptions::pivot,
                     {{"origin", Pivot::origin, "the world's origin"},
                      {"centre", Pivot::centre, "the centre of the parts' bounding box"}},
@@ -65,11 +70,13 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.option("matrix", &TransformOptions::matrix,
              "Twelve or sixteen numbers, row by row, applied to columns (x, y, z, 1).");
     d.option(
-        "fit", &TransformOptions::fit,
-        "Then scales alike along all axes, so that the parts' bounding box just fits into a cube with "
-        "this side (120mm: its longest side gets this length), or into a box with three. A percentage is "
-        "of the side that it replaces, so that 50% halves the parts.");
-    d.option("translate", &TransformOptions::translate, "Three lengths.");
+         "fit", &TransformOptions::fit,
+         "Then scales alike along all axes, so that the parts' bounding box just fits into a cube with "
+         "this side (120mm: its longest side gets this length), or into a box with three. A percentage is "
+         "of the side that it replaces, so that 50% halves the parts.")
+        .also_called("size resize fit_to max_size longest normalize normalise height", "(fit: 120mm)");
+    d.option("translate", &TransformOptions::translate, "Three lengths.")
+        .also_called("move offset translation position");
     d.option("centre", &TransformOptions::centre,
              "Then moves the centre of the parts' bounding box to the origin.");
     d.option("ground", &TransformOptions::ground,

@@ -159,6 +159,7 @@ struct TransformStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<TransformStage>(
     {.name = "transform",
+     .also_called = "translate rotate scale resize move center centre mirror convert_units",
      .about = help::transform::about,
      .details = help::transform::details,
      .examples = {"transform: {scale: 0.001}",

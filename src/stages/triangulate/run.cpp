@@ -87,6 +87,7 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
 
 const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "triangulate",
+     .also_called = "tessellate tessellation",
      .about = help::triangulate::about,
      .details = help::triangulate::details,
      .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, feature_angle: 5deg}"},

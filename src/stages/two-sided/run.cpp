@@ -81,12 +81,14 @@ Scene run(Scene scene, const TwoSidedOptions& o, Context& context, TwoSidedRepor
     return scene;
 }
 
-const RegisterStage registered = make_stage<StageOf<run>>({.name = "two-sided",
-                                                           .about = help::two_sided::about,
-                                                           .details = help::two_sided::details,
-                                                           .examples = {"two-sided", "two-sided: material"},
-                                                           .lines = LinesPolicy::pass},
-                                                          declare, declare_report);
+const RegisterStage registered =
+    make_stage<StageOf<run>>({.name = "two-sided",
+                              .also_called = "double_sided doublesided doubleside",
+                              .about = help::two_sided::about,
+                              .details = help::two_sided::details,
+                              .examples = {"two-sided", "two-sided: material"},
+                              .lines = LinesPolicy::pass},
+                             declare, declare_report);
 
 } // namespace
 

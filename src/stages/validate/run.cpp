@@ -111,6 +111,7 @@ struct ValidateStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<ValidateStage>(
     {.name = "validate",
+     .also_called = "check inspect info",
      .about = help::validate::about,
      .details = help::validate::details,
      .examples = {"validate", "validate: {closed: true, euler: 2}", "validate: {for: printing, per: part}",

@@ -1,10 +1,12 @@
 #include "stages/write/options.hpp"
 
 #include "base/text/spelling.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
+#include "stage/options/synonyms.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -46,12 +48,13 @@ void declare_draco(Declare<DracoOptions>& d) {
              "0 gives the smallest file, 10 the fastest compression (a count).")
         .between(0, 10);
     d.choice<DracoOptions::Degenerate>(
-        "degenerate_faces", &DracoOptions::degenerate_faces,
-        {{"drop", DracoOptions::Degenerate::drop, "they are left out, with a warning"},
-         {"keep", DracoOptions::Degenerate::keep,
-          "in a separate primitive, without the connectivity that makes Draco files small"}},
-        "What is done with faces that use a vertex twice, which Draco's compression of connectivity cannot "
-        "represent.");
+         "degenerate_faces", &DracoOptions::degenerate_faces,
+         {{"drop", DracoOptions::Degenerate::drop, "they are left out, with a warning"},
+          {"keep", DracoOptions::Degenerate::keep,
+           "in a separate primitive, without the connectivity that makes Draco files small"}},
+         "What is done with faces that use a vertex twice, which Draco's compression of connectivity cannot "
+         "represent.")
+        .also_called(property_named("degenerate_faces")->also_called);
     d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, DracoOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
@@ -106,9 +109,11 @@ void declare_tiles(Declare<TilesOptions>& d) {
          "format", &TilesOptions::format,
          {{"3d", TilesOptions::Kind::three_d, "3D Tiles 1.1, each tile a GLB, refined by REPLACE"}},
          "The kind of tiles.")
+        .also_called(format_synonyms)
         .primary();
     d.option("faces", &TilesOptions::faces,
              "Triangles that a tile has at the most, but where its borders need more (a count).")
+        .also_called(property_named("faces")->also_called)
         .between(100, 10000000);
     d.choice<bool>(
         "tiling", &TilesOptions::implicit,
@@ -203,15 +208,20 @@ std::string title_of(const std::filesystem::path& target) {
 void declare_write(Declare<WriteOptions>& d) {
     d.option("path", &WriteOptions::path,
              "The file to write; its suffix decides the format; - is standard output.")
+        .also_called(path_synonyms)
         .primary()
         .required();
-    d.option("format", &WriteOptions::format, "The name of the format, when the suffix does not show it.");
+    d.option("format", &WriteOptions::format, "The name of the format, when the suffix does not show it.")
+        .also_called(format_synonyms);
     d.choice<Unit>("unit", &WriteOptions::unit,
                    unit_choices("auto", "the format's (glTF: metres), else the scene's"),
-                   "The unit of the numbers in the file.");
+                   "The unit of the numbers in the file.")
+        .also_called(property_named("unit")->also_called);
     d.choice<UpAxis>("up", &WriteOptions::up, up_choices("auto", "the format's (glTF: y), else the scene's"),
-                     "The axis that points up in the file.");
-    d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.");
+                     "The axis that points up in the file.")
+        .also_called(property_named("up")->also_called);
+    d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.")
+        .also_called("binary", "(ascii: false), which is the default");
     d.option("big_endian", &WriteOptions::big_endian, "Binary PLY with the most significant byte first.");
     d.choice<Precision>(
         "precision", &WriteOptions::precision,
@@ -251,7 +261,8 @@ void declare_write(Declare<WriteOptions>& d) {
          {"new", Tangents::all, "made there in any case"}},
         "The tangents in a glTF file; the scene keeps its own.");
     d.group("draco", &WriteOptions::draco,
-            "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco);
+            "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco)
+        .also_called("compress compression use_draco compressed");
     d.group("quantize", &WriteOptions::quantize,
             "Writes glTF with KHR_mesh_quantization, which stores attributes as small integers: true, or the "
             "numbers of bits. meshopt also quantises unless this is false.",

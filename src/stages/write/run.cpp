@@ -259,6 +259,7 @@ struct WriteStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<WriteStage>(
     {.name = "write",
+     .also_called = "save export output convert",
      .about = help::write::about,
      .details = help::write::details,
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",

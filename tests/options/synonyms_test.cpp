@@ -1,13 +1,13 @@
 #include "support/catch.hpp"
 
-#include "options/other_names.hpp"
+#include "options/synonyms.hpp"
 #include "stage/stage.hpp"
 
 using namespace facetmill;
 
 TEST_CASE("options are found by what other programs call them, where the option is known", "[options]") {
-    const std::vector<std::string> validate = stage_named("validate")->options->names();
-    const std::vector<std::string> simplify = stage_named("simplify")->options->names();
+    const auto validate = stage_named("validate")->options->known_names();
+    const auto simplify = stage_named("simplify")->options->known_names();
     CHECK(hint_for_option("watertight", validate) == "'watertight' is called 'closed' here");
     CHECK(hint_for_option("Manifold", validate) ==
           "'Manifold' is called 'edge_manifold' or 'vertex_manifold' here");
@@ -17,7 +17,7 @@ TEST_CASE("options are found by what other programs call them, where the option 
     CHECK(hint_for_option("preserve_border", simplify) == "here it is lock: {boundary: true}");
     CHECK(hint_for_option("inside_out", validate) ==
           "here it is (outward_oriented: true), which says the opposite");
-    CHECK(hint_for_option("keep_largest", stage_named("clean")->options->names()) ==
+    CHECK(hint_for_option("keep_largest", stage_named("clean")->options->known_names()) ==
           "here it is components: {keep: 1}");
     CHECK(hint_for_option("keep_largest", validate).find("keep: 1") == std::string::npos);
     CHECK(options_of_same_value("reduction", simplify).empty());
@@ -29,7 +29,7 @@ TEST_CASE("options are found by what other programs call them, where the option 
 }
 
 TEST_CASE("a word that no other program uses is answered with the nearest option", "[options]") {
-    const std::vector<std::string> known{"ratio", "faces"};
+    const std::vector<KnownName> known{{"ratio"}, {"faces"}};
     CHECK(hint_for_option("rato", known) == "did you mean 'ratio'?");
     CHECK(hint_for_option("qqqqq", known) == "expected one of: ratio, faces");
     CHECK(hint_for_option("qqqqq", known, "see the help") == "see the help");
