@@ -64,14 +64,14 @@ void note_before(PartsWork& w, const PartSet& set, std::optional<double> limit) 
 }
 
 void keep_for_repeats(PartsWork& w, std::size_t part) {
-    if (w.plan.uses[part] > 1) w.repeats[part] = w.results[part];
+    if (w.plan.work.uses[part] > 1) w.repeats[part] = w.results[part];
 }
 
 /// The sets that one target is shared by: those that do not repeat the work of another.
 std::vector<PartSet> sharing_sets(const PartsPlan& plan) {
     std::vector<PartSet> sets;
-    for (std::size_t p = 0; p < plan.work_as.size() && plan.o.by_error; ++p) {
-        if (!plan.o.selected[p] || plan.work_as[p] != p) continue;
+    for (std::size_t p = 0; p < plan.work.first.size() && plan.o.by_error; ++p) {
+        if (!plan.o.selected[p] || plan.work.first[p] != p) continue;
         if (PartSet set = plan.set_with(p); set.front() == p) sets.push_back(std::move(set));
     }
     return sets;
@@ -83,7 +83,7 @@ SharingMeshes sharing_meshes(PartsWork& w, const PartSet& set, SimplifySettings 
     sharing.lock = std::move(settings.lock);
     sharing.max_quadric_error = settings.max_quadric_error;
     sharing.scale = ordering_scale(w.scene.parts[set.front()].transform);
-    sharing.uses = w.plan.uses[set.front()];
+    sharing.uses = w.plan.work.uses[set.front()];
     for (const std::size_t p : set) {
         Mesh& mesh = w.scene.parts[p].mesh;
         sharing.meshes.push_back(keep ? mesh : std::exchange(mesh, {}));
@@ -137,7 +137,7 @@ void simplify_set(PartsWork& w, const PartSet& set) {
     steps.next();
     const std::size_t front = set.front();
     auto& results = w.results[front];
-    if (const std::size_t as = w.plan.work_as[front]; as != front) {
+    if (const std::size_t as = w.plan.work.first[front]; as != front) {
         results = w.repeats.at(as);
         return;
     }
@@ -244,7 +244,7 @@ void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
         of_part.next();
         scene.parts[p].mesh = {};
         take(p, settled(w, p));
-        if (--w.plan.uses[w.plan.work_as[p]] == 0) w.repeats.erase(w.plan.work_as[p]);
+        if (--w.plan.work.uses[w.plan.work.first[p]] == 0) w.repeats.erase(w.plan.work.first[p]);
         of_parts.next();
     }
 }

@@ -1,13 +1,8 @@
 #include "geometry/simplify/parts_plan.hpp"
 
-#include "mesh/equal_meshes.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/transform.hpp"
-
-#include <array>
-#include <map>
-#include <numeric>
 
 namespace facetmill {
 
@@ -118,33 +113,23 @@ void share_samples(PartsPlan& plan) {
     for (std::size_t i = 0; i < selected.size(); ++i) plan.samples[selected[i]] = shares[i];
 }
 
-/// Finds the parts that have the mesh of an earlier one, so that they have its result, and its measurements
-/// when they differ by a move only.
+/// Finds the parts that have the result of an earlier one with the same mesh, and its measurements when they
+/// differ by a move only.
 void find_repeats(PartsPlan& plan) {
-    const auto& parts = plan.scene.parts;
     const SimplifySettings& s = plan.o.all;
-    plan.work_as.resize(parts.size());
-    std::iota(plan.work_as.begin(), plan.work_as.end(), std::size_t{0});
-    plan.measured_as = plan.work_as;
-    plan.uses.assign(parts.size(), 1);
-    if (parts.size() < 2 || !s.lock.body.empty()) return; // the body meets each elsewhere
-    const std::vector<std::size_t> equal = first_with_equal_mesh(plan.scene);
-    std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> worked;
-    std::map<std::pair<std::size_t, std::array<std::uint64_t, 9>>, std::size_t> measured;
-    for (std::size_t p = 0; p < equal.size(); ++p) {
+    const bool by_size = s.max_error || s.constraints.hausdorff > 0 || s.max_quadric_error;
+    const auto key = [&](std::size_t p) {
+        const Transform& to_world = plan.scene.parts[p].transform;
         const bool touches = !plan.contacts.shared.empty() && !plan.contacts.shared[p].empty();
-        if (touches || !plan.o.selected[p]) continue;
-        const Transform& to_world = parts[p].transform;
-        double scale = 1;
-        if (s.max_error || s.constraints.hausdorff > 0 || s.max_quadric_error)
-            scale = greatest_stretch(to_world);
-        else if (plan.o.by_error)
-            scale = ordering_scale(to_world);
-        const std::size_t as = worked.try_emplace({equal[p], facetmill::key_of(scale)}, p).first->second;
-        plan.work_as[p] = as;
-        if (as != p) ++plan.uses[as];
-        plan.measured_as[p] = measured.try_emplace({as, axes_in_world(to_world)}, p).first->second;
-    }
+        const bool alone = touches || !plan.o.selected[p] || !s.lock.body.empty(); // it meets each elsewhere
+        const double scale = by_size           ? greatest_stretch(to_world)
+                             : plan.o.by_error ? ordering_scale(to_world)
+                                               : 1;
+        return std::pair(alone ? p + 1 : 0, facetmill::key_of(scale));
+    };
+    plan.work = DistinctParts(plan.scene).split_by(key);
+    plan.measured_as =
+        plan.work.split_by([&](std::size_t p) { return axes_in_world(plan.scene.parts[p].transform); }).first;
 }
 
 } // namespace

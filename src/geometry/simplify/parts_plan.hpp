@@ -2,6 +2,7 @@
 // What is decided about the parts of a scene before any of them is simplified.
 
 #include "geometry/simplify/joint.hpp"
+#include "mesh/equal_meshes.hpp"
 
 namespace facetmill::simplification {
 
@@ -12,12 +13,10 @@ struct PartsPlan {
     const SimplifyPartsSettings& o;
     MeshCounts all{}; ///< of the selected parts
     Contacts contacts{};
-    std::vector<const PartSet*> set_of{}; ///< [parts] of contacts, when simplified as one; empty: none is
-    /// [parts] The first with the same mesh, itself for most: the source of its result, and of its
-    /// measurements.
-    std::vector<std::size_t> work_as{}, measured_as{};
-    std::vector<std::size_t> uses{};    ///< [parts] parts that still need its result
-    std::vector<std::size_t> samples{}; ///< [parts] each way, of those selected
+    std::vector<const PartSet*> set_of{};   ///< [parts] of contacts, when simplified as one; empty: none is
+    DistinctParts work{Scene{}};            ///< parts that have the result of the first
+    std::vector<std::size_t> measured_as{}; ///< [parts] the part that has its measurements, mostly itself
+    std::vector<std::size_t> samples{};     ///< [parts] each way, of those selected
 
     PartSet set_with(std::size_t part) const {
         return set_of.empty() || !set_of[part] ? PartSet{part} : *set_of[part];
