@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <functional>
-#include <map>
 #include <type_traits>
 #include <unordered_map>
 
@@ -67,8 +66,7 @@ void find_among(const std::vector<std::size_t>& parts, const Scene& scene, std::
 
 } // namespace
 
-std::vector<std::size_t> first_with_equal_mesh(const Scene& scene) {
-    std::vector<std::size_t> first(scene.parts.size());
+DistinctParts::DistinctParts(const Scene& scene) : first(scene.parts.size()) {
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_size;
     for (std::size_t p = 0; p < first.size(); ++p) {
         first[p] = p;
@@ -77,7 +75,12 @@ std::vector<std::size_t> first_with_equal_mesh(const Scene& scene) {
     }
     for (const auto& [size, parts] : by_size)
         if (parts.size() > 1) find_among(parts, scene, first);
-    return first;
+    count();
+}
+
+void DistinctParts::count() {
+    uses.assign(first.size(), 0);
+    for (const std::size_t p : first) ++uses[p];
 }
 
 std::uint64_t key_of(double number) { return std::bit_cast<std::uint64_t>(number == 0 ? 0.0 : number); }
@@ -88,12 +91,9 @@ std::array<std::uint64_t, 9> axes_in_world(const Transform& to_world) {
             key_of(y.z), key_of(z.x), key_of(z.y), key_of(z.z)};
 }
 
-std::vector<std::size_t> first_with_equal_shape(const Scene& scene) {
-    std::vector<std::size_t> first = first_with_equal_mesh(scene);
-    std::map<std::pair<std::size_t, std::array<std::uint64_t, 9>>, std::size_t> known;
-    for (std::size_t p = 0; p < first.size(); ++p)
-        first[p] = known.try_emplace({first[p], axes_in_world(scene.parts[p].transform)}, p).first->second;
-    return first;
+DistinctParts distinct_shapes(const Scene& scene) {
+    return DistinctParts(scene).split_by(
+        [&](std::size_t p) { return axes_in_world(scene.parts[p].transform); });
 }
 
 } // namespace facetmill

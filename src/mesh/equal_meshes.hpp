@@ -6,12 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 
 namespace facetmill {
-
-/// [parts] The first part whose mesh equals that of each, to the bit, with its attributes and primitives,
-/// wherever both stand; its own number for a part that is the first. O(data).
-std::vector<std::size_t> first_with_equal_mesh(const Scene& scene);
 
 /// Alike for numbers that are equal, and for two that are no numbers (NaN) of the same bits, which have no
 /// order among the others and so cannot be keys themselves.
@@ -21,8 +18,29 @@ std::uint64_t key_of(double number);
 /// differ by a move.
 std::array<std::uint64_t, 9> axes_in_world(const Transform& to_world);
 
-/// [parts] As first_with_equal_mesh, of parts that stand the same but for a move: in the world all of one are
-/// one shape.
-std::vector<std::size_t> first_with_equal_shape(const Scene& scene);
+/// Parts whose meshes are equal to the bit, with attributes and primitives, wherever they are. O(data).
+struct DistinctParts {
+    std::vector<std::size_t> first;     ///< [parts] the first one equal to each, often itself
+    std::vector<std::size_t> uses = {}; ///< [parts] the parts that it is the first of; 0 for repeats
+
+    explicit DistinctParts(const Scene& scene);
+    /// Those of them that have equal keys, too.
+    template <class KeyOf>
+    DistinctParts split_by(KeyOf&& key_of) const {
+        std::map<std::pair<std::size_t, decltype(key_of(std::size_t{0}))>, std::size_t> known;
+        DistinctParts parts(std::vector<std::size_t>(first.size()));
+        for (std::size_t p = 0; p < first.size(); ++p)
+            parts.first[p] = known.try_emplace({first[p], key_of(p)}, p).first->second;
+        parts.count();
+        return parts;
+    }
+
+  private:
+    explicit DistinctParts(std::vector<std::size_t> first_of_each) : first(std::move(first_of_each)) {}
+    void count();
+};
+
+/// ... which differ by a move only: in the world they have the same shape.
+DistinctParts distinct_shapes(const Scene& scene);
 
 } // namespace facetmill

@@ -20,11 +20,11 @@ TEST_CASE("parts with equal meshes are found, wherever they stand, and others to
     };
     coloured(scene.parts[5], 0);
     coloured(scene.parts[6], 1);
-    CHECK(first_with_equal_mesh(scene) == std::vector<std::size_t>{0, 0, 2, 3, 4, 5, 6});
+    CHECK(DistinctParts(scene).first == std::vector<std::size_t>{0, 0, 2, 3, 4, 5, 6});
     coloured(scene.parts[1], 1);
     scene.parts[2] = scene.parts[1];
-    CHECK(first_with_equal_mesh(scene) == std::vector<std::size_t>{0, 1, 1, 3, 4, 5, 1});
-    CHECK(first_with_equal_mesh({}).empty());
+    CHECK(DistinctParts(scene).first == std::vector<std::size_t>{0, 1, 1, 3, 4, 5, 1});
+    CHECK(DistinctParts(Scene{}).first.empty());
 }
 
 TEST_CASE("parts of one shape differ by a move alone", "[mesh]") {
@@ -34,9 +34,9 @@ TEST_CASE("parts of one shape differ by a move alone", "[mesh]") {
     scene.parts[2].transform.m[0][0] = -1; // mirrored
     scene.parts[3].transform = scene.parts[2].transform;
     scene.parts[3].transform.m[2][3] = 1;
-    CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 0, 2, 2});
+    CHECK(distinct_shapes(scene).first == std::vector<std::size_t>{0, 0, 2, 2});
     scene.parts[1].mesh.positions[0].x -= 1;
-    CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 1, 2, 2});
+    CHECK(distinct_shapes(scene).first == std::vector<std::size_t>{0, 1, 2, 2});
 }
 
 TEST_CASE("parts that stand nowhere are of no other shape", "[mesh]") {
@@ -48,5 +48,5 @@ TEST_CASE("parts that stand nowhere are of no other shape", "[mesh]") {
     scene.parts[3].transform.m[0][0] = nowhere;
     scene.parts[4].transform.m[1][0] = -0.0;
     scene.parts[5].transform.m[2][2] = nowhere;
-    CHECK(first_with_equal_shape(scene) == std::vector<std::size_t>{0, 1, 2, 1, 0, 5});
+    CHECK(distinct_shapes(scene).first == std::vector<std::size_t>{0, 1, 2, 1, 0, 5});
 }

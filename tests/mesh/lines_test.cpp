@@ -93,7 +93,7 @@ TEST_CASE("meshes that differ in their lines are not equal", "[mesh]") {
     scene.parts.resize(3);
     for (Part& part : scene.parts) part.mesh = two_lines();
     scene.parts[1].mesh.lines = {1, 2, 2, 4};
-    CHECK(first_with_equal_mesh(scene) == std::vector<std::size_t>{0, 1, 0});
+    CHECK(DistinctParts(scene).first == std::vector<std::size_t>{0, 1, 0});
 }
 
 TEST_CASE("lines of a part stand in the world, with their materials", "[mesh]") {

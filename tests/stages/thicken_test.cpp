@@ -74,7 +74,7 @@ TEST_CASE("parts of one shape get one solid, and are told as each by itself", "[
     scene.parts[3].mesh.positions[5].x += 0.1; // another mesh
     const auto together = run_stage("thicken", "0.5", scene);
     REQUIRE(together.scene.parts.size() == 4);
-    CHECK(first_with_equal_mesh(together.scene) == std::vector<std::size_t>{0, 0, 2, 3});
+    CHECK(DistinctParts(together.scene).first == std::vector<std::size_t>{0, 0, 2, 3});
     std::size_t warnings = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         Scene single;

@@ -304,15 +304,13 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     lengths.reserve(scene.parts.size());
     for (const Part& part : scene.parts) lengths.push_back(1 + static_cast<double>(part.mesh.face_count()));
     ProgressSteps steps(std::move(lengths));
-    const std::vector<std::size_t> first = first_with_equal_mesh(scene);
-    std::vector<std::uint8_t> is_again(first.size());
-    for (std::size_t i = 0; i < first.size(); ++i) is_again[first[i]] |= first[i] != i;
+    const DistinctParts meshes(scene);
     std::map<std::size_t, Properties> known; // of meshes that come again
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        const auto alike = known.find(first[i]);
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const auto alike = known.find(meshes.first[i]);
         const Properties own =
             inspect_alike(scene.parts[i], settings, alike == known.end() ? nullptr : &alike->second);
-        if (is_again[i]) known.emplace(i, own);
+        if (meshes.uses[i] > 1) known.emplace(i, own);
         for (const Property& property : property_table()) Joiner(sum, own).add(property);
         steps.next();
     }

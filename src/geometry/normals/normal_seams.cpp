@@ -59,7 +59,7 @@ class Others {
     std::vector<Column> columns_;
 };
 
-struct Evidence {
+struct SeamEvidence {
     std::size_t bent = 0, seams = 0, corners = 0, facing = 0;
 };
 
@@ -68,7 +68,7 @@ bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<V
                  const std::vector<Index>& face_of) {
     const EdgeTable edges = build_edges(mesh);
     const auto differ = [&](Index a, Index b) { return !(normal_of(normals, a) == normal_of(normals, b)); };
-    const auto join = [](Evidence a, const Evidence& b) {
+    const auto join = [](SeamEvidence a, const SeamEvidence& b) {
         a.bent += b.bent;
         a.seams += b.seams;
         a.corners += b.corners;
@@ -76,7 +76,7 @@ bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<V
         return a;
     };
     const auto at_edges = [&](std::size_t begin, std::size_t end) {
-        Evidence e;
+        SeamEvidence e;
         for (std::size_t i = begin; i < end; ++i) {
             const auto corners = edges.corners_of(static_cast<Index>(i));
             if (corners.size() != 2) continue;
@@ -90,7 +90,7 @@ bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<V
         return e;
     };
     const auto at_corners = [&](std::size_t begin, std::size_t end) {
-        Evidence e;
+        SeamEvidence e;
         for (std::size_t c = begin; c < end; ++c) {
             const Vec3& area = areas[face_of[c]];
             if (!(dot(area, area) > 0)) continue;
@@ -99,8 +99,8 @@ bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<V
         }
         return e;
     };
-    const Evidence e = join(parallel_reduce(edges.size(), Evidence{}, at_edges, join),
-                            parallel_reduce(mesh.corner_count(), Evidence{}, at_corners, join));
+    const SeamEvidence e = join(parallel_reduce(edges.size(), SeamEvidence{}, at_edges, join),
+                                parallel_reduce(mesh.corner_count(), SeamEvidence{}, at_corners, join));
     const auto share = [](std::size_t part, std::size_t whole) {
         return static_cast<double>(part) >= nearly_all * static_cast<double>(whole);
     };

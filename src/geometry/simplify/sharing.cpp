@@ -1,9 +1,10 @@
 // Meshes that share one target: their states go to it together, see order.cpp.
 
-#include "geometry/simplify/joint.hpp"
+#include "geometry/simplify/sharing.hpp"
 
 #include "base/progress.hpp"
 #include "geometry/simplify/input.hpp"
+#include "geometry/simplify/joint.hpp"
 #include "geometry/simplify/targets.hpp"
 #include "parallel/parallel.hpp"
 

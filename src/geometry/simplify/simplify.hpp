@@ -4,9 +4,13 @@
 
 #include "base/math/portable_math.hpp"
 #include "base/refusal.hpp"
+#include "geometry/deviation/deviation.hpp"
+#include "geometry/edit/moved.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "geometry/normals/normals.hpp"
 #include "mesh/plane.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -212,65 +216,61 @@ std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& s
 /// As check_simplify_settings, of simplify_levels.
 std::vector<Refusal> check_simplify_levels(const SimplifySettings& settings);
 
-// Meshes whose open borders run along each other: tiles, separated components, the parts of one body.
+// The parts of a scene, with one target for all.
 
-/// A mesh and where it stands.
-struct PlacedMesh {
-    const Mesh* mesh;
-    Transform to_world;
-};
-
-/// Boundary edges of different meshes whose ends are at exactly the same places in the world.
-struct Contacts {
-    /// Sets of meshes that hang together by such edges, two or more each; ascending, by the first.
-    std::vector<std::vector<std::size_t>> sets;
-    /// [meshes][vertices] 1 for the ends of such edges; empty for a mesh that touches none.
-    std::vector<std::vector<std::uint8_t>> shared;
-};
-/// O(n log n) for meshes whose boxes meet another's, else nothing.
-Contacts find_contacts(std::span<const PlacedMesh> meshes);
-
-/// Whether meshes of one space can be simplified as one: the same attributes, and shading of one kind.
-bool can_simplify_jointly(std::span<const Mesh* const> meshes, const SimplifySettings& settings);
-
-/// As simplify, or simplify_levels when settings has levels, of meshes for which can_simplify_jointly holds:
-/// they are worked on as one, so that borders where they touch collapse on both sides alike.
-/// [levels][meshes]; without levels there is one. Targets are those of all together; a mesh has its own
-/// counts and the errors, reasons and changes of all.
-std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* const> meshes,
-                                                          const SimplifySettings& settings);
-
-// Meshes that share one target: triangles stay where they are needed.
-
-/// A mesh, or several for which can_simplify_jointly holds and which are worked on as one.
-struct SharingMeshes {
-    std::vector<Mesh> meshes;
-    SimplifyLocks lock{};                      ///< in place of that of the settings
-    std::optional<double> max_quadric_error{}; ///< likewise
-    double scale = 1;     ///< takes lengths of the meshes' space to the one in which errors are compared
-    std::size_t uses = 1; ///< how often the result is used: what a collapse takes away counts as often
-};
-
-/// As simplify, or simplify_levels when settings has levels, of meshes with one target for all: edges are
-/// collapsed in one order of cost over all of them, so that all end at about the same cost. The ratio asks
-/// for as many triangles as it would of each; faces and vertices are those of all, and each use counts.
-/// [sharing][levels][meshes]; without levels there is one. A mesh in which no collapse was made stays as it
-/// came; when no collapse is left, those that are at or below their own part of the target have met it.
-///
-/// Requires quadric, quadric-endpoints or shortest-edge; max_error and self_intersections other than ignore
-/// are refused (check_simplify_sharing), see simplify_shares.
-std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vector<SharingMeshes> sharing,
-                                                                       const SimplifySettings& settings);
-
-/// What is refused (E-CONFLICT) of settings that meshes cannot share; simplify_sharing throws it first of
-/// all, then what simplify or simplify_levels would.
+/// What is refused (E-CONFLICT) of settings that meshes cannot share; thrown before what
+/// check_simplify_settings refuses.
 std::optional<Refusal> check_simplify_sharing(const SimplifySettings& settings);
 
-/// What each would have after simplify_sharing without max_error and self_intersections.
-struct SimplifyShares {
-    std::vector<std::size_t> faces;                            ///< [sharing] triangles
-    SimplifyResult::Stop stop = SimplifyResult::Stop::nothing; ///< stuck: the target was not met
+/// How the parts of a scene are simplified together, and what is measured of them.
+struct SimplifyPartsSettings {
+    SimplifySettings all;               ///< for all selected parts together; lengths and planes of the world
+    std::vector<std::uint8_t> selected; ///< [parts] 1 for those that are simplified
+    /// For quadric, quadric-endpoints and shortest-edge: edges are collapsed in one order of cost over all
+    /// parts. Otherwise each part meets the ratio, or its share of faces and vertices, separately.
+    bool by_error = true;
+    std::optional<double> max_of_diagonal = {}; ///< max_quadric_error as a fraction of each part's diagonal
+    bool measure = true, certify = false;       ///< the deviation; and a guaranteed bound of it
+    std::function<SurfaceSize(std::size_t part)> size_before; ///< in the world, of a part as it came
 };
-SimplifyShares simplify_shares(std::vector<SharingMeshes> sharing, const SimplifySettings& settings);
+
+/// A simplified part, or a level of one.
+struct SimplifiedPart {
+    /// The size of a surface.
+    struct Size {
+        double area = 0;
+        std::optional<double> volume; ///< when closed
+    };
+    struct Topology {
+        Properties before, after;
+    };
+    /// Of the surface, in the world.
+    struct Sizes {
+        Size before, after;
+    };
+    SimplifyResult result;                     ///< without its mesh in reports
+    double scale = 1;                          ///< takes lengths from the part's space to the scene's
+    std::optional<double> max_quadric_error{}; ///< the limit, in scene units
+    std::string part;
+    std::optional<std::vector<std::string>> joint_with;
+    std::optional<Topology> topology; ///< of methods that may change it
+    std::optional<Sizes> sizes;       ///< when measured
+    std::optional<DeviationResult> deviation;
+    std::optional<SurfaceSize> surface{}; ///< when this very part was measured
+};
+
+/// Simplifies the selected parts, one after the other, and passes on the levels of each (one without levels).
+/// Parts of the same transform, attributes and shading whose borders touch are simplified as one. Other
+/// borders that touch another part keep their vertices, so that all match. Parts with equal meshes are
+/// simplified once. The meshes of the selected parts are used up: `take` gets the new ones.
+void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
+                    const std::function<void(std::size_t part, std::vector<SimplifiedPart> levels)>& take);
+
+/// Triangles after triangulation, and vertices.
+struct MeshCounts {
+    std::size_t triangles = 0, vertices = 0;
+};
+/// Of the selected parts together.
+MeshCounts count_selected(const Scene& scene, const std::vector<std::uint8_t>& selected);
 
 } // namespace facetmill

@@ -125,7 +125,7 @@ class ModelWriter {
                    " <resources>\n",
                    unit_name(scene_.unit), core_space, material_space, FACETMILL_VERSION));
         put_materials();
-        const auto first = first_with_equal_mesh(scene_);
+        const auto first = DistinctParts(scene_).first;
         std::vector<Object> objects(scene_.parts.size()); // of the meshes that are first
         std::string items;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i) {

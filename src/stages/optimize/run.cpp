@@ -130,7 +130,7 @@ class Optimizing {
 
     /// Nodes whose meshes are equal name the first of them. A mesh of which one part is bound stays its own.
     void merge_meshes() {
-        const auto first = first_with_equal_mesh(scene_);
+        const auto first = DistinctParts(scene_).first;
         using Source = std::pair<int, int>;
         const auto source = [&](std::size_t i) {
             return Source{scene_.parts[i].document, scene_.parts[i].source_mesh};
@@ -249,7 +249,7 @@ class Optimizing {
     std::map<std::pair<int, int>, std::vector<std::size_t>> parts_by_mesh() const {
         std::map<std::pair<int, int>, std::size_t> of_node;
         for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
-        const auto first = first_with_equal_mesh(scene_);
+        const auto first = DistinctParts(scene_).first;
         std::map<std::pair<int, int>, std::vector<std::size_t>> all;
         for (const std::size_t i : selected()) {
             const Part& part = scene_.parts[i];
@@ -322,7 +322,7 @@ class Optimizing {
         std::map<std::pair<int, int>, std::vector<std::size_t>> of_mesh;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i)
             of_mesh[{scene_.parts[i].document, scene_.parts[i].source_mesh}].push_back(i);
-        const auto first = first_with_equal_mesh(scene_);
+        const auto first = DistinctParts(scene_).first;
         std::vector<std::vector<std::size_t>> all;
         for (const auto& [mesh, parts] : of_mesh) {
             const std::size_t one = parts.front();

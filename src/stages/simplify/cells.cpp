@@ -13,18 +13,18 @@ namespace facetmill::simplify_stage {
 namespace {
 
 SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flow, Context& context) {
-    SimplifyShare share;
-    if (o.faces) share.faces = static_cast<std::size_t>(*o.faces);
+    SimplifySettings settings = simplify_settings(o);
+    if (o.lock.box) settings.lock.body = planes_of(*o.lock.box);
     if (o.max_quadric_error) {
         const Length& limit = *o.max_quadric_error;
         const bool of_part = limit.kind == Length::Kind::percent && limit.of == Length::Of::part;
         const Scene outline = flow.outline(); // limits are of the world, the cells are before the transform
-        share.max_quadric_error =
+        settings.max_quadric_error =
             of_part ? limit.amount / 100 * diagonal(outline.parts.front().mesh.bounds())
                     : context.resolve(limit, outline, "max_quadric_error") / greatest_stretch(flow.transform);
-        if (!(*share.max_quadric_error > 0)) share.max_quadric_error.reset(); // of a single point
+        if (!(*settings.max_quadric_error > 0)) settings.max_quadric_error.reset(); // of a single point
     }
-    return simplify_settings(o, {}, share);
+    return settings;
 }
 
 /// The result as that of any simplification.

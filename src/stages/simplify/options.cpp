@@ -189,13 +189,6 @@ void declare_settings(Declare<SimplifySettings>& d) {
         .also_called(property_named("self_intersections")->also_called);
 }
 
-std::vector<double> levels_of(const SimplifyOptions& o) {
-    std::vector<double> levels;
-    if (o.lods)
-        for (const Ratio& ratio : o.lods->ratios) levels.push_back(ratio.value);
-    return levels;
-}
-
 /// Collects conflicts: options that only another method, or none of those given, uses.
 class Conflicts {
   public:
@@ -211,21 +204,6 @@ class Conflicts {
     const Value& given_;
     Problems& problems_;
 };
-
-/// Tells all that the algorithm refuses.
-void refuse_settings(const SimplifyOptions& o, const Value& given, Problems& problems) {
-    SimplifySettings s = o.settings;
-    // Whether there is a box and a max_error, not which: they are known in the scene only.
-    s.lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group};
-    if (o.lock.box) s.lock.body.resize(1);
-    if (o.max_error) s.max_error = 1;
-    if (o.ratio) s.ratio = o.ratio->value;
-    s.faces = o.faces;
-    s.vertices = o.vertices;
-    s.levels = levels_of(o);
-    for (const Refusal& refusal : o.lods ? check_simplify_levels(s) : check_simplify_settings(s))
-        add_refusal(refusal, "simplify", given, problems);
-}
 
 } // namespace
 
@@ -270,7 +248,10 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
 
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems) {
     Conflicts conflicts(given, problems);
-    refuse_settings(o, given, problems);
+    SimplifySettings s = simplify_settings(o);
+    if (o.lock.box) s.lock.body.emplace_back(); // verify_box checks its corners
+    for (const Refusal& refusal : o.lods ? check_simplify_levels(s) : check_simplify_settings(s))
+        add_refusal(refusal, "simplify", given, problems);
     conflicts.refuse(o.settings.method != Method::constrained && conflicts.has("constraints"), "constraints",
                      "constraints go with the method constrained only", "method: constrained");
     conflicts.refuse(!has_quadrics(o) && conflicts.has("weights"), "weights",
@@ -288,23 +269,21 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
     if (o.lock.box) verify_box(*o.lock.box, conflicts.mark("lock"), problems);
 }
 
-SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
-                                   const SimplifyShare& share) {
+SimplifySettings simplify_settings(const SimplifyOptions& o) {
     SimplifySettings s = o.settings;
     s.lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group};
     s.feature_angle = o.feature_angle.radians;
-    if (o.lock.box)
-        for (const Plane& p : planes_of(*o.lock.box)) s.lock.body.push_back(pulled_back(p, to_world));
     if (o.ratio) s.ratio = o.ratio->value;
-    s.faces = share.faces;
-    s.vertices = share.vertices;
-    s.max_error = share.max_error;
-    s.max_quadric_error = share.max_quadric_error;
-    s.constraints = {.least_cosine = cosine(o.constraints.normal_deviation.radians),
-                     .aspect_ratio = o.constraints.aspect_ratio.value_or(0),
-                     .roundness = o.constraints.roundness.value_or(0),
-                     .hausdorff = share.hausdorff.value_or(0)};
-    s.levels = levels_of(o);
+    s.faces = o.faces;
+    s.vertices = o.vertices;
+    if (o.max_error) s.max_error = o.max_error->amount;
+    const ConstraintOptions& c = o.constraints;
+    s.constraints = {.least_cosine = cosine(c.normal_deviation.radians),
+                     .aspect_ratio = c.aspect_ratio.value_or(0),
+                     .roundness = c.roundness.value_or(0),
+                     .hausdorff = c.hausdorff ? c.hausdorff->amount : 0};
+    if (o.lods)
+        for (const Ratio& ratio : o.lods->ratios) s.levels.push_back(ratio.value);
     return s;
 }
 

@@ -45,13 +45,7 @@ void declare_simplify(Declare<SimplifyOptions>& d);
 /// What the declaration cannot say: options that do not go together.
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems);
 
-/// A part's share of what is meant for all parts.
-struct SimplifyShare {
-    std::optional<std::size_t> faces, vertices;
-    std::optional<double> max_error, max_quadric_error, hausdorff; ///< in the part's own units
-};
-/// The settings for a part of that transform.
-SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
-                                   const SimplifyShare& share);
+/// The settings for all parts together, with lengths as written and without the planes of lock: {box}.
+SimplifySettings simplify_settings(const SimplifyOptions& o);
 
 } // namespace facetmill::simplify_stage

@@ -7,9 +7,8 @@
 
 namespace facetmill::simplify_stage {
 
-/// Simplifies the selected parts, measures and reports what became of each. Parts of the same transform,
-/// attributes and shading whose borders touch are simplified as one; other borders that touch another part
-/// stay vertex by vertex, so that all match.
+/// Simplifies the selected parts (geometry/simplify) and reports the results; coarser levels of detail become
+/// parts of their own.
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report);
 
 /// What was asked for: less than there is; a number of faces or vertices, and not only an error.

@@ -101,9 +101,9 @@ void declare_topologies(DeclareFields<SimplifiedPart::Topology>& d) {
     d.object("after", &SimplifiedPart::Topology::after, "Of the part that left.", declare_topology);
 }
 
-void declare_size(DeclareFields<Size>& d) {
-    d.field("area", &Size::area, "The surface area.").unit("square scene units");
-    d.field("volume", &Size::volume, "The enclosed volume.")
+void declare_size(DeclareFields<SimplifiedPart::Size>& d) {
+    d.field("area", &SimplifiedPart::Size::area, "The surface area.").unit("square scene units");
+    d.field("volume", &SimplifiedPart::Size::volume, "The enclosed volume.")
         .unit("cubic scene units")
         .null_when("the part is not closed");
 }

@@ -1,8 +1,6 @@
 #pragma once
 // A simplification as reports have it.
 
-#include "geometry/deviation/deviation.hpp"
-#include "geometry/inspect/inspect.hpp"
 #include "geometry/simplify/simplify.hpp"
 #include "options/fields.hpp"
 
@@ -10,31 +8,6 @@
 #include <vector>
 
 namespace facetmill::simplify_stage {
-
-/// What a surface measures.
-struct Size {
-    double area = 0;
-    std::optional<double> volume; ///< when closed
-};
-
-/// A part, or a level of one.
-struct SimplifiedPart {
-    struct Topology {
-        Properties before, after;
-    };
-    /// Of the surface, in the world.
-    struct Sizes {
-        Size before, after;
-    };
-    SimplifyResult result;                     ///< without its mesh
-    double scale = 1;                          ///< takes lengths from the part's space to the scene's
-    std::optional<double> max_quadric_error{}; ///< that held, in scene units
-    std::string part;
-    std::optional<std::vector<std::string>> joint_with;
-    std::optional<Topology> topology; ///< of methods that may change it
-    std::optional<Sizes> sizes;       ///< when measured
-    std::optional<DeviationResult> deviation;
-};
 
 struct SimplifyReport {
     std::vector<SimplifiedPart> parts;

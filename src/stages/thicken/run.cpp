@@ -19,9 +19,7 @@ using Mode = ThickenOptions::Mode;
 class SurfaceThickener {
   public:
     SurfaceThickener(const Scene& scene, const ThickenOptions& o)
-        : scene_(scene), o_(o), work_as_(first_with_equal_shape(scene)), uses_(work_as_.size()) {
-        for (const std::size_t first : work_as_) ++uses_[first];
-    }
+        : scene_(scene), o_(o), shapes_(distinct_shapes(scene)) {}
 
     ThickenedPart operator()(Part& part, double thickness, Context& context) {
         ThickenResult r = result_for(part, thickness);
@@ -39,13 +37,13 @@ class SurfaceThickener {
     };
 
     ThickenResult result_for(const Part& part, double thickness) {
-        const std::size_t as = work_as_[static_cast<std::size_t>(&part - scene_.parts.data())];
+        const std::size_t as = shapes_.first[static_cast<std::size_t>(&part - scene_.parts.data())];
         const Vec3 origin = in_world(part, {});
         const auto make = [&] {
             return thicken(part.mesh, {thickness, o_.side, o_.miter_limit, o_.looks(), part.transform,
                                        o_.self_intersections == ThickenOptions::SelfIntersections::resolve});
         };
-        if (uses_[as] == 1) return make();
+        if (shapes_.uses[as] == 1) return make();
         auto& [result, from] = known_.try_emplace({as, key_of(thickness)}, Known{{}, origin}).first->second;
         if (result.mesh.positions.empty()) result = make();
         ThickenResult r = result;
@@ -55,8 +53,7 @@ class SurfaceThickener {
 
     const Scene& scene_;
     const ThickenOptions& o_;
-    std::vector<std::size_t> work_as_;                             ///< [parts] the first of its shape
-    std::vector<std::size_t> uses_;                                ///< [parts] how many have its shape
+    DistinctParts shapes_;
     std::map<std::pair<std::size_t, std::uint64_t>, Known> known_; ///< by the first part and the thickness
 };
 

@@ -1,5 +1,5 @@
 #include "geometry/crumple/crumple.hpp"
-#include "geometry/simplify/simplify.hpp"
+#include "geometry/simplify/sharing.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"

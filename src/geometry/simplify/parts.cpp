@@ -1,0 +1,252 @@
+// The parts of a scene: simplified as planned, by their share of the target, and compared with what they
+// were.
+
+#include "base/progress.hpp"
+#include "geometry/simplify/parts_plan.hpp"
+#include "geometry/simplify/sharing.hpp"
+#include "mesh/placement.hpp"
+#include "mesh/surface.hpp"
+#include "mesh/transform.hpp"
+
+#include <map>
+
+namespace facetmill {
+
+namespace {
+
+using namespace simplification;
+using Stop = SimplifyResult::Stop;
+using Intersections = SimplifySettings::Intersections;
+
+/// A part as it came, as far as reports compare with it.
+struct Before {
+    Surface surface;             ///< in the world
+    SimplifiedPart::Size size;   ///< in the world
+    Properties properties;       ///< in the world, where the method may change more than that
+    std::optional<double> limit; ///< max_quadric_error, in the part's own units
+};
+
+/// Measurements of a part, which hold wherever it is moved to.
+struct Measured {
+    SimplifiedPart::Sizes sizes;
+    DeviationResult deviation;
+};
+
+struct PartsWork {
+    Scene& scene;
+    PartsPlan plan;
+    std::vector<std::vector<SimplifyResult>> results{};           ///< [parts][levels] found and not yet taken
+    std::map<std::size_t, std::vector<SimplifyResult>> repeats{}; ///< results that are needed again
+    std::map<std::size_t, std::size_t> shares{};   ///< [first parts of sets] triangles that each is to have
+    Stop shared_stop = Stop::nothing;              ///< the end of the work that gave the shares
+    std::vector<Before> before{};                  ///< [parts]
+    std::vector<std::vector<Measured>> measured{}; ///< [parts][levels]
+};
+
+SimplifiedPart::Size size_of(const Mesh& mesh, const SurfaceSize& size) {
+    return {size.area, mesh.face_count() > 0 ? size.volume : 0};
+}
+
+/// Notes what is compared with the results.
+void note_before(PartsWork& w, const PartSet& set, std::optional<double> limit) {
+    ProgressSteps steps(std::vector<double>(set.size(), 1));
+    for (const std::size_t p : set) {
+        const Part& part = w.scene.parts[p];
+        Before& before = w.before[p];
+        if (w.plan.measures() && w.plan.measured_as[p] == p) {
+            before.surface = surface_of(part);
+            before.size = size_of(part.mesh, w.plan.o.size_before(p));
+        }
+        if (w.plan.changes_topology()) before.properties = inspect(part);
+        before.limit = limit;
+        steps.next();
+    }
+}
+
+void keep_for_repeats(PartsWork& w, std::size_t part) {
+    if (w.plan.work.uses[part] > 1) w.repeats[part] = w.results[part];
+}
+
+/// The sets that one target is shared by: those that do not repeat the work of another.
+std::vector<PartSet> sharing_sets(const PartsPlan& plan) {
+    std::vector<PartSet> sets;
+    for (std::size_t p = 0; p < plan.work.first.size() && plan.o.by_error; ++p) {
+        if (!plan.o.selected[p] || plan.work.first[p] != p) continue;
+        if (PartSet set = plan.set_with(p); set.front() == p) sets.push_back(std::move(set));
+    }
+    return sets;
+}
+
+/// keep: the meshes stay in the scene, too.
+SharingMeshes sharing_meshes(PartsWork& w, const PartSet& set, SimplifySettings settings, bool keep) {
+    SharingMeshes sharing;
+    sharing.lock = std::move(settings.lock);
+    sharing.max_quadric_error = settings.max_quadric_error;
+    sharing.scale = ordering_scale(w.scene.parts[set.front()].transform);
+    sharing.uses = w.plan.work.uses[set.front()];
+    for (const std::size_t p : set) {
+        Mesh& mesh = w.scene.parts[p].mesh;
+        sharing.meshes.push_back(keep ? mesh : std::exchange(mesh, {}));
+    }
+    return sharing;
+}
+
+/// Where several sets share a target: finds their results. Where each has more to do than to collapse edges,
+/// finds its number of triangles.
+void share_target(PartsWork& w) {
+    const std::vector<PartSet> sets = sharing_sets(w.plan);
+    if (sets.size() < 2) return;
+    SimplifySettings all = w.plan.o.all;
+    all.max_quadric_error.reset(); // each has its own
+    const bool lods = !all.levels.empty();
+    const bool more = !lods && (all.max_error || all.self_intersections != Intersections::ignore);
+    if (lods) all.self_intersections = Intersections::ignore;
+    std::vector<SharingMeshes> sharing;
+    ProgressSteps steps({1, 9});
+    {
+        ProgressSteps of_sets(std::vector<double>(sets.size(), 1));
+        for (const PartSet& set : sets) {
+            SimplifySettings own = settings_for(set, w.plan);
+            if (!more) note_before(w, set, own.max_quadric_error);
+            sharing.push_back(sharing_meshes(w, set, std::move(own), more));
+            of_sets.next();
+        }
+    }
+    steps.next();
+    if (more) {
+        const SimplifyShares shares = simplify_shares(std::move(sharing), all);
+        w.shared_stop = shares.stop;
+        if (shares.stop != Stop::stuck) // else each goes as far as it can
+            for (std::size_t i = 0; i < sets.size(); ++i) w.shares[sets[i].front()] = shares.faces[i];
+        return;
+    }
+    auto results = simplify_sharing(std::move(sharing), all);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        for (auto& level : results[i])
+            for (std::size_t k = 0; k < sets[i].size(); ++k)
+                w.results[sets[i][k]].push_back(std::move(level[k]));
+        keep_for_repeats(w, sets[i].front());
+    }
+}
+
+/// Finds the results of the parts of a set, one for each level.
+void simplify_set(PartsWork& w, const PartSet& set) {
+    ProgressSteps steps({1, 9});
+    SimplifySettings settings = settings_for(set, w.plan);
+    note_before(w, set, settings.max_quadric_error);
+    steps.next();
+    const std::size_t front = set.front();
+    auto& results = w.results[front];
+    if (const std::size_t as = w.plan.work.first[front]; as != front) {
+        results = w.repeats.at(as);
+        return;
+    }
+    const auto share = w.shares.find(front);
+    if (share != w.shares.end()) {
+        settings.ratio.reset();
+        settings.vertices.reset();
+        settings.faces = share->second;
+    }
+    if (set.size() > 1) {
+        std::vector<const Mesh*> meshes;
+        for (const std::size_t p : set) meshes.push_back(&w.scene.parts[p].mesh);
+        for (auto& level : simplify_jointly(meshes, settings))
+            for (std::size_t i = 0; i < set.size(); ++i) w.results[set[i]].push_back(std::move(level[i]));
+    } else if (!settings.levels.empty()) {
+        results = simplify_levels(std::move(w.scene.parts[front].mesh), settings);
+    } else {
+        results.push_back(simplify(std::move(w.scene.parts[front].mesh), settings));
+    }
+    for (std::size_t i = 0; share != w.shares.end() && i < set.size(); ++i) {
+        Stop& stop = w.results[set[i]].front().stop; // a part that has its share met the target of all
+        if (stop == Stop::faces || stop == Stop::nothing) stop = w.shared_stop;
+    }
+    keep_for_repeats(w, front);
+}
+
+/// Measures a level of a part; a part that differs by a move only has the measurements of the first one.
+void measure(PartsWork& w, const Part& part, std::size_t number, std::size_t level, SimplifiedPart& entry) {
+    const std::size_t as = w.plan.measured_as[number];
+    if (as == number) {
+        const Before& before = w.before[number];
+        entry.surface = surface_size(part.mesh, part.transform);
+        w.measured[number].push_back(
+            {{before.size, size_of(part.mesh, *entry.surface)},
+             deviation(before.surface, surface_of(part),
+                       {.samples = w.plan.samples[number], .certify = w.plan.o.certify})});
+    }
+    const Measured& m = w.measured[as][level];
+    entry.sizes = m.sizes;
+    entry.deviation = m.deviation;
+    if (as == number) return;
+    const Vec3 by = in_world(part, {}) - in_world(w.scene.parts[as], {});
+    for (DirectedDeviation* d : {&entry.deviation->forward, &entry.deviation->backward}) {
+        d->from += by;
+        d->to += by;
+    }
+}
+
+/// Compares a level of a part, which has the mesh of the level for that time.
+SimplifiedPart settled_level(PartsWork& w, std::size_t number, std::size_t level) {
+    Part& part = w.scene.parts[number];
+    SimplifiedPart entry;
+    entry.result = std::move(w.results[number][level]);
+    entry.scale = greatest_stretch(part.transform);
+    if (const auto limit = w.before[number].limit) entry.max_quadric_error = *limit * entry.scale;
+    for (const std::size_t p : w.plan.set_with(number)) {
+        if (p == number) continue;
+        if (!entry.joint_with) entry.joint_with.emplace();
+        entry.joint_with->push_back(w.scene.parts[p].name);
+    }
+    part.mesh = std::move(entry.result.mesh);
+    ProgressSteps steps({w.plan.changes_topology() ? 1.0 : 0.0, 9});
+    if (w.plan.changes_topology()) entry.topology = {w.before[number].properties, inspect(part)};
+    steps.next();
+    if (w.plan.measures()) measure(w, part, number, level, entry);
+    entry.result.mesh = std::move(part.mesh);
+    return entry;
+}
+
+std::vector<SimplifiedPart> settled(PartsWork& w, std::size_t number) {
+    std::vector<SimplifiedPart> levels;
+    levels.reserve(w.results[number].size());
+    ProgressSteps steps(std::vector<double>(w.results[number].size(), 1));
+    for (std::size_t level = 0; level < w.results[number].size(); ++level, steps.next())
+        levels.push_back(settled_level(w, number, level));
+    w.results[number] = {};
+    w.before[number] = {};
+    return levels;
+}
+
+} // namespace
+
+void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
+                    const std::function<void(std::size_t, std::vector<SimplifiedPart>)>& take) {
+    const std::size_t count = scene.parts.size();
+    PartsWork w{scene, plan_parts(scene, settings)};
+    w.results.resize(count);
+    w.before.resize(count);
+    w.measured.resize(count);
+    std::vector<double> lengths;
+    for (std::size_t p = 0; p < count; ++p)
+        if (settings.selected[p]) lengths.push_back(1 + double(scene.parts[p].mesh.face_count()));
+    const bool shared = settings.by_error && count > 1;
+    const double measuring = !w.plan.measures() ? 0.2 : settings.certify ? 5 : 2; // against the collapses
+    ProgressSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
+    share_target(w);
+    steps.next();
+    ProgressSteps of_parts(std::move(lengths));
+    for (std::size_t p = 0; p < count; ++p) {
+        if (!settings.selected[p]) continue;
+        const bool has_results = !w.results[p].empty();
+        ProgressSteps of_part({has_results ? 0.0 : 1.0, measuring});
+        if (!has_results) simplify_set(w, w.plan.set_with(p));
+        of_part.next();
+        scene.parts[p].mesh = {};
+        take(p, settled(w, p));
+        if (--w.plan.work.uses[w.plan.work.first[p]] == 0) w.repeats.erase(w.plan.work.first[p]);
+        of_parts.next();
+    }
+}
+
+} // namespace facetmill
