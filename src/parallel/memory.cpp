@@ -14,7 +14,7 @@ namespace facetmill {
 
 namespace {
 
-/// The number that a file begins with; none when it has none ("max").
+/// The number at the start of a file; none for other contents ("max").
 std::optional<std::uint64_t> number_in(const std::string& path) {
     std::ifstream file(path);
     std::uint64_t n = 0;
@@ -34,7 +34,7 @@ std::optional<std::uint64_t> of_machine() {
     return {};
 }
 
-/// What a folder of a cgroup leaves: its limit less what is in use and cannot be given back.
+/// The memory that a cgroup folder leaves: its limit less the memory in use that cannot be reclaimed.
 std::optional<std::uint64_t> of_group(const std::string& folder) {
     auto limit = number_in(folder + "/memory.max"), used = number_in(folder + "/memory.current");
     if (!limit || !used) {

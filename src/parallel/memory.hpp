@@ -1,5 +1,5 @@
 #pragma once
-// How much memory there still is, so that what cannot fit is refused before it starts.
+// The available memory, so that work that cannot fit is refused before it starts.
 
 #include <cstdint>
 #include <optional>
@@ -7,23 +7,23 @@
 
 namespace facetmill {
 
-/// Bytes that this process may still take: the least of what the machine has available, what its cgroups
-/// leave, and what RLIMIT_AS leaves. None where the system does not say.
+/// Bytes that this process may still use: the least of the machine's available memory, the limits of its
+/// cgroups, and RLIMIT_AS. None if the system does not report it.
 std::optional<std::uint64_t> available_memory();
-/// The same, and 4 GiB where the system does not say.
+/// The same, or 4 GiB if the system does not report it.
 std::uint64_t memory_there();
 
 /// From now on the process is meant to take no more bytes than that (0: no limit). Call it once, at the
 /// start.
 void set_memory_limit(std::uint64_t bytes);
-/// As available_memory, and no more than what that limit leaves beside what is in use.
+/// As available_memory, but at most the rest of that limit after the memory in use.
 std::optional<std::uint64_t> memory_left();
 
-/// The bytes, or what is there where they are more; a few hundred MiB are taken to be there, since to ask the
-/// system costs a tenth of a millisecond.
+/// The bytes, capped at the available memory. A few hundred MiB are assumed available, because a system
+/// query costs a tenth of a millisecond.
 std::uint64_t at_most_memory_there(std::uint64_t bytes);
 
-/// Whether so many bytes may be more than are there; fewer are taken to be there.
+/// Whether so many bytes may exceed the available memory; smaller amounts are assumed available.
 bool is_much_memory(double bytes);
 
 /// Throws limit (E-MEMORY) when bytes are more than are available: "WHAT needs about 3.2 GiB, 1.9 GiB are

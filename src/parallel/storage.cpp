@@ -36,7 +36,7 @@ void ask_for_large_pages(void* memory, std::size_t bytes) noexcept {
 
 void keep_freed_memory() noexcept {
 #if defined(__GLIBC__)
-    mallopt(M_MMAP_THRESHOLD, 1 << 30); // what is larger has a mapping of its own
+    mallopt(M_MMAP_THRESHOLD, 1 << 30); // larger blocks get their own mapping
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }

@@ -10,14 +10,13 @@ namespace facetmill {
 /// Bytes of a page of memory, as the system counts them.
 std::size_t page_size() noexcept;
 
-/// Lets the system give the memory in pages of 2 MiB where it is large: to get it and to give it back then
-/// takes a fifth of the time that pages of 4 KiB take (Linux, transparent huge pages). operator new asks for
-/// all that it gives.
+/// Lets the system use pages of 2 MiB for large memory. Allocating and freeing it then takes a fifth of the
+/// time for pages of 4 KiB (Linux, transparent huge pages). operator new calls it for all its memory.
 void ask_for_large_pages(void* memory, std::size_t bytes) noexcept;
 
-/// For the whole process, before it does anything: large arrays that were freed serve the next ones, and do
-/// not go back to the system, which would clear their pages again (GNU's malloc; nothing elsewhere). Of
-/// memory at the end of the heap 256 MiB at most are kept so.
+/// For the whole process; call it at the start. Freed large arrays are reused and do not return to the
+/// system, which would clear their pages again (GNU's malloc; no effect elsewhere). At most 256 MiB at the
+/// end of the heap are kept.
 void keep_freed_memory() noexcept;
 
 /// All of it goes back now.
@@ -27,7 +26,7 @@ void give_back_freed_memory() noexcept;
 /// nothing where the system cannot.
 void prefault(void* memory, std::size_t bytes);
 
-/// v.reserve(n), the pages of what is not in use yet asked for in parallel.
+/// v.reserve(n), and requests the unused pages in parallel.
 template <class T>
 void reserve_large(std::vector<T>& v, std::size_t n) {
     if (n <= v.size()) return;
