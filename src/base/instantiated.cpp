@@ -1,4 +1,4 @@
-// What precompiled.hpp says is compiled elsewhere.
+// Instantiates the extern templates of precompiled.hpp.
 #include <cstdint>
 #include <string>
 #include <vector>

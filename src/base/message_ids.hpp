@@ -1,6 +1,6 @@
 #pragma once
-// The one registry of message ids. What `facetmill explain` and the manual page say of an id, and what
-// --strict=ID may name, comes from here; tests/golden/ids_test.py holds it against the ids that src uses.
+// The registry of message ids. It supplies the text of `facetmill explain` and the manual page, and the ids
+// valid for --strict=ID. tests/golden/ids_test.py compares it with the ids that src uses.
 
 #include "base/error.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace facetmill {
 
-/// The few kinds of errors that an id comes with.
+/// The few kinds of errors of an id.
 class ErrorKinds {
   public:
     constexpr ErrorKinds(std::initializer_list<ErrorKind> kinds) : size_(kinds.size()) {
@@ -29,12 +29,12 @@ class ErrorKinds {
     std::size_t size_;
 };
 
-/// A stable id: what a message that bears it means, in general, and what one can do about it.
+/// A stable id: the general meaning of its messages, and the remedy.
 struct MessageId {
     std::string_view id;      ///< "E-KEY", "W-UNITS"
-    ErrorKinds kinds;         ///< of an error: the kinds (exit codes) that it comes with; of a warning: none
+    ErrorKinds kinds;         ///< for an error: its kinds (exit codes); for a warning: none
     std::string_view meaning; ///< one or two sentences
-    std::string_view hint;    ///< what to do; a message has a hint of its own where more is known
+    std::string_view hint;    ///< the general remedy; a message may have a more specific hint
 
     bool is_warning() const { return id.starts_with("W-"); }
 };
