@@ -1,6 +1,6 @@
 #pragma once
-// What can go wrong, as data: a diagnostic has a stable id, a message, a place and a hint; an Error
-// carries one or several and an exit code. Library code throws, never prints and never exits.
+// Errors as data: a diagnostic has a stable id, a message, a location and a hint; an Error carries one or
+// several and an exit code. Library code throws, never prints and never exits.
 
 #include "base/mark.hpp"
 
@@ -17,7 +17,7 @@ enum class ErrorKind : int {
     usage = 2,     ///< the command line or the pipeline is wrong
     missing = 3,   ///< an input is missing or not permitted
     output = 4,    ///< an output cannot be written
-    stage = 5,     ///< a stage could not do its work on what it was given
+    stage = 5,     ///< a stage could not process its input
     malformed = 6, ///< an input is malformed
     limit = 7,     ///< a limit or memory
     bug = 70,      ///< a bug in facetmill
@@ -33,8 +33,8 @@ struct Diagnostic {
     std::string id;      ///< stable, documented: E-KEY, W-UNITS
     std::string message; ///< one sentence without a full stop: what was expected and what was found
     Mark where;          ///< may be unknown
-    std::string hint;    ///< what to do about it, or empty
-    /// It failed for want of memory, and may succeed while less runs beside it.
+    std::string hint;    ///< how to fix it, or empty
+    /// It failed for lack of memory, and may succeed with less work in parallel.
     bool out_of_memory = false;
 };
 
@@ -51,8 +51,8 @@ class Error : public std::exception {
 
     ErrorKind kind() const { return kind_; }
     const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
-    /// Gives a place to the diagnostics that have none yet: the leaf says what, the layer that knows adds
-    /// where.
+    /// Sets the location of the diagnostics that have none: low-level code throws the message, and a higher
+    /// layer adds the location.
     Error& at(const Mark& where);
     const char* what() const noexcept override { return text_.c_str(); }
 
@@ -65,7 +65,7 @@ class Error : public std::exception {
 /// Of kind limit (E-MEMORY), with out_of_memory set.
 Error out_of_memory(std::string message, std::string hint = {}, Mark where = {});
 
-/// Whether --allow names the warning: the ids are those that users gave.
+/// Whether --allow lists the warning: the ids are from the user.
 bool is_allowed(const Diagnostic& warning, const std::vector<std::string>& ids);
 
 /// Collects diagnostics, so that all of them can be reported at once.
@@ -77,16 +77,16 @@ class Problems {
     bool any_errors() const;
     std::size_t size() const { return all_.size(); }
     const std::vector<Diagnostic>& all() const { return all_; }
-    /// Throws an Error of this kind with everything collected, when there is an error among it.
+    /// Throws an Error of this kind with all collected diagnostics, if they include an error.
     void throw_if_any(ErrorKind kind) const;
 
   private:
-    /// The stages of a foreach are planned for each of its values: what is wrong with all of them is said
-    /// once.
+    /// Adds a diagnostic unless it is known. The stages of a foreach are planned for each of its values, and
+    /// a common problem is reported once.
     void add_once(Diagnostic one);
 
     std::vector<Diagnostic> all_;
-    std::set<std::string> known_; ///< what all_ has, as text
+    std::set<std::string> known_; ///< the contents of all_, as text
 };
 
 /// The diagnostic as people read it: "file:line:col: error[ID]: message", the source line, a caret, the hint.

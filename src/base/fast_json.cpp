@@ -16,11 +16,10 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A reader by recursive descent. Each of its functions is false where it gives up.
-///
-/// The library makes an object by adding members one by one. Its members have constant keys, so a vector of
-/// them that grows copies all that is below them. Here members wait in a list until their number is known,
-/// one list for each level: at a level only one object or array is read at a time.
+/// A reader by recursive descent. Each function returns false when it gives up.
+/// The library builds an object member by member. Its members have constant keys, so a growing vector copies
+/// everything below them. Here members wait in a list until their number is known. Each level has one list,
+/// because a level reads only one object or array at a time.
 class QuickReader {
   public:
     QuickReader(std::string_view text, int deepest, std::span<const std::string_view> unread)
@@ -33,7 +32,7 @@ class QuickReader {
     }
 
   private:
-    /// What of an object or an array has been read, before it is at its end.
+    /// The members or items read so far of an unfinished object or array.
     struct Level {
         std::vector<std::pair<std::string, Json>> members;
         std::vector<Json> items;
@@ -123,7 +122,7 @@ class QuickReader {
         return passes(depth);
     }
 
-    /// Passes over what `value` would read.
+    /// Skips a value.
     bool passes(int depth) {
         skip_space();
         if (at_ == end_) return false;
@@ -153,11 +152,11 @@ class QuickReader {
         return takes(end);
     }
 
-    /// Moves members to an object. A key that is there again gives its value to the first of its name, as in
-    /// the library.
+    /// Moves members to an object. A repeated key overwrites the value of its first occurrence, as in the
+    /// library.
     static void gather(std::vector<std::pair<std::string, Json>>& members, std::size_t more,
                        Json::object_t& all) {
-        constexpr std::size_t few = 32; // so many keys are compared one by one; more are kept in order
+        constexpr std::size_t few = 32; // up to this many keys are compared linearly; more are kept in order
         const std::size_t count = members.size();
         all.reserve(count + more); // names below refers to its keys
         std::map<std::string_view, Json*> names;
@@ -194,7 +193,7 @@ class QuickReader {
         return true;
     }
 
-    /// A string with its quotes. What is not plain ASCII, or has escapes, is left to the library.
+    /// A string with its quotes. Strings with escapes or other than plain ASCII are left to the library.
     bool string(std::string& out) {
         const char* const first = ++at_;
         bool plain = true;
@@ -219,7 +218,7 @@ class QuickReader {
         while (at_ != end_ && is_digit(*at_)) ++at_;
     }
 
-    /// Digits of which there has to be one.
+    /// At least one digit.
     bool digits() {
         const char* const first = at_;
         skip_digits();
@@ -268,7 +267,7 @@ class QuickReader {
     const std::span<const std::string_view> unread_;
     std::string passed_string_; // that nobody asks for
     Json passed_;
-    std::deque<Level> levels_; // their places stay when more come
+    std::deque<Level> levels_; // addresses stay valid when the deque grows
 };
 
 /// Whether a string is written as it is: ASCII, and nothing that is escaped.

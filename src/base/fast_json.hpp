@@ -10,12 +10,12 @@
 
 namespace facetmill {
 
-/// The value that a JSON text stands for, the same as the library gives. None for a text that is no JSON, for
-/// one that is nested deeper than `deepest` levels, and for the rare ones that only the library reads: a byte
-/// order mark, perhaps numbers next to zero. The library says what is wrong, if anything is. Its time grows
-/// with the square of an object's members, that of this with their number.
-/// unread: members of the outermost object that are checked like the others; of them, arrays and objects come
-/// out empty.
+/// Parses a JSON text to the same value as the library. Returns none for invalid JSON, for nesting deeper
+/// than `deepest` levels, and for rare texts that only the library reads: a byte order mark, perhaps numbers
+/// next to zero. The library then reports the error, if any. The library's time grows with the square of an
+/// object's members; this function's time is linear.
+/// unread: members of the outermost object that are only checked; their arrays and objects are returned
+/// empty.
 std::optional<Json> fast_json(std::string_view text, int deepest = 256,
                               std::span<const std::string_view> unread = {});
 

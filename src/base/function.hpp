@@ -1,6 +1,6 @@
 #pragma once
-// What declarations hold of functions. A std::function costs the compiler some ten functions for each lambda
-// that is put into one, and the stages have hundreds; this one costs it two.
+// The function type of declarations. A std::function makes the compiler generate about ten functions for
+// each stored lambda, and the stages have hundreds; this type needs two.
 
 #include <atomic>
 #include <concepts>
@@ -10,7 +10,7 @@
 
 namespace facetmill {
 
-/// What a Function holds, shared by its copies. (Compiled once, in function.cpp.)
+/// The shared state of a Function and its copies. (Compiled once, in function.cpp.)
 class FunctionHandle {
   public:
     struct Held {
@@ -19,7 +19,7 @@ class FunctionHandle {
         Held& operator=(const Held&) = delete;
 
         mutable std::atomic<std::size_t> owners{1};
-        void (*drop)(const Held*); ///< deletes it as what it was made
+        void (*drop)(const Held*); ///< deletes it as its original type
     };
 
     FunctionHandle() = default;
@@ -39,8 +39,8 @@ class FunctionHandle {
 template <class Signature>
 class Function;
 
-/// A function of these arguments that cannot change, or none. Copies share it; calling it is safe from
-/// several threads when it is so of what was put in. There must be one to call.
+/// An immutable function of these arguments, or empty. Copies share it. Calls are thread-safe if the stored
+/// function is. Call only when not empty.
 template <class Result, class... Arguments>
 class Function<Result(Arguments...)> : public FunctionHandle {
     struct Callable : Held {

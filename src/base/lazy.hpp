@@ -1,6 +1,5 @@
 #pragma once
-// A value that is made when it is first asked for: what only some runs need costs the others nothing at
-// start.
+// A value computed on first use, so that runs without it do not pay for it at start.
 
 #include "base/function.hpp"
 

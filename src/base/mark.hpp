@@ -1,5 +1,5 @@
 #pragma once
-// A place in a text that a person wrote: pipeline file, command line, or a text mesh.
+// A location in a text written by a person: pipeline file, command line, or a text mesh.
 
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@ struct SourceText {
     std::string text; ///< empty when only the name is known (binary files)
 };
 
-/// A place in a text. Lines and columns count from 1, columns in characters; line 0: the file as a whole.
+/// A location in a text. Lines and columns count from 1, columns in characters; line 0: the file as a whole.
 struct Mark {
     std::shared_ptr<const SourceText> source;
     int line = 0;
@@ -22,7 +22,7 @@ struct Mark {
     bool known() const { return source != nullptr; }
 };
 
-/// A mark that names a file, without a place in it.
+/// A mark for a whole file.
 Mark file_mark(std::string name);
 /// A mark for a line of a file that is not kept in memory.
 Mark line_mark(std::string name, int line);

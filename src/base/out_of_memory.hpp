@@ -1,5 +1,5 @@
 #pragma once
-// What exceptions say where memory, or threads, have ended.
+// Recognises exceptions that report a lack of memory or threads.
 
 #include "base/error.hpp"
 
@@ -7,16 +7,16 @@
 
 namespace facetmill {
 
-/// Whether there was not enough memory: for the program itself, or for a call of the system (ENOMEM), as the
-/// functions of std::filesystem tell it.
+/// Whether memory ran out, for the program itself or for a system call (ENOMEM), as the functions of
+/// std::filesystem report it.
 bool is_out_of_memory(const std::exception& e);
 
-/// Whether no thread could be begun, because there was no memory for its stack or a limit of threads was
-/// reached, which the system does not tell apart: as std::thread tells it, or TBB.
+/// Whether no thread could be started, for lack of memory for its stack or because of a limit of threads,
+/// which the system does not distinguish. std::thread and TBB report it.
 bool is_want_of_threads(const std::exception& e);
 
-/// What is told of these, of kind limit (E-MEMORY); none for other exceptions. what: what it was for, or
-/// empty.
+/// Converts these exceptions to an error of kind limit (E-MEMORY); none for other exceptions. what: the
+/// purpose of the memory, or empty.
 std::optional<Error> told_as_limit(const std::exception& e, const std::string& what = {}, Mark where = {});
 
 } // namespace facetmill

@@ -1,6 +1,6 @@
 #pragma once
-// How far a run is: a bar on a terminal, nothing elsewhere. The runner tells the stages; work that takes long
-// tells what share of a stage is done, without knowing who listens.
+// The progress of a run: a bar on a terminal, otherwise silent. The runner announces the stages; long work
+// reports its completed share to an unknown listener.
 
 #include <cstddef>
 #include <string>
@@ -14,22 +14,22 @@ class Progress {
     virtual ~Progress() = default;
     /// A stage begins: number of number_of, and its name.
     virtual void stage(int number, int number_of, const std::string& name) = 0;
-    /// What is not the work of a stage begins: a picture or a report is made.
+    /// Work outside the stages begins: a picture or a report is made.
     virtual void beside_stages(const std::string& what) = 0;
-    /// The share of the present stage, or of what is beside it, that is done: from 0 to 1. Where work is done
-    /// again, it may be less than before. Called by the thread that runs the stage.
+    /// The completed share of the present stage, or of the work outside stages, from 0 to 1. Repeated work
+    /// may lower it. Called by the thread that runs the stage.
     virtual void share(double done) = 0;
     virtual void done() = 0;
 };
 
-/// The share of the work of this thread. Where nobody listens, telling costs next to nothing.
+/// The share of the work of this thread. Without a listener, reporting costs almost nothing.
 class ProgressScope {
   public:
-    /// Where a thread tells, and which part of that its work is.
+    /// The receiver of a thread's reports, and the part of the whole that its work covers.
     struct Range {
         Progress* to = nullptr;
         double begin = 0, end = 1;
-        bool reports_loop = false; ///< the next parallel loop tells how far it is
+        bool reports_loop = false; ///< the next parallel loop reports its progress
 
         void report(double done) const {
             if (to) to->share(begin + done * (end - begin));
@@ -39,9 +39,10 @@ class ProgressScope {
         }
     };
 
-    /// Until its end, shares that this thread tells go there; null: nowhere.
+    /// During its lifetime, `to` receives the shares that this thread reports; null: nobody.
     explicit ProgressScope(Progress* to) : ProgressScope(Range{to, 0, 1}) {}
-    /// Until its end, what this thread tells is the part from `begin` to `end` of what it told before.
+    /// During its lifetime, this thread's reports cover the part from `begin` to `end` of the enclosing
+    /// scope.
     ProgressScope(double begin, double end) : ProgressScope(here().part(begin, end)) {}
     ~ProgressScope() { here() = before_; }
     ProgressScope(const ProgressScope&) = delete;
@@ -49,15 +50,14 @@ class ProgressScope {
 
     /// done: from 0 to 1.
     static void report(double done) { here().report(done); }
-    /// Of n items, one by one, item i is next; cheap enough for each.
+    /// Item i of n is next; cheap enough to call for each.
     static void report_item(std::size_t i, std::size_t n) {
         if (i % 8192 == 0 && n > 0) report(static_cast<double>(i) / static_cast<double>(n));
     }
 
-    /// The next parallel loop (parallel/parallel.hpp) tells how far it is; those within it and after it do
-    /// not.
+    /// The next parallel loop (parallel/parallel.hpp) reports its progress; nested and later loops do not.
     static void report_next_loop() { here().reports_loop = true; }
-    /// Where a parallel loop that begins tells; nowhere unless it was asked to.
+    /// The receiver of a starting parallel loop; none unless report_next_loop was called.
     static Range of_loop() {
         Range& place = here();
         return std::exchange(place.reports_loop, false) ? place : Range{};
@@ -75,9 +75,9 @@ class ProgressScope {
     Range before_;
 };
 
-/// Divides the share of this thread among steps, one after the other, by how long each takes, about:
-/// ProgressSteps steps({2, 5, 1}); the first step; steps.next(); the second; steps.next(); the third.
-/// A step that is left out is passed by one more next().
+/// Divides the share of this thread among consecutive steps, by the approximate time of each: ProgressSteps
+/// steps({2, 5, 1}); the first step; steps.next(); the second; steps.next(); the third. To skip a step, call
+/// next() once more.
 class ProgressSteps {
   public:
     explicit ProgressSteps(std::vector<double> lengths);

@@ -1,6 +1,6 @@
 #pragma once
-// Why settings are refused: what the check of an algorithm or of a stage returns, so that the algorithm can
-// throw it and a stage can tell it where the option stands.
+// The reason to refuse settings, returned by the check of an algorithm or a stage. The algorithm throws it,
+// and a stage reports it at the option's location.
 
 #include "base/error.hpp"
 
@@ -20,7 +20,7 @@ inline std::string refusal_text(std::string_view owner, const Refusal& refusal) 
     return std::string(owner) + ": " + refusal.message;
 }
 
-/// Throws usage when there is a refusal. owner: the capability, "split".
+/// Throws usage if given a refusal. owner: the capability, "split".
 inline void throw_refusal(std::string_view owner, const std::optional<Refusal>& refusal) {
     if (refusal) throw Error(ErrorKind::usage, refusal->id, refusal_text(owner, *refusal), refusal->hint);
 }

@@ -7,7 +7,7 @@
 
 namespace facetmill {
 
-/// Sorts the values by < and keeps one of those that are equal.
+/// Sorts the values by < and removes duplicates.
 template <class T>
 void sort_unique(std::vector<T>& values) {
     std::sort(values.begin(), values.end());

@@ -18,9 +18,9 @@ Attribute zeros(const Attribute& like, std::size_t n) {
     return a;
 }
 
-/// The attribute for a mesh that has none: what changes nothing in how it looks. Colours are white and
-/// opaque, normals those of the faces, tangents of length 1; of what means nothing here there is no number
-/// (nan), where there can be none; all else is zero.
+/// Makes the attribute for a mesh that lacks it, with neutral values. Colours are white and opaque, normals
+/// are the faces' normals, tangents have length 1. Values without a neutral number are nan where the type
+/// allows it; all else is zero.
 Attribute stand_in(const Attribute& like, const Mesh& mesh) {
     Attribute a = zeros(like, mesh.count(like.domain));
     if (a.name == "NORMAL" && a.domain == Domain::wedge && a.components == 3) {
@@ -53,7 +53,7 @@ bool same_layout(const Attribute& a, const Attribute& b) {
     return a.data.index() == b.data.index() && a.components == b.components && a.normalised == b.normalised;
 }
 
-/// The attribute as doubles with that many components: what both sides become when their layouts differ.
+/// The attribute as doubles with that many components: the common layout when two differ.
 Attribute widened(const Attribute& a, int components) {
     Attribute wide{a.name, a.domain, a.role, components, false, std::vector<double>{}};
     wide.resize(a.size());
@@ -97,7 +97,7 @@ std::vector<std::string> wedge_attribute_names(const Mesh& mesh) {
     return names;
 }
 
-/// Never empty, since that would stand for all there are: every wedge has a position.
+/// Never empty, because empty would mean all attributes: every wedge has a position.
 std::vector<std::string> attribute_names(const Mesh& mesh) {
     auto names = wedge_attribute_names(mesh);
     if (names.empty()) names.emplace_back("POSITION");

@@ -13,10 +13,10 @@ inline double aspect_ratio(double x, double y, double z, double area) {
     return area > 0 ? std::max({x, y, z}) * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
 }
 
-/// The longest edge over the diameter of the inscribed circle, in proportion to what a triangle of equal
-/// sides has: longest * perimeter / (4 sqrt(3) * area). 1 for equal sides, infinite without area. What
-/// aspect_ratio means everywhere (C. Stimpson, C. Ernst, P. Knupp, P. Pebay, D. Thompson, 'The Verdict
-/// Geometric Quality Library', 2007).
+/// The longest edge over the diameter of the inscribed circle, relative to an equilateral triangle: longest
+/// * perimeter / (4 sqrt(3) * area). 1 for equal sides, infinite without area. This is the meaning of
+/// aspect_ratio everywhere (C. Stimpson, C. Ernst, P. Knupp, P. Pebay, D. Thompson, 'The Verdict Geometric
+/// Quality Library', 2007).
 inline double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
     return aspect_ratio(length(b - a), length(c - b), length(a - c), length(cross(b - a, c - a)) / 2);
 }

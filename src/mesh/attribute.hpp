@@ -15,11 +15,11 @@ namespace facetmill {
 
 enum class Domain { vertex, wedge, face };
 
-/// What the numbers mean, which decides how they are mixed.
+/// The meaning of the numbers, which decides how they are mixed.
 enum class Role {
     generic,      ///< mixed linearly (integers: rounded; see Provenance)
     normal,       ///< unit vector, 3 components; mixed, then renormalised
-    tangent,      ///< unit vector and a sign, 4 components; the sign is that of the first parent
+    tangent,      ///< unit vector and a sign, 4 components; the first parent gives the sign
     uv,           ///< 2 components
     colour,       ///< 3 or 4 components
     joints,       ///< 4 integers, pairs with the weights of the same set
@@ -41,7 +41,7 @@ struct Attribute {
     Domain domain = Domain::wedge;
     Role role = Role::generic;
     int components = 1;
-    bool normalised = false; ///< integers stand for fractions of their type's maximum, as in glTF
+    bool normalised = false; ///< integers are fractions of their type's maximum, as in glTF
     AttributeData data;
 
     /// Elements, that is numbers / components.
@@ -52,7 +52,7 @@ struct Attribute {
     double value(std::size_t i, int c) const;
     /// Sets it; integers are rounded to nearest, ties up, and kept in their type's range.
     void set_value(std::size_t i, int c, double x);
-    /// Element i becomes what element old[i] was.
+    /// Element i becomes a copy of element old[i].
     void select(std::span<const std::uint32_t> old);
     /// Makes it count elements; new ones are zero.
     void resize(std::size_t count);

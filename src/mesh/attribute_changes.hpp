@@ -1,6 +1,6 @@
 #pragma once
-// What became of the attributes of a mesh: every operation that touches them returns such a list, and the
-// report prints it. Here is how the lists of several operations become one.
+// The changes of the attributes of a mesh. Every operation that changes attributes returns such a list, and
+// the report prints it. These functions merge the lists of several operations.
 
 #include "mesh/attribute.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// What became of an attribute in a stage: an entry of the report's list of attribute changes.
+/// The change of an attribute in a stage: an entry of the report's list of attribute changes.
 struct AttributeChange {
     enum class Kind { kept, interpolated, recomputed, dropped };
     std::string attribute;
@@ -24,15 +24,15 @@ using AttributeChanges = std::vector<AttributeChange>;
 /// All of the attributes, kept.
 AttributeChanges kept_changes(const std::vector<Attribute>& attributes);
 
-/// Adds what a further operation did, beside or after the others: of an attribute that is in both lists, what
-/// `more` says unless it says kept. The order is that of first mention.
+/// Adds the changes of a parallel or later operation. For an attribute in both lists, `more` wins unless it
+/// is kept. The order is by first mention.
 void merge_changes(AttributeChanges& all, const AttributeChanges& more);
 
-/// What two steps in a row did: the attributes of the second, in its order; what the second one kept is what
-/// the first one made of it.
+/// The changes of two consecutive steps: the attributes of the second, in its order. Attributes that the
+/// second kept have their change in the first.
 AttributeChanges changes_in_sequence(const AttributeChanges& first, AttributeChanges second);
 
-/// Takes the entries of the attribute out: one that an operation made for its own use says nothing to users.
+/// Removes the entries of the attribute: an attribute for internal use does not concern users.
 void forget_change(AttributeChanges& changes, std::string_view attribute);
 
 } // namespace facetmill

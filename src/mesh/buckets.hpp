@@ -1,6 +1,5 @@
 #pragma once
-// Items of the faces of a mesh, gathered by vertex: what edge tables and everything around a vertex are built
-// from.
+// Items of the faces of a mesh, grouped by vertex: the basis of edge tables and of vertex neighbourhoods.
 
 #include "mesh/mesh.hpp"
 #include "parallel/parallel.hpp"
@@ -34,8 +33,7 @@ struct Buckets {
     std::size_t first_vertex(std::size_t b) const { return b << shift; }
 };
 
-/// The high bits that tell the bucket of a vertex begin here: 11 bits, so there are no more than 2048
-/// buckets.
+/// The first of the high bits that select the bucket of a vertex: 11 bits, so at most 2048 buckets.
 inline int shift_of_buckets(std::size_t vertices) {
     const auto bits = static_cast<int>(std::bit_width(vertices > 0 ? vertices - 1 : 0));
     return std::max(0, bits - 11);
@@ -44,7 +42,7 @@ inline std::size_t number_of_buckets(std::size_t vertices) {
     return vertices == 0 ? 0 : ((vertices - 1) >> shift_of_buckets(vertices)) + 1;
 }
 
-/// visit(f, emit) calls emit(vertex, item) for what face f contributes.
+/// visit(f, emit) calls emit(vertex, item) for each contribution of face f.
 template <class Item, class Visit>
 Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visit) {
     constexpr std::size_t chunk = std::size_t{1} << 15;

@@ -6,9 +6,9 @@
 
 namespace facetmill {
 
-/// Six times the signed volume of each component, seen from its first corner in order to lose no digits far
-/// from the origin; negative where the faces look inwards. Exact but for rounding where a component is
-/// closed; of an open one it depends on that corner. place(corner) is where a corner is.
+/// Six times the signed volume of each component, relative to its first corner to keep precision far from
+/// the origin; negative where the faces face inwards. Exact up to rounding for a closed component; for an
+/// open component it depends on that corner. place(corner) returns the position of a corner.
 template <class Place>
 std::vector<double> six_volumes(const Mesh& mesh, const Components& components, Place&& place) {
     std::vector<double> volumes(components.count, 0);

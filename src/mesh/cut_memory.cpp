@@ -64,7 +64,7 @@ void CutMemory::add_all(std::vector<Entry> more) {
 
 namespace {
 
-/// Whether the plane passes the box, or by no more than rounding beside it.
+/// Whether the plane passes through the box, or misses it by no more than rounding.
 bool passes(const Plane& plane, const Box& box) {
     const Vec3 middle = box.centre(), half = box.extent() * 0.5;
     double reach = 0, size = std::fabs(plane.offset);
@@ -130,7 +130,7 @@ namespace {
 
 double largest_part(const Vec3& n) { return std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}); }
 
-/// The axis and the place on it of a plane across an axis, where the plane's numbers say so without rounding.
+/// The axis and the coordinate of an axis-aligned plane, if the plane's numbers give it without rounding.
 std::optional<std::pair<int, double>> exact_place(const Plane& plane) {
     const int axis = axis_of(plane);
     if (axis < 0) return {};
@@ -141,8 +141,9 @@ std::optional<std::pair<int, double>> exact_place(const Plane& plane) {
     return {};
 }
 
-/// Planes by their exact place, as most are; else by two numbers that do not depend on how a plane is
-/// written, but for rounding: its distance from the origin, and how far its normal leans to some direction.
+/// Hashes planes by their exact coordinate, as most have; else by two numbers that do not depend on the
+/// notation of a plane, up to rounding: its distance from the origin, and the angle of its normal to some
+/// direction.
 class PlaneBuckets {
   public:
     /// reach: the largest coordinate of the points through which the planes are written, and offset.
@@ -197,7 +198,8 @@ class PlaneBuckets {
 
     double scale_;
     std::map<std::pair<int, double>, std::size_t> places_;
-    std::vector<std::size_t> across_; ///< an axis, at a place that their numbers do not say exactly
+    std::vector<std::size_t>
+        across_; ///< axis-aligned, at a coordinate that their numbers do not give exactly
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> buckets_;
 };
 

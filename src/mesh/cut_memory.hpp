@@ -1,7 +1,7 @@
 #pragma once
-// Which points were built on which planes. A point where a plane cuts an edge is rounded, so it lies beside
-// that plane by some units in the last place; when the same plane comes again, it must count as on it, or
-// slivers come off.
+// Remembers which points were built on which planes. The intersection of a plane and an edge is rounded, so
+// it is off the plane by some units in the last place. When the same plane recurs, the point must count as
+// on it, or the cut would make slivers.
 
 #include "mesh/plane.hpp"
 
@@ -11,8 +11,8 @@
 
 namespace facetmill {
 
-/// Points are known by their exact places, not by numbers: so the memory outlives whatever renumbers
-/// vertices, and a point that is moved, by whatever stage, is forgotten without anybody's doing.
+/// Points are identified by their exact positions, not by numbers. So the memory survives renumbering of
+/// vertices, and a point moved by any stage is forgotten automatically.
 struct CutMemory {
     struct Entry {
         Plane plane;
@@ -30,16 +30,16 @@ struct CutMemory {
     };
     std::vector<Entry> entries;
 
-    /// What is known of that plane, however it is written (same_plane); or nothing.
+    /// The entry of that plane, in any notation (same_plane); or null.
     const Entry* find(const Plane& plane) const;
-    /// Adds points to what is known of the plane. Those exactly on it need no memory and are left out, but
-    /// the plane is known from now on, for the points that later cuts make on edges along it.
+    /// Adds points to the entry of the plane. Points exactly on it need no memory and are skipped. The plane
+    /// becomes known in any case, for the points that later cuts make on edges along it.
     void add(const Plane& plane, std::vector<Vec3> points);
     /// The same of the plane of an entry.
     void add_to(std::size_t entry, std::vector<Vec3> points);
-    /// As add for each of those entries, in order, but in time that grows with the sum of both.
+    /// Like add for each entry, in order, in time that grows with the sum of both sizes.
     void add_all(std::vector<Entry> more);
-    /// For each point the entries that it counts as on, ascending.
+    /// For each point the entries that contain it, ascending.
     std::vector<std::vector<std::uint32_t>> entries_at(std::span<const Vec3> points) const;
 };
 

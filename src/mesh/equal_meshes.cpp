@@ -37,7 +37,7 @@ bool are_equal(const Mesh& a, const Mesh& b) {
                       [](const Attribute& x, const Attribute& y) { return are_equal(x, y); });
 }
 
-/// Of all arrays, so that meshes of equal hashes are nearly always equal.
+/// A hash of all arrays, so that meshes of equal hashes are nearly always equal.
 std::uint64_t hash_of(const Mesh& mesh) {
     std::uint64_t h = 0;
     const auto add = [&](std::string_view bytes) { h = hashed(h, std::hash<std::string_view>{}(bytes)); };

@@ -1,5 +1,5 @@
 #pragma once
-// What follows from the corners of one face: its neighbours in the ring of corners, area vector, mean, box.
+// Quantities of one face: neighbours in the ring of corners, area vector, mean, box.
 
 #include "mesh/mesh.hpp"
 
@@ -17,9 +17,9 @@ inline Index previous_corner(const Mesh& mesh, Index f, Index c) {
     return previous_corner(c, mesh.face_begin(f), mesh.face_end(f));
 }
 
-/// Twice the area of face f along its normal (Newell's sum, taken from the first corner: I. E. Sutherland, R.
-/// F. Sproull and R. A. Schumacker, "A characterization of ten hidden-surface algorithms", 1974), its corners
-/// being where place(corner) says.
+/// Twice the area of face f along its normal (Newell's sum, relative to the first corner: I. E. Sutherland,
+/// R. F. Sproull and R. A. Schumacker, "A characterization of ten hidden-surface algorithms", 1974).
+/// place(corner) returns the position of a corner.
 template <class Place>
 Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
     Vec3 sum;
@@ -33,18 +33,17 @@ inline Vec3 area_vector(const Mesh& mesh, Index f) {
     return area_vector_at(mesh, f, [&](Index c) { return mesh.point(c); });
 }
 
-/// In world space (of a mirroring transform, it looks the other way).
+/// In world space (a mirroring transform reverses it).
 inline Vec3 area_vector(const Mesh& mesh, Index f, const Transform& to_world) {
     const Vec3& first = mesh.point(mesh.face_begin(f));
     return area_vector_at(mesh, f, [&](Index c) { return to_world.vector(mesh.point(c) - first); });
 }
 
-/// Whether the angle between two normals, whose dot product is given, is more than the feature angle of that
-/// cosine. What is more by rounding alone (1e-12 of the cosine) is not: a right angle is not more than 90
-/// degrees.
+/// Whether the angle between two normals with this dot product exceeds the feature angle of that cosine. An
+/// excess by rounding alone (1e-12 of the cosine) does not count: a right angle does not exceed 90 degrees.
 inline bool exceeds_feature_angle(double dot_product, double cosine) { return dot_product < cosine - 1e-12; }
 
-/// The sum of the corners of face f, which are where place(corner) says.
+/// The sum of the corners of face f. place(corner) returns the position of a corner.
 template <class Place>
 Vec3 corner_sum_at(const Mesh& mesh, Index f, Place&& place) {
     Vec3 sum;
@@ -52,7 +51,7 @@ Vec3 corner_sum_at(const Mesh& mesh, Index f, Place&& place) {
     return sum;
 }
 
-/// The mean of the corners of face f, their places being points[vertex].
+/// The mean of the corners of face f, at points[vertex].
 inline Vec3 corner_mean(const Mesh& mesh, Index f, const std::vector<Vec3>& points) {
     return corner_sum_at(mesh, f, [&](Index c) { return points[mesh.vertex(c)]; }) / mesh.face_size(f);
 }

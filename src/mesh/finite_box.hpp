@@ -6,7 +6,7 @@
 
 namespace facetmill {
 
-/// The box around those of n points, at(i), that are finite, in parallel; empty where none is.
+/// The box around the finite points among n points at(i), in parallel; empty if no point is finite.
 template <class At>
 Box box_of_finite(std::size_t n, const At& at) {
     return parallel_reduce(

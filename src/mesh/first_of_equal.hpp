@@ -7,9 +7,9 @@
 
 namespace facetmill {
 
-/// For each of `count` items (fewer than 2^32) the least number of one that it equals. hash(i): a well-mixed
-/// number that equal items share; equal(i, j): whether two items are. Expected O(count), with 8 to 16 bytes
-/// an item beside the result, which depends on equal alone.
+/// For each of `count` items (fewer than 2^32), the lowest index of an equal item. hash(i): a well-mixed
+/// number, the same for equal items; equal(i, j): whether two items are equal. Expected O(count), with 8 to
+/// 16 bytes an item in addition to the result, which depends on equal alone.
 template <class Hash, class Equal>
 std::vector<Index> first_of_equal(std::size_t count, Hash&& hash, Equal&& equal) {
     std::vector<Index> first(count), slots(std::bit_ceil(2 * count + 1), none);

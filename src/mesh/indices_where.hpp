@@ -1,12 +1,13 @@
 #pragma once
-// The numbers of what is wanted of many, by all threads.
+// Selects indices by a predicate, in parallel.
 
 #include "mesh/mesh.hpp"
 #include "parallel/parallel.hpp"
 
 namespace facetmill {
 
-/// The numbers below n for which is_wanted(number), ascending. Asked once each, from several threads.
+/// The numbers below n for which is_wanted(number), ascending. The predicate is called once for each, from
+/// several threads.
 template <class IsWanted>
 std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
     std::vector<std::vector<Index>> parts((n + default_chunk - 1) / default_chunk);

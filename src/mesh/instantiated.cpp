@@ -1,5 +1,5 @@
-// What mesh.hpp and scene.hpp say is compiled elsewhere: by itself, since GCC 14 leaves out the constructors
-// by copying that were already used in the same compilation.
+// Instantiates the extern templates of mesh.hpp and scene.hpp. A separate file, because GCC 14 omits copy
+// constructors that were already used in the same compilation.
 #include "mesh/mesh.hpp"
 #include "mesh/scene.hpp"
 

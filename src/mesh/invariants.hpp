@@ -1,6 +1,6 @@
 #pragma once
-// What always holds for a mesh and a scene; tests check it after every stage, and run --check-invariants does
-// too.
+// The invariants of a mesh and a scene. Tests check them after every stage, and so does run
+// --check-invariants.
 
 #include "mesh/scene.hpp"
 
@@ -10,17 +10,17 @@
 
 namespace facetmill {
 
-/// Every violation, one sentence each: indices out of range, offsets not ascending, faces of fewer than three
-/// corners, attributes whose size is not their domain's, positions that are not finite, unnormalised offsets,
-/// primitives out of range. Empty when the mesh is as it must be.
+/// Every violation, one sentence each: indices out of range, offsets not ascending, faces of fewer than
+/// three corners, attributes of the wrong size for their domain, positions that are not finite, unnormalised
+/// offsets, primitives out of range. Empty for a valid mesh.
 std::vector<std::string> broken_invariants(const Mesh& mesh);
 std::vector<std::string> broken_invariants(const Scene& scene);
 
-/// The first point with a coordinate that is no finite number; their number when there is none. Parallel.
+/// The first point with a coordinate that is not finite; the number of points if all are finite. Parallel.
 std::size_t first_not_finite(const std::vector<Vec3>& points);
 
-/// What of a scene is beyond the range of numbers, in words, such as "vertex 7 of part 'cube'" or "the box in
-/// world space"; nothing when all is finite.
+/// The first non-finite element of a scene, in words, such as "vertex 7 of part 'cube'" or "the box in world
+/// space"; none if all is finite.
 std::optional<std::string> not_finite(const Scene& scene);
 
 } // namespace facetmill

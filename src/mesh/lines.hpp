@@ -8,8 +8,8 @@
 
 namespace facetmill {
 
-/// Straight lines between points. Lines that end at one point, or at points of exactly the same place, meet
-/// there.
+/// Straight lines between points. Lines meet if they end at the same point, or at points of exactly the same
+/// position.
 struct Lines {
     struct Segment {
         Index from = 0, to = 0; ///< into points
@@ -21,14 +21,14 @@ struct Lines {
     std::vector<Segment> segments;
 };
 
-/// The lines of the part as it stands in the world, under its name. O(n).
+/// The lines of the part in world space, under its name. O(n).
 Lines lines_of(const Part& part);
 
 /// [vertices] 1 where a line of the mesh uses the vertex. O(n).
 std::vector<std::uint8_t> marked_ends_of_lines(const Mesh& mesh);
 
-/// Parts a mesh that has lines and faces or points: returns the lines, with the vertices that they use and
-/// what these have of attributes, without primitives. Vertices that only lines use go from the mesh. O(n).
+/// Separates the lines of a mesh that also has faces or points. Returns the lines, with their vertices and
+/// attributes, without primitives. Vertices that only lines use are removed from the mesh. O(n).
 Mesh split_lines(Mesh& mesh);
 
 } // namespace facetmill

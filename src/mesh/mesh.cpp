@@ -77,7 +77,7 @@ void normalise_wedges(Mesh& mesh) {
 
 namespace {
 
-/// The transpose of the inverse of t's linear part, up to a positive factor: what normals are multiplied by.
+/// The transpose of the inverse of t's linear part, up to a positive factor: it transforms normals.
 Transform normal_transform(const Transform& t) {
     const Vec3 x{t.m[0][0], t.m[0][1], t.m[0][2]}, y{t.m[1][0], t.m[1][1], t.m[1][2]},
         z{t.m[2][0], t.m[2][1], t.m[2][2]};

@@ -28,14 +28,14 @@ namespace facetmill {
 using Index = std::uint32_t;
 inline constexpr Index none = UINT32_MAX;
 
-/// An entry of the table that the face attribute "primitive" indexes: what glTF calls a primitive. Faces of
-/// one glTF mesh are merged for geometry and come apart again along these on writing.
+/// An entry of the table that the face attribute "primitive" indexes: a glTF primitive. Faces of one glTF
+/// mesh are merged for geometry, and separated again by primitive on writing.
 struct Primitive {
     Index material = none;               ///< into Scene::materials
     std::vector<std::string> attributes; ///< names of the wedge attributes it had; empty: all
     std::string json;                    ///< the source's extras and extensions (a JSON object), or empty
 
-    /// Whether it names the attribute itself, which one that has all does not.
+    /// Whether `attributes` lists the attribute explicitly; an empty list means all.
     bool lists(std::string_view attribute) const {
         return std::find(attributes.begin(), attributes.end(), attribute) != attributes.end();
     }
@@ -81,7 +81,7 @@ struct Mesh {
 
     const Attribute* find(std::string_view name, Domain domain) const;
     Attribute* find(std::string_view name, Domain domain);
-    /// Removes the attribute; false when there was none.
+    /// Removes the attribute. Returns false if it does not exist.
     bool drop(std::string_view name, Domain domain);
     /// Index of the primitive of face f.
     Index primitive_of(Index f) const;
@@ -108,7 +108,7 @@ void normalise_wedges(Mesh& mesh);
 
 /// Drops vertices and wedges that no face and no line uses. Attributes follow.
 void drop_unused(Mesh& mesh);
-/// Of the vertices that are marked, one flag for each.
+/// Likewise among the marked vertices, one flag for each.
 void drop_unused(Mesh& mesh, std::span<const std::uint8_t> marked);
 
 /// Merges vertices at exactly the same position (-0 is 0); wedges stay apart, so attributes survive. Vertices
@@ -116,19 +116,19 @@ void drop_unused(Mesh& mesh, std::span<const std::uint8_t> marked);
 /// went.
 std::size_t weld_exact(Mesh& mesh);
 
-/// The mesh with every face of four or more corners cut into triangles: quads along the shorter diagonal
-/// (ties: the one at the first corner), larger ones as a fan when convex from some corner, else by clipping
-/// ears in the plane of the polygon's normal. Face attributes are copied, wedges untouched. Faces of fewer
-/// than three corners are dropped. The triangulate stage offers more.
+/// The mesh with every face of four or more corners cut into triangles. Quads are cut along the shorter
+/// diagonal (ties: the diagonal at the first corner). Larger faces become a fan when convex from some
+/// corner, else ears are clipped in the plane of the polygon's normal. Face attributes are copied, wedges
+/// untouched. Faces of fewer than three corners are dropped. The triangulate stage offers more.
 Mesh triangulated(const Mesh& mesh);
 
 /// Appends b to a: vertices, wedges, faces, lines, primitives. Attributes that one has none of: see
 /// append.cpp.
 void append(Mesh& a, const Mesh& b);
 
-/// Sets wedge attribute NORMAL, if there is one, to the area-weighted normal over the faces that meet at the
-/// wedge's vertex and share its normal direction group: wedges that were apart by a normal seam stay apart.
-/// Returns what became of the attribute, or none when the mesh has no normals.
+/// Sets wedge attribute NORMAL, if present, to the area-weighted normal over the faces that meet at the
+/// wedge's vertex and share its normal direction group. Wedges separated by a normal seam stay separate.
+/// Returns the change of the attribute, or none when the mesh has no normals.
 std::optional<AttributeChange> recompute_normals(Mesh& mesh);
 
 /// Applies t to positions, normals, tangents and morph vectors; flips faces when t mirrors.

@@ -27,8 +27,7 @@ void renew_at_vertex(const Mesh& mesh, std::span<const Index> corners, const std
     for (const Index c : corners) group_of(c).sum += areas[face_of[c]];
     for (const Index c : corners) {
         const Vec3 normal = normalised(group_of(c).sum);
-        if (!(dot(normal, normal) > 0))
-            continue; // only faces without area: the old normal is the best there is
+        if (!(dot(normal, normal) > 0)) continue; // only faces without area: keep the old normal
         for (int i = 0; i < 3; ++i)
             renewed.set_value(mesh.corners[c], i, normal[static_cast<std::size_t>(i)]);
     }

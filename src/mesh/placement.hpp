@@ -1,15 +1,15 @@
 #pragma once
-// Where a part stands, and its bare surface there.
+// The position of a part in the world, and its bare surface there.
 
 #include "mesh/scene.hpp"
 
 namespace facetmill {
 
-/// The place in the world of a point of the part.
+/// The world position of a point of the part.
 inline Vec3 in_world(const Part& part, const Vec3& p) { return part.transform.point(p); }
 
-/// The positions and faces alone, with the mesh's own numbers of vertices, wedges, corners and faces:
-/// attributes and primitives are left behind. O(n).
+/// Only the positions and faces, with the same numbers of vertices, wedges, corners and faces; without
+/// attributes and primitives. O(n).
 inline Mesh bare(const Mesh& mesh) {
     Mesh out;
     out.positions = mesh.positions;
@@ -19,8 +19,8 @@ inline Mesh bare(const Mesh& mesh) {
     return out;
 }
 
-/// The bare mesh of a part as it stands in the world; the faces of a mirrored part are turned round, so that
-/// they keep their front. O(n).
+/// The bare mesh of a part in world space; the faces of a mirrored part are reversed, so that they keep
+/// their front. O(n).
 inline Mesh in_world(const Part& part) {
     Mesh out = bare(part.mesh);
     apply(out, part.transform);

@@ -47,8 +47,8 @@ double side(const Plane& plane, const Vec3& p) {
 
 namespace {
 
-/// Whether the normals' components i and j are not in proportion, as far as doubles tell: each product and
-/// the difference carry one rounding.
+/// Whether components i and j of the normals are certainly not in proportion: each product and the
+/// difference have one rounding.
 bool surely_turned(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) {
     const double x = a[i] * b[j], y = a[j] * b[i];
     return std::fabs(x - y) > 4.5e-16 * (std::fabs(x) + std::fabs(y)) + 1e-300;

@@ -27,10 +27,10 @@ double side(const Plane& plane, const Vec3& p);
 /// however they are written. Exact under the same conditions as side.
 bool same_plane(const Plane& a, const Plane& b);
 
-/// The plane as seen before the map: p is on its front exactly when to_world takes p to the front of the
-/// given one, but for rounding in the new coefficients. The same plane for the identity; normal and through
-/// are mapped, so that axis-aligned planes stay axis-aligned through a point; a map without an inverse moves
-/// the offset instead.
+/// The plane before the map: p is on its front exactly when to_world takes p to the front of the given
+/// plane, up to rounding of the new coefficients. The identity returns the same plane. normal and through
+/// are mapped, so that axis-aligned planes stay axis-aligned through a point; a singular map moves the
+/// offset instead.
 Plane pulled_back(const Plane& plane, const Transform& to_world);
 
 /// The only axis along which the normal is not zero, or -1.

@@ -1,6 +1,6 @@
 #pragma once
-// Points at exactly the same place get one number, in the order of their first occurrence: a weld that needs
-// no list of all points, for STL. weld_exact() sorts them instead, which is faster where few are equal.
+// Numbers distinct point positions in the order of their first occurrence: an exact weld without a list of
+// all points, for STL. weld_exact() sorts the points instead, which is faster if few are equal.
 
 #include "base/progress.hpp"
 #include "mesh/mesh.hpp"
@@ -20,8 +20,8 @@ namespace facetmill {
 /// The bits of a point's three float32, 0 for -0: equal where the point is, also where it is not a number.
 using FloatBits = std::array<std::uint32_t, 3>;
 
-/// A well-mixed number of the coordinates (products of 128 bits folded to 64 with their factors, so that none
-/// is lost beside one that is 0; after Y. Wang et al., "wyhash", 2019).
+/// A well-mixed number of the coordinates. Products of 128 bits are folded to 64 together with their
+/// factors, so that a factor 0 does not cancel the other (after Y. Wang et al., "wyhash", 2019).
 inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     __extension__ using Wide = unsigned __int128;
     const auto mixed = [](std::uint64_t x, std::uint64_t y) {
@@ -38,8 +38,8 @@ inline std::uint64_t place_hash(const Vec3& p) {
     return place_hash(bits(p.x), bits(p.y), bits(p.z));
 }
 
-/// A hash table of places that all threads fill at once. A slot holds a place, and the first point there;
-/// which slot that is depends on the threads, what it holds in the end does not.
+/// A hash table of positions that all threads fill at once. A slot holds a position and its first point. The
+/// choice of the slot depends on the threads, its final content does not.
 class PositionHash {
   public:
     /// Fewer than 2^32 slots; `grows`: a larger one can be had when it fills.
@@ -47,8 +47,8 @@ class PositionHash {
         parallel_for(slots, [&](std::size_t s) { slots_[s].first = none; });
     }
 
-    /// Sets slot[i] to the slot of each of the points, and bit i of is_first where the point is the first one
-    /// at its place; false when the table is too full to go on.
+    /// Sets slot[i] to the slot of each point, and bit i of is_first if the point is the first at its
+    /// position. Returns false when the table is too full.
     template <class Point>
     bool add(std::vector<Index>& slot, std::vector<std::uint64_t>& is_first, const Point& point) {
         std::atomic<std::size_t> taken = 0;
@@ -59,7 +59,7 @@ class PositionHash {
         parallel_chunks(slot.size(), [&](std::size_t begin, std::size_t end) {
             if (full.load(std::memory_order_relaxed)) return;
             Chunk chunk;
-            constexpr std::size_t block = 32; // whose slots are asked from memory before they are needed
+            constexpr std::size_t block = 32; // points whose slots are prefetched
             std::array<std::pair<FloatBits, Index>, block> next;
             for (std::size_t at = begin; at < end; at += block) {
                 const std::size_t count = std::min(block, end - at);
@@ -85,18 +85,18 @@ class PositionHash {
         return !full;
     }
 
-    /// The first point at the place of a slot, or what is put in its stead.
+    /// The first point at the position of a slot, or its replacement value.
     Index& first(Index slot) { return slots_[slot].first; }
     const FloatBits& key(Index slot) const { return slots_[slot].key; }
 
   private:
     struct Slot {
-        Index first; ///< none: free; busy: somebody is writing the key
+        Index first; ///< none: free; busy: another thread is writing the key
         FloatBits key;
     };
     static constexpr Index busy = none - 1;
 
-    /// What a thread remembers of the points of a chunk.
+    /// The state of a thread for the points of a chunk.
     struct Chunk {
         std::size_t taken = 0;  ///< slots
         bool was_first = false; ///< the last point, so far
@@ -105,7 +105,7 @@ class PositionHash {
 
     Index home(std::uint64_t hash) const { return static_cast<Index>((hash >> 32) * size_ >> 32); }
 
-    /// The slot of the place p of point i, at or behind the given one; none when there is no room for it.
+    /// The slot of position p of point i, at or after the given slot; none when the table is full.
     Index put(Index i, Index slot, const FloatBits& p, Chunk& chunk) {
         for (std::size_t probes = 0; probes < size_; ++probes) {
             std::atomic_ref<Index> first(slots_[slot].first);
@@ -136,7 +136,7 @@ class PositionHash {
         return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
     }
 
-    /// Makes i the first where it is before what is there; whether it was.
+    /// Makes i the first if it is lower than the current first; returns whether it was.
     static bool lower(std::atomic_ref<Index> first, Index& there, Index i) {
         while (i < there)
             if (first.compare_exchange_weak(there, i, std::memory_order_relaxed)) return true;
@@ -148,13 +148,12 @@ class PositionHash {
     bool grows_;
 };
 
-/// Sets number[i] to the number of the place of point(i), for all i below number.size(), which is below 2^32
-/// - 2: places are numbered in the order of their first points (those that are equal are at one place).
-/// begin(places) is called when their count is known; unless it gives false, first(place, i, key) is then
-/// called for the first point of each, in parallel, with what one of its points gave. point.done(begin, end),
-/// if there is one, is called when so many points have been seen for the first time. `expected` tells about
-/// how many places there are, which saves memory. Returns the count of places. Same result for any number of
-/// threads.
+/// Sets number[i] to the number of the position of point(i), for all i below number.size() < 2^32 - 2.
+/// Positions are numbered in the order of their first points; equal keys are one position. begin(places)
+/// receives their count. Unless it returns false, first(place, i, key) is then called for the first point of
+/// each, in parallel, with the key of one of its points. point.done(begin, end), if it exists, is called
+/// after the first visit of these points. `expected` is the approximate number of positions, which saves
+/// memory. Returns the number of positions. The result is the same for any number of threads.
 template <class Point, class Begin, class First>
 std::size_t number_places(std::vector<Index>& number, std::size_t expected, const Point& point, Begin&& begin,
                           First&& first) {
@@ -165,7 +164,7 @@ std::size_t number_places(std::vector<Index>& number, std::size_t expected, cons
     static_assert(default_chunk % 64 == 0, "a word of flags belongs to one chunk");
     while (!table.add(number, is_first, point)) {
         slots = std::min(most, 4 * slots);
-        table = PositionHash(1, true); // the old one is freed before there is a new one
+        table = PositionHash(1, true); // frees the old table before allocating a new one
         table = PositionHash(slots, slots < most);
         std::fill(is_first.begin(), is_first.end(), 0);
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Products of very large or very small coordinates overflow or vanish. Where a box is far from 1, sums are
-// taken of coordinates times powers of two, which round nothing, and the powers taken out of the result.
+// Products of very large or very small coordinates overflow or vanish. If a box is far from 1, coordinates
+// are scaled by powers of two before summing, which rounds nothing, and the result is scaled back.
 
 #include "mesh/mesh.hpp"
 
@@ -15,7 +15,7 @@ struct PowerScale {
     bool none() const { return powers == std::array<int, 3>{}; }
     Vec3 operator()(const Vec3& p) const;
     std::vector<Vec3> operator()(const std::vector<Vec3>& points) const;
-    /// The mesh without its attributes. What lies far below its box's size may lose bits.
+    /// The mesh without its attributes. Coordinates far below the box's size may lose bits.
     Mesh operator()(const Mesh& mesh) const;
     PowerScale inverse() const { return {{-powers[0], -powers[1], -powers[2]}}; }
     /// The sum of the powers: what volumes are multiplied by.

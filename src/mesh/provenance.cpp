@@ -17,8 +17,7 @@ struct Parents {
     std::span<const double> weights;
 };
 
-/// A lineage together with the number of old elements: how many there are of each kind, and the parents of
-/// any.
+/// A provenance with the number of old elements: the counts of each kind, and the parents of any element.
 struct Ancestry {
     const Provenance& element_provenance;
     bool identity;
@@ -31,7 +30,7 @@ struct Ancestry {
     std::size_t mixed() const { return element_provenance.edges.size() + element_provenance.mixes(); }
     std::size_t size() const { return copies + mixed(); }
 
-    /// Parents of mixed element i (edges first); room holds those of an edge.
+    /// Parents of mixed element i (edges first); `sources` and `weights` hold the parents of an edge.
     Parents parents(std::size_t i, std::array<Index, 2>& sources, std::array<double, 2>& weights) const {
         if (i < element_provenance.edges.size()) {
             const auto& e = element_provenance.edges[i];
@@ -124,7 +123,8 @@ Attribute inherited(const Attribute& from, const Ancestry& ancestry) {
             std::decay_t<decltype(old)> renewed(ancestry.size() * k);
             copy_elements(renewed, old, ancestry, k);
             const auto& parents = ancestry.element_provenance.chained ? renewed : old;
-            if (from.role != Role::joints && from.role != Role::weights) // those are mixed together
+            if (from.role != Role::joints &&
+                from.role != Role::weights) // joints and weights are mixed together
                 ancestry.for_mixed(
                     [&](std::size_t i, const Parents& p) { mix_element(from, parents, &renewed[i * k], p); });
             to.data = std::move(renewed);
@@ -177,7 +177,7 @@ void unite(std::vector<Influence>& all) {
     });
 }
 
-/// What is lost in rounding weights to fractions goes to the strongest, so that they still sum to one.
+/// Adds the rounding error of fractional weights to the strongest, so that they still sum to one.
 void settle_rounding(const Skin& skin, std::size_t element) {
     double rest = 1;
     for (const auto* w : skin.new_weights)

@@ -1,6 +1,6 @@
 #pragma once
-// Where the elements of a new mesh come from: every stage that makes elements says so with one of these, and
-// the attributes follow by one function. This is the only place where attributes are mixed.
+// The sources of the elements of a new mesh. Every stage that makes elements returns a provenance, and one
+// function derives the attributes. All mixing of attributes happens here.
 
 #include "mesh/mesh.hpp"
 
@@ -14,7 +14,7 @@ struct Provenance {
         double t = 0.5;     ///< 0 at a, 1 at b
     };
     bool identity = false; ///< copies is not stored: all old elements, in order, come first
-    /// With identity: edges may be between elements that were made on edges before them. One after the other.
+    /// With identity: edges may connect elements made by earlier edges. Processed in order.
     bool chained = false;
     std::vector<Index> copies;         ///< old index of each copied element
     std::vector<Edge> edges;           ///< the elements after the copies

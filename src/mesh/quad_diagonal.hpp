@@ -12,7 +12,7 @@ struct QuadDiagonals {
     bool cut_at_second = false;         ///< the one to take: the sound one, of two (or none) the shorter;
                                         ///< ties: the one at the first corner
 
-    /// One diagonal alone is sound: the quad has a reflex corner, and that diagonal ends there.
+    /// Only one diagonal is sound: the quad has a reflex corner, and that diagonal ends there.
     bool concave() const { return first != second; }
 };
 

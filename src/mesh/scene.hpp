@@ -1,6 +1,6 @@
 #pragma once
-// What a pipeline works on: named parts with a node transform, materials, a unit and an up axis, and the rest
-// of the document when it came from glTF.
+// The data of a pipeline: named parts with a node transform, materials, a unit and an up axis, and the rest
+// of the document if it came from glTF.
 
 #include "mesh/mesh.hpp"
 
@@ -26,7 +26,7 @@ std::optional<Unit> unit_named(std::string_view text);
 struct Document {
     std::string json;                                    ///< the whole JSON text
     std::vector<std::vector<std::byte>> buffers;         ///< by buffer index, loaded
-    std::map<std::string, std::vector<std::byte>> files; ///< images beside the file, by their uri as spelled
+    std::map<std::string, std::vector<std::byte>> files; ///< external images, by their uri as spelled
     std::string name;                                    ///< the file's name, for messages
 };
 
@@ -40,14 +40,14 @@ struct Material {
     int index = -1;    ///< its index in that document's materials
 };
 
-/// A mesh in its own space and where it stands in the world.
+/// A mesh in its own space and its transform to the world.
 struct Part {
     std::string name{};
     Mesh mesh{};
     Transform transform{}; ///< part space -> world
     int document = -1;     ///< index into Scene::documents, or -1
-    int node = -1;         ///< its node there
-    int source_mesh = -1;  ///< its mesh there
+    int node = -1;         ///< its node in the document
+    int source_mesh = -1;  ///< its mesh in the document
     bool skinned =
         false; ///< in bind pose; its transform is the identity, as glTF has it, until a stage moves it
     bool changed =

@@ -5,9 +5,9 @@
 
 namespace facetmill {
 
-/// Gives corners of one wedge that are of different classes wedges of their own: copies with all attributes,
-/// in the order in which corners need them, behind the others. class_of_corner: [corners]. Returns the class
-/// of each wedge, `none` for those of no corner.
+/// Splits wedges whose corners have different classes: appends copies with all attributes, in the order in
+/// which corners need them. class_of_corner: [corners]. Returns the class of each wedge, `none` for wedges
+/// without corners.
 std::vector<Index> separate_wedges(Mesh& mesh, const std::vector<Index>& class_of_corner);
 
 } // namespace facetmill

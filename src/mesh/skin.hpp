@@ -1,11 +1,11 @@
 #pragma once
-// What is left of a mesh when its part loses its skin.
+// Removes the skin attributes of a mesh whose part loses its skin.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
-/// Drops the attributes that mean nothing without the skin. Returns what became of them.
+/// Drops the attributes that are meaningless without the skin. Returns their changes.
 inline AttributeChanges drop_skin(Mesh& mesh, const char* why) {
     AttributeChanges changes;
     std::erase_if(mesh.attributes, [&](const Attribute& a) {

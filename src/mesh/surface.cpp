@@ -37,8 +37,8 @@ void append(Surface& all, Surface&& one, Index first_face) {
     all.positions.insert(all.positions.end(), one.positions.begin(), one.positions.end());
 }
 
-/// For each side of the box of all vertices the first one that lies on it; none where a side is 0, whose sign
-/// depends on which of several vertices comes first.
+/// For each side of the box of all vertices the first vertex on it; none if a side is 0, because its sign
+/// depends on the order of the vertices.
 std::optional<std::array<Index, 6>> vertices_on_sides(const std::vector<Vec3>& positions, const Box& box) {
     std::array<Index, 6> first{};
     for (std::size_t side = 0; side < first.size(); ++side) {
@@ -70,8 +70,8 @@ bool are_corners(const std::array<Index, 6>& vertices, const std::vector<Index>&
 } // namespace
 
 Box Surface::bounds() const {
-    // Vertices are read in their order, twice as fast as corner by corner: where those on the sides of their
-    // box are corners, it is that of the corners.
+    // Vertices are read in order, twice as fast as corner by corner. If the vertices on the sides of their
+    // box are corners, it is also the box of the corners.
     if (positions.size() < corners.size()) {
         const Box all = box_of_finite(positions.size(), [&](std::size_t v) { return positions[v]; });
         if (const auto vertices = vertices_on_sides(positions, all);

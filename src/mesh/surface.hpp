@@ -1,6 +1,6 @@
 #pragma once
-// A surface as bare triangles in one space: what distances, rays and samples are taken of. Point clouds, and
-// vertices that no face uses, count as triangles of one point where they are asked for.
+// A surface as bare triangles in one space, for distances, rays and samples. Point clouds, and vertices that
+// no face uses, count as triangles of one point on request.
 
 #include "mesh/scene.hpp"
 
@@ -23,12 +23,12 @@ struct Surface {
     const Vec3& point(std::size_t triangle, std::size_t corner) const {
         return positions[corners[3 * triangle + corner]];
     }
-    /// The box of what triangles use and is finite.
+    /// The box of the finite vertices of triangles.
     Box bounds() const;
 };
 
-/// The mesh in its own space, between its own vertices; polygons are cut as `triangulated` does, so that
-/// those that cross themselves are fans that overlap (geometry/triangulate/crossing_faces.hpp has
+/// The mesh in its own space, with its own vertices. Polygons are cut as `triangulated` does, so
+/// self-crossing polygons become overlapping fans (geometry/triangulate/crossing_faces.hpp has
 /// filled_surface).
 Surface surface_of(const Mesh& mesh);
 
@@ -40,15 +40,15 @@ Surface surface_of(const Part& part, SurfaceOfMesh of_mesh = surface_of);
 Surface surface_of(std::span<const Part* const> parts, SurfaceOfMesh of_mesh = surface_of);
 Surface surface_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
 
-/// The vertices that no face uses, of all parts in world space, each as a triangle of one point: distances to
-/// them, and from them, are taken as those of a surface are. They have no face. In the order of parts and
-/// vertices. Throws limit (E-LIMIT) when they cannot be numbered.
+/// The vertices that no face uses, of all parts in world space, each as a triangle of one point without a
+/// face, so that distances work as for a surface. In the order of parts and vertices. Throws limit (E-LIMIT)
+/// when they cannot be numbered.
 Surface isolated_vertices_of(const Scene& scene);
 
-/// What distances of a scene are of: its surface, or, where it has no faces, its points. Throws as above.
+/// The basis of distances of a scene: its surface or, without faces, its points. Throws as above.
 Surface surface_or_points_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
 
-/// Both as one. Throws as above.
+/// Both surfaces merged. Throws as above.
 Surface joined(Surface a, const Surface& b);
 
 } // namespace facetmill

@@ -38,8 +38,8 @@ struct BoundaryEdge {
 };
 /// In the order of the edge table: by (low vertex, high vertex).
 std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh);
-/// The edges of one face, and those of three, five ... of which all but one may pass by: one entry for each
-/// of the faces. In the order of the edge table.
+/// The edges of exactly one face, and the edges of three, five ... faces, where all faces except one may
+/// pair up: one entry for each face. In the order of the edge table.
 std::vector<BoundaryEdge> odd_edges(const Mesh& mesh);
 
 /// For each vertex the lowest one at exactly the same position (-0 is 0).
@@ -64,7 +64,7 @@ struct Components {
     std::size_t count = 0;
 };
 Components face_components(const Mesh& mesh, bool by_vertex = true);
-/// Those that hang together over edges.
+/// Components of faces connected over edges.
 Components face_components(const Mesh& mesh, const EdgeTable& edges);
 /// face_components(mesh).count, without the numbering.
 std::size_t component_count(const Mesh& mesh);
@@ -81,7 +81,7 @@ class DisjointSets {
     void join(Index a, Index b) {
         if (parent_of(a) != parent_of(b)) join_apart(a, b);
     }
-    /// How many there are, once all joins are done.
+    /// The number of sets, once all joins are done.
     std::size_t count();
 
   private:

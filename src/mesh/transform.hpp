@@ -12,7 +12,7 @@ namespace facetmill {
 /// The inverse of an affine map; none when it is singular.
 std::optional<Transform> inverse(const Transform& t);
 
-/// Of a direction that is perpendicular to what the transform moves: the cofactors times it.
+/// Transforms a normal direction: the cofactors times it.
 inline Vec3 moved_normal(const Transform& t, const Vec3& n) {
     const Vec3 x{t.m[0][0], t.m[0][1], t.m[0][2]}, y{t.m[1][0], t.m[1][1], t.m[1][2]},
         z{t.m[2][0], t.m[2][1], t.m[2][2]};
@@ -26,8 +26,8 @@ inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
     return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
 }
 
-/// The cube root of how much volumes grow: what lengths grow by under a rotation and a uniform scale, and by
-/// their geometric mean under others. 1 for a transform that flattens.
+/// The cube root of the growth of volumes: the growth of lengths under a rotation and a uniform scale, and
+/// its geometric mean under others. 1 for a transform that flattens.
 inline double mean_stretch(const Transform& t) {
     const double volume = std::abs(t.determinant());
     return volume > 0 && std::isfinite(volume) && volume != 1 ? exponential(logarithm(volume) / 3) : 1;

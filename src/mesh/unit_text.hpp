@@ -5,7 +5,7 @@
 
 namespace facetmill {
 
-/// Behind a length: "mm", or "scene units" where none is known.
+/// The unit to print after a length: "mm", or "scene units" if unknown.
 inline const char* unit_text(Unit unit) { return unit == Unit::unknown ? "scene units" : to_string(unit); }
 
 } // namespace facetmill

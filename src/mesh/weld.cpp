@@ -1,4 +1,4 @@
-// Vertices and wedges that go: the unused, and those at the same place.
+// Removes unused and coincident vertices and wedges.
 #include "mesh/weld.hpp"
 #include "base/progress.hpp"
 #include "mesh/position_hash.hpp"
@@ -13,8 +13,8 @@ namespace facetmill {
 
 namespace {
 
-/// What stays of the elements of a domain: the old index of each that stays, and the new index of each old
-/// one.
+/// The remaining elements of a domain: the old index of each remaining element, and the new index of each
+/// old element.
 struct Survivors {
     std::vector<Index> old, renumbered;
 };
@@ -61,7 +61,7 @@ std::vector<Index> used(std::size_t n, const std::vector<Index>& indices) {
 
 namespace {
 
-/// flags: 1 for the wedges that stay, those of all faces and lines among them.
+/// flags: 1 for the wedges that stay, including the wedges of all faces and lines.
 void keep_wedges(Mesh& mesh, std::vector<Index> flags) {
     const Survivors wedges = survivors(std::move(flags));
     if (wedges.old.size() != mesh.wedge_count()) {
@@ -109,8 +109,8 @@ struct HashedVertex {
     std::uint32_t hash; ///< low bits choose the bucket, the others the slot in it
 };
 
-/// What is not a number equals nothing, so that many with one hash would each be compared with all before:
-/// the index keeps them apart.
+/// NaN equals nothing, so many NaN with one hash would each be compared with all earlier. The index
+/// separates them.
 std::uint32_t position_hash(const Vec3& p, std::size_t v) {
     if (!(p == p)) return static_cast<std::uint32_t>(place_hash(v, 0, 0));
     return static_cast<std::uint32_t>(place_hash(p));
@@ -120,9 +120,9 @@ constexpr int bucket_bits = 11; // one pass of the radix sort
 
 constexpr std::size_t few = 4096; // vertices that are one bucket: buckets cost more than they save
 
-/// Which of many hashes came more than once, and a few of the others: a bit for each of 16 times as many
-/// hashes as there are (a Bloom filter with one function, after B. H. Bloom, "Space/time trade-offs in hash
-/// coding with allowable errors", 1970). All threads may add.
+/// Finds the hashes that occur more than once, plus a few others: a bit for each of 16 times as many hashes
+/// as exist (a Bloom filter with one function, after B. H. Bloom, "Space/time trade-offs in hash coding with
+/// allowable errors", 1970). All threads may add.
 class Repeated {
   public:
     explicit Repeated(std::size_t hashes)
@@ -145,7 +145,7 @@ class Repeated {
     std::vector<std::uint64_t> once_, again_;
 };
 
-/// The vertices that have others at their place, in order, and a few more; all where there are few.
+/// The vertices that share their position with others, in order, and a few more; all if the mesh is small.
 std::vector<HashedVertex> doubtful_vertices(const std::vector<Vec3>& positions) {
     const std::size_t n = positions.size();
     if (n <= few) {
@@ -156,7 +156,7 @@ std::vector<HashedVertex> doubtful_vertices(const std::vector<Vec3>& positions) 
     std::vector<std::uint32_t> hashes(n);
     Repeated repeated(n);
     parallel_chunks(n, [&](std::size_t begin, std::size_t end) {
-        constexpr std::size_t block = 32; // whose bits are asked from memory before they are needed
+        constexpr std::size_t block = 32; // hashes whose bits are prefetched
         for (std::size_t at = begin; at < end; at += block) {
             const std::size_t last = std::min(at + block, end);
             for (std::size_t v = at; v < last; ++v) {
@@ -197,7 +197,7 @@ void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& 
 
 } // namespace
 
-/// Of those that may have others a hash makes buckets that fit the cache; each bucket is then one small hash
+/// Distributes these vertices by a hash to buckets that fit the cache; each bucket is then one small hash
 /// table. (Sorting by the coordinates took four times as long.)
 std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
     std::vector<HashedVertex> items = doubtful_vertices(positions);

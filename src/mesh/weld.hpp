@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices are at one place, for what does not merge them.
+// Finds coincident vertices, for algorithms that do not merge them.
 
 #include "mesh/mesh.hpp"
 

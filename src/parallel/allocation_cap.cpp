@@ -11,7 +11,7 @@ namespace {
 constinit thread_local std::size_t most_at_once = std::numeric_limits<std::size_t>::max();
 constinit thread_local std::size_t requests = 0;
 
-/// As the C++ library's own, but for the cap and the size of pages; null where it would throw.
+/// Like the C++ library's own, with the cap and the page size added; returns null where it would throw.
 void* requested(std::size_t bytes) noexcept {
     ++requests;
     if (bytes > most_at_once) return nullptr;

@@ -1,6 +1,6 @@
 #pragma once
-// A limit on single requests for memory, for libraries that take what a file asks for before they look
-// whether the file holds as much.
+// A limit on single memory requests, for libraries that allocate sizes from a file before they check the
+// file's length.
 
 #include <cstddef>
 

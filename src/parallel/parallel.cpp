@@ -17,18 +17,17 @@ namespace facetmill {
 
 namespace {
 
-/// Never destroyed: TBB may want a thread for that, and at the end of the process nobody could be told that
-/// there is none.
+/// Never destroyed: TBB may need a thread for the destruction, and a failure at the end of the process could
+/// not be reported.
 std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global_control>;
 int count = 0;
-/// Where more threads are wanted than there are cores: for loops of threads in TBB's own arenas, which have a
-/// thread for each core and no more. Never destroyed, as `control`.
+/// For more threads than cores: loops of threads in TBB's own arenas, which have only a thread for each
+/// core. Never destroyed, like `control`.
 std::unique_ptr<tbb::task_arena>& wide = *new std::unique_ptr<tbb::task_arena>;
 
-/// TBB begins with requests for memory under locks that it takes again to tell that there was none, and so
-/// would wait for itself for ever (oneTBB 2022). So its own allocator is asked before, without them, for
-/// pieces of the sizes that it takes, and the system for more than all of them; then it begins, and does not
-/// end.
+/// TBB first allocates memory under locks that it needs again to report a failure, which would deadlock
+/// (oneTBB 2022). So its allocator is tested first, without these locks, for pieces of its usual sizes, and
+/// the system for more than their total. TBB then starts, and does not end.
 void begin_tbb() {
     static tbb::task_arena* kept = nullptr;
     if (kept) return;
@@ -69,8 +68,8 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
         if (n > 0) call(body, 0, n);
         return;
     }
-    // An error in a loop around this one does not end this one early, or its caller would go on with what
-    // only some chunks have made.
+    // An error in an enclosing loop must not end this loop early, or its caller would continue with the
+    // result of only some chunks.
     tbb::task_group_context whole(tbb::task_group_context::isolated);
     const auto run = [&](auto&& one) {
         const auto loop = [&] {
@@ -81,7 +80,8 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
     const auto work = [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); };
     const ProgressScope::Range place = ProgressScope::of_loop();
     if (!place.to) return run(work);
-    const auto caller = std::this_thread::get_id(); // it alone tells, so never less than before
+    const auto caller =
+        std::this_thread::get_id(); // only the calling thread reports, so progress never falls
     std::atomic<std::size_t> done = 0;
     {
         const ProgressScope silent(nullptr); // for what the chunks do

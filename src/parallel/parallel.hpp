@@ -17,7 +17,7 @@
 
 namespace facetmill {
 
-/// Sets how many threads everything uses from now on; 0: all cores. Call it once, at the start. Throws
+/// Sets the number of threads for everything from now on; 0: all cores. Call it once, at the start. Throws
 /// std::bad_alloc when there is no room for the scheduler.
 void set_threads(int count);
 int threads();
@@ -67,12 +67,12 @@ T exclusive_scan(std::vector<T>& counts) {
     return sum;
 }
 
-/// A key, and where its item stands.
+/// A key, and the index of its item.
 struct KeyedPlace {
     std::uint64_t key;
     std::uint32_t place;
 };
-/// By key, and what has the same by place: the part of radix_sort that is compiled once.
+/// Sorts by key, equal keys by index: the part of radix_sort that is compiled once.
 void sort_few(std::span<KeyedPlace> places);
 
 /// Sorts items by a 64-bit key (key(item), below 2^key_bits), stable: parallel radix sort; few are compared.

@@ -5,10 +5,10 @@
 
 namespace facetmill {
 
-/// The filter's two thresholds, for those who have the products at hand. The sign of left - right, the
-/// products of rounded differences, is sure when |left - right| exceeds orientation_error * (|left| +
-/// |right|), Shewchuk's (3 + 16 e) e with e = 2^-53, and also orientation_smallest, below which products may
-/// have lost bits.
+/// The filter's two thresholds, for callers that already have the products. The sign of left - right, the
+/// products of rounded differences, is certain when |left - right| exceeds two bounds. The first is
+/// orientation_error * (|left| + |right|), Shewchuk's (3 + 16 e) e with e = 2^-53. The second is
+/// orientation_smallest, below which products may have lost bits.
 inline constexpr double orientation_error = 3.3306690738754716e-16;
 inline constexpr double orientation_smallest = 1e-290;
 
@@ -18,18 +18,16 @@ inline constexpr double orientation_smallest = 1e-290;
 /// would overflow or underflow.
 int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
 
-/// True when the three points lie on one line (or two coincide), exactly: all three of their axis projections
-/// do.
+/// True when the three points are collinear (or two coincide), exactly: their three axis projections are.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// True when the three points have one coordinate along axis k: all of their plane is there.
+/// True when the three points have the same coordinate along axis k, so their plane is perpendicular to it.
 constexpr bool is_level(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t k) {
     return a[k] == b[k] && b[k] == c[k];
 }
 
-/// On which side of the plane through a, b, c the point d lies: 1 when on the side that (b - a) x (c - a)
-/// points to, -1 on the other, 0 on the plane. Exact for finite coordinates of any size, decided like
-/// orientation_2d.
+/// The side of the plane through a, b, c that contains d: 1 for the side that (b - a) x (c - a) points to,
+/// -1 for the other, 0 on the plane. Exact for finite coordinates of any size, decided like orientation_2d.
 int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 } // namespace facetmill

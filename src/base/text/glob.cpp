@@ -12,8 +12,8 @@ bool is_glob(std::string_view text) { return text.find_first_of("*?[") != std::s
 
 namespace {
 
-/// Matches one character against the pattern's next unit (no star) and says how long that unit is; none: no
-/// match.
+/// Matches one character against the pattern's next unit (no star). Returns the length of the unit, or none
+/// without a match.
 std::optional<std::size_t> matched_unit(std::string_view pattern, char c) {
     if (pattern.empty()) return {};
     if (pattern[0] == '?') return 1;

@@ -17,10 +17,10 @@ bool glob_matches(std::string_view pattern, std::string_view text);
 /// Whether a path is one that a pattern names: component by component, ** being any number of them.
 bool glob_matches_path(const std::filesystem::path& pattern, const std::filesystem::path& path);
 
-/// The files that a path with patterns in any of its components names, sorted by their bytes; ** stands for
-/// any number of directories, and at the end for all files below. Hidden files only match a pattern that
-/// starts with a dot. A path without patterns is itself, whether it exists or not, and so is the name of a
-/// file that is there ("[a].ply").
+/// The files that match a path with patterns in any of its components, sorted by their bytes. ** matches any
+/// number of directories, and at the end all files below. Hidden files only match a pattern that starts with
+/// a dot. A path without patterns returns itself, whether it exists or not, and so does the name of an
+/// existing file ("[a].ply").
 std::vector<std::filesystem::path> expand_glob(const std::filesystem::path& pattern);
 
 } // namespace facetmill

@@ -10,16 +10,16 @@ namespace facetmill {
 /// cannot hold, become U+FFFD, each.
 std::string escaped(std::string_view text);
 
-/// A name or a path as escaped() has it, which may be broken behind slashes and underscores, where browsers
-/// would rather break a word.
+/// A name or a path, escaped, with line breaks allowed after slashes and underscores, because browsers would
+/// otherwise break words.
 std::string escaped_path(std::string_view path);
 
-/// The text in a paragraph or a cell of Markdown (GitHub's), where nothing of it is markup: in one line,
-/// characters of Markdown behind a backslash, those of HTML as escaped() has them.
+/// Escapes the text for a paragraph or a cell of Markdown (GitHub's), so that none of it is markup: on one
+/// line, with a backslash before Markdown characters, and HTML characters as in escaped().
 std::string markdown_escaped(std::string_view text);
 
-/// The text for a terminal, which would take control characters (of a mesh's names, of a source's line) for
-/// commands: each becomes '?', but for line ends and tabs; those of UTF-8 (C1) and bytes that are none, too.
+/// Makes the text safe for a terminal, which would interpret control characters (in a mesh's names, or a
+/// source line). Each becomes '?', except line ends and tabs; so do C1 controls and invalid UTF-8.
 std::string for_terminal(std::string_view text);
 
 /// A text for a terminal: all that is added is as for_terminal() has it, and some may have a colour.

@@ -1,17 +1,17 @@
 #pragma once
-// What headings call files, of which the whole path has no room there.
+// Short names of files for headings, where the whole path does not fit.
 
 #include <string>
 #include <utility>
 
 namespace facetmill {
 
-/// The last component of a path, also of a folder's with a slash behind it; "standard input" for "-".
+/// The last component of a path, ignoring a trailing slash; "standard input" for "-".
 std::string short_name(const std::string& path);
 
-/// The shortest names that tell two files or folders apart: their last components, or, where these are the
-/// same, the last ones that differ before them: "old/.../a.glb" and "new/.../a.glb". One file twice has one
-/// name.
+/// The shortest names that distinguish two files or folders: their last components or, if these are equal,
+/// the last differing components before them: "old/.../a.glb" and "new/.../a.glb". The same file twice has
+/// one name.
 std::pair<std::string, std::string> short_names(const std::string& a, const std::string& b);
 
 } // namespace facetmill

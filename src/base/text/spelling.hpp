@@ -7,9 +7,9 @@
 
 namespace facetmill {
 
-/// A to Z as a to z; other bytes stay, so that UTF-8 stays what it is.
+/// Lower-cases A to Z; other bytes stay, so that UTF-8 stays valid.
 std::string lower_case(std::string text);
-/// Whether the texts are equal but for the case of A to Z.
+/// Whether the texts are equal, ignoring the case of A to Z.
 bool same_word(std::string_view a, std::string_view b);
 
 /// The number of single-character insertions, deletions, replacements and swaps of neighbours between a and

@@ -1,5 +1,5 @@
 #pragma once
-// Small matters of text that is read, or told.
+// Text helpers.
 
 #include <cstddef>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-/// The noun for so many: "face" for 1, else its plural, which is the noun and an s unless given.
+/// The noun for this count: "face" for 1, else its plural, by default the noun and an s.
 inline std::string noun_for(std::size_t count, std::string_view noun, std::string_view plural = {}) {
     if (count == 1) return std::string(noun);
     return plural.empty() ? std::string(noun) + "s" : std::string(plural);
@@ -20,7 +20,7 @@ inline std::string counted(std::size_t count, std::string_view noun, std::string
     return fmt::format("{} {}", count, noun_for(count, noun, plural));
 }
 
-/// The text behind the mark of UTF-8 that some editors put at its beginning.
+/// The text without the UTF-8 byte order mark that some editors add.
 inline std::string_view without_byte_order_mark(std::string_view text) {
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     return text.starts_with(mark) ? text.substr(mark.size()) : text;
@@ -29,15 +29,14 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// What stands between commas, without blanks around it: "a, b" is a and b. Two commas have an empty item
-/// between them, as have a comma and an end, so that who reads the items can refuse it; a blank text has
-/// none.
+/// The texts between commas, without blanks around them: "a, b" is a and b. Two commas enclose an empty
+/// item, and so do a comma and an end, so that the caller can refuse it; a blank text has no items.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Adds an item to a list in text; an empty one adds nothing.
 void append_item(std::string& list, std::string_view item, std::string_view between = ", ");
 
-/// The items that are not empty, one after the other.
+/// Joins the items that are not empty.
 std::string join_texts(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 /// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).

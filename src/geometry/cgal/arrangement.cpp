@@ -52,7 +52,7 @@ bool passes_through(const Quick::Point_3& a, const Quick::Point_3& b, const Corn
     return !(left && right);
 }
 
-/// Where triangles of different planes meet, and which are of one plane.
+/// Finds the intersections of triangles in different planes, and groups coplanar triangles.
 class Meetings {
   public:
     Meetings(const TriangleSoup& soup, ExactNodes& nodes)
@@ -103,14 +103,14 @@ class Meetings {
         SideCrossing crossing() const { return {low, high, triangle}; }
     };
 
-    /// What two triangles have in common.
+    /// The intersection of two triangles.
     struct Meeting {
         bool coplanar = false;
-        std::vector<End> ends;                     ///< of a point or a segment on both, each maybe twice
+        std::vector<End> ends;                     ///< ends of the common point or segment, each maybe twice
         std::array<std::vector<Index>, 2> corners; ///< of the one on the other: where one has no area
     };
 
-    /// Pairs are looked at in parallel; what they come to is told in their order.
+    /// Pairs are intersected in parallel; the results are applied in their order.
     void find_all() {
         std::vector<Meeting> meetings(soup_.pairs.size());
         parallel_for(
@@ -146,7 +146,7 @@ class Meetings {
         return found;
     }
 
-    /// The ends of what the sides of s have in common with t.
+    /// The ends of the intersection of the sides of s with t.
     void collect(Index s, const Corners& a, const std::array<int, 3>& side, Index t, const Corners& b,
                  std::vector<End>& found) const {
         const auto& nodes = soup_.triangles[s];
@@ -208,7 +208,7 @@ class Meetings {
     const TriangleSoup& soup_;
     ExactNodes& nodes_;
     std::vector<Index> place_of_; ///< of triangles in cut
-    DisjointSets sets_;           ///< of one plane; by place in cut, as are:
+    DisjointSets sets_;           ///< of coplanar triangles; by index in cut, as are:
     std::vector<std::vector<Index>> points_;
     std::vector<std::vector<Segment>> segments_;
     std::vector<std::uint8_t> flat_; ///< without area
@@ -237,9 +237,8 @@ std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group
     return count;
 }
 
-/// On which sides of a few boxes, which are long along an axis, points are: two bits for each box and each of
-/// its two other axes. Those of one axis, from a table over places along it, so that a point is compared with
-/// a box only where they are near.
+/// Classifies points against a few boxes, each long along an axis: two bits for each box and each of its two
+/// other axes. A table over positions along the axis limits comparisons to boxes near the point.
 class SlabsAlong {
   public:
     /// places: by the axis that boxes are long along.
@@ -275,7 +274,7 @@ class SlabsAlong {
         std::size_t bit;
     };
 
-    /// Never lower for what is higher.
+    /// Monotone: never lower for a higher x.
     std::size_t cell(double x) const {
         const double at = (x - low_) * scale_;
         return at < 1 ? 0 : at < static_cast<double>(cells) ? static_cast<std::size_t>(at) : cells - 1;
@@ -307,7 +306,7 @@ std::vector<T> appended(std::vector<T> all, const std::vector<T>& more) {
     return all;
 }
 
-/// Of what a ray along any axis can hit of a box, the sum over the axes.
+/// The sum over the axes of the box area that a ray along an axis can hit.
 double half_area(const Box& box) {
     const Vec3 size = box.max - box.min;
     return size.x * size.y + size.y * size.z + size.z * size.x;
@@ -366,8 +365,9 @@ struct Arrangement::Own {
         return box;
     }
 
-    /// Appends the triangles from begin to end as one run, or as several where its box would be much larger
-    /// than theirs together, and hold rays that pass between them. The box of all.
+    /// Appends the triangles from begin to end as one run. Splits them into several runs if their common box
+    /// would be much larger than their boxes together, because rays would enter it in vain. Returns the box
+    /// of all.
     Box add_runs(Index begin, Index end, std::vector<Run>& all) const {
         if (end - begin == 1) return all.emplace_back(Run{box_of(begin), begin, end}).box;
         const std::size_t before = all.size();
@@ -399,9 +399,9 @@ struct Arrangement::Own {
 
     using Pairs = std::vector<std::pair<Index, Index>>; ///< (triangle, box)
 
-    /// The triangles whose boxes meet any of these, each with its place; those of one place ascend. Four bits
-    /// of each point tell on which sides of a box it is, along the axes that the box is not long on: so the
-    /// points are compared, and of a triangle only bits.
+    /// The triangles whose boxes meet any of these boxes, each with the index of its box; ascending for each
+    /// index. Four bits of each point classify it against a box, along the axes that the box is not long on.
+    /// So only points are compared, and triangles combine bits.
     Pairs meetings_of_few(const std::array<std::vector<Index>, 3>& places,
                           const std::vector<Box>& boxes) const {
         const std::vector<std::uint64_t> beside = beside_boxes(soup.points, places, boxes, bounds);
@@ -426,7 +426,7 @@ struct Arrangement::Own {
 
     /// The same. Boxes that are long the same way are of one tree.
     Pairs meetings(const std::array<std::vector<Index>, 3>& places, const std::vector<Box>& boxes) const {
-        constexpr std::size_t few = 16; // as many boxes as there are four bits for in a number of 64
+        constexpr std::size_t few = 16; // four bits for each box fit into 64 bits
         if (boxes.size() <= few) return meetings_of_few(places, boxes);
         const std::vector<Run> runs = runs_of_all();
         std::vector<BoxTree> trees;
@@ -481,11 +481,11 @@ using Point = ExactNodes::Point;
 /// one after.
 struct Ray {
     Point from;
-    Box around; ///< from, as nearly as its doubles tell
+    Box around; ///< bounds of `from` in doubles
     int axis;
     bool forward;
 
-    /// Which side of the line from a to b the ray is on, seen along the axis.
+    /// The side of the line from a to b that contains the ray, seen along the axis.
     int side(const Vec3& a, const Vec3& b) const {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
@@ -497,8 +497,8 @@ struct Ray {
         return a[i] < b[i] ? 1 : a[i] > b[i] ? -1 : 0;
     }
 
-    /// The side by rounded numbers, or 0 where those do not decide it: products of differences are off by
-    /// less than 1e-15 of themselves, `from` by no more than the box around it is long.
+    /// The side by rounded numbers, or 0 if they do not decide it: products of differences have a relative
+    /// error below 1e-15, and `from` is off by at most the size of its bounding box.
     int sure_side(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) const {
         const double x = b[i] - a[i], y = b[j] - a[j];
         const double left = x * (around.min[j] - a[j]), right = y * (around.min[i] - a[i]);

@@ -1,6 +1,6 @@
 #pragma once
-// Triangles cut along each other, exactly, and what lies around the pieces. Free of CGAL, which does the work
-// behind it.
+// Cuts triangles along each other, exactly, and finds the neighbourhood of the pieces. This header does not
+// include CGAL, which does the work.
 
 #include "mesh/mesh.hpp"
 
@@ -12,19 +12,19 @@
 
 namespace facetmill {
 
-/// Triangles between points, and those of them that are to be cut.
+/// Triangles between points, and the subset to cut.
 struct TriangleSoup {
     std::vector<Vec3> points;
     std::vector<std::array<Index, 3>> triangles; ///< into points
     std::vector<Index> cut;                      ///< triangles, ascending
-    std::vector<std::pair<Index, Index>> pairs;  ///< of those, that may meet elsewhere than in shared points
+    std::vector<std::pair<Index, Index>> pairs;  ///< pairs to cut that may meet other than in shared points
     /// As many pairs, and crossings of lines in a plane, are worth trying.
     std::size_t max_pairs = 1'000'000, max_crossings = 2'000'000;
 };
 
 /// After Q. Zhou, E. Grinspun, D. Zorin and A. Jacobson, "Mesh arrangements for solid geometry" (2016). The
-/// nodes are the points, then those where triangles meet; all are kept exactly. Triangles of one plane that
-/// overlap are cut together, so that what they have in common is there once.
+/// nodes are the points, followed by the intersections of triangles; all are kept exactly. Overlapping
+/// coplanar triangles are cut together, so that their common area exists once.
 class Arrangement {
   public:
     /// A triangle that a piece is part of; sign is 1 when both turn the same way, else -1.
@@ -37,8 +37,8 @@ class Arrangement {
         std::vector<Source> sources; ///< by triangle
     };
 
-    /// Requires finite points; points at one place that triangles to be cut use must be one. Triangles to be
-    /// cut that have no area have no pieces; their points are put on the other triangles of their pairs.
+    /// Requires finite points; coincident points used by triangles to cut must be merged. Triangles to cut
+    /// without area have no pieces; their points are inserted into the other triangles of their pairs.
     explicit Arrangement(TriangleSoup soup);
     ~Arrangement();
 
@@ -50,8 +50,8 @@ class Arrangement {
     /// The node, rounded: exactly the point where it is one.
     Vec3 position(Index node) const;
     std::size_t node_count() const;
-    /// The side of the triangle (0: from its first corner to its second) that a node, no corner of it, lies
-    /// on; none for nodes inside.
+    /// The side of the triangle (0: from its first corner to its second) that contains a node other than its
+    /// corners; none for nodes inside.
     std::optional<int> side_of(Index triangle, Index node) const;
 
     /// A part of a plane, between nodes. Seen from where the triangle, which is of the plane and has area,
@@ -77,9 +77,9 @@ class Arrangement {
         /// when it enters.
         std::vector<Source> hits;
     };
-    /// What each of the rays sees. Edges and vertices count once (see `passes` of geometry/spatial/rays.hpp).
-    /// Exact, as long as no other triangle holds the centre. All triangles are gone through once, so many
-    /// rays at a time cost little more than one.
+    /// The first hit of each ray. Edges and vertices count once (see `passes` of geometry/spatial/rays.hpp).
+    /// Exact, as long as no other triangle contains the centre. All triangles are visited once, so many rays
+    /// cost little more than a single ray.
     std::vector<Seen> look_ahead(const std::vector<Look>& looks) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
-// A patch over a hole made as dense and as curved as what is around it. Free of CGAL, which does the work
-// behind it.
+// Patches a hole with the density and curvature of its surroundings. This header does not include CGAL,
+// which does the work.
 
 #include "mesh/mesh.hpp"
 

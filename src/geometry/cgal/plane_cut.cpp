@@ -70,7 +70,7 @@ class Frame {
 
     Point3 origin_;
     ExactKernel::Vector_3 normal_;
-    bool is_level_ = false; ///< the plane stands across the axis
+    bool is_level_ = false; ///< the plane is perpendicular to the axis
     int drop_ = 2, u_ = 0, v_ = 1;
 };
 
@@ -147,7 +147,7 @@ class QuickCutter {
         cut_.points.push_back(view_.flat(p));
         cut_.sides.push_back(sides);
     }
-    /// Those that the node is on. It is in the triangle.
+    /// The sides that contain the node, which must be in the triangle.
     std::uint8_t sides_of(Index node) const {
         const SideCrossing made = nodes_.crossing_of(node);
         unsigned found = 0;
@@ -173,7 +173,7 @@ class QuickCutter {
     }
     bool is_left(Index a, Index b, Index c) const { return turns_left(exact(a), exact(b), exact(c)); }
 
-    /// However many points there are.
+    /// For any number of points.
     std::optional<FlatTriangles> filled() const {
         auto border = polygon::certain_border(cut_);
         if (!border) return {};
@@ -242,7 +242,7 @@ class QuickCutter {
     std::vector<Crossing> crossings_;             ///< its points behind those, until they are named
 };
 
-/// Cuts one group in three steps, of which only the second changes what others use.
+/// Cuts one group in three steps. Only the second changes shared data.
 class Cutter {
   public:
     /// The first: triangulates.
@@ -314,7 +314,7 @@ class Cutter {
         return f->vertex(Triangulation::ccw(i)) == p ? f : f->neighbor(i);
     }
 
-    /// Tells the faces within triangle t that they are part of it.
+    /// Assigns the faces within triangle t to it.
     void spread(Index t, SideList& sides) const {
         const auto& corners = soup_.triangles[t];
         const auto flat = [&](std::size_t i) { return vertices_.at(corners[i])->point(); };
@@ -359,7 +359,7 @@ class Cutter {
     const ExactNodes& nodes_;
     Frame frame_;
     Triangulation t_;
-    std::map<Index, Vertex> vertices_; ///< of the nodes that were given
+    std::map<Index, Vertex> vertices_; ///< of the given nodes
     std::map<std::pair<Index, Index>, Constraint> constraints_;
 };
 
@@ -371,7 +371,7 @@ void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& grou
     for (std::size_t begin = 0; begin < groups.size(); begin += together) {
         const std::size_t count = std::min(together, groups.size() - begin);
         std::vector<std::unique_ptr<QuickCutter>> quick(count);
-        std::vector<std::unique_ptr<Cutter>> cutters(count); // of the others
+        std::vector<std::unique_ptr<Cutter>> cutters(count); // of the other groups
         std::vector<Pieces> of_each(count);
         std::vector<SideList> sides_of_each(count);
         parallel_for(

@@ -23,7 +23,7 @@
 
 namespace facetmill {
 
-/// Of pairs and triples of numbers.
+/// A hash of pairs and triples of numbers.
 struct HashOfIndices {
     template <class Indices>
     std::size_t operator()(const Indices& indices) const {
@@ -35,7 +35,7 @@ struct HashOfIndices {
 
 using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 
-/// Where the side from one point to another passes through the plane of a triangle.
+/// The intersection of the side between two points and the plane of a triangle.
 struct SideCrossing {
     Index low = none, high = none, triangle = none;
 };
@@ -43,8 +43,8 @@ struct SideCrossing {
 /// Three triangles, ascending, whose planes have one point in common.
 using PlaneTriple = std::array<Index, 3>;
 
-/// Given points, then points that were made. Of those where sides cross triangles, or three
-/// planes meet, the exact point is made when it is asked for: for most, all is decided by their doubles.
+/// Given points, followed by constructed points. Where sides cross triangles, or three planes meet, the
+/// exact point is computed on request, because for most points their doubles decide all questions.
 class ExactNodes {
   public:
     using Point = ExactKernel::Point_3;
@@ -58,10 +58,10 @@ class ExactNodes {
             if (other == point) return;
         here.push_back(point);
     }
-    /// Where p is, rounded: of a lazy number alone, its double depends on what was asked before.
+    /// The rounded position of p. The double of a lazy number alone would depend on earlier computations.
     static Vec3 place_of(const Point& p) { return {nearest(p.x()), nearest(p.y()), nearest(p.z())}; }
     Index find_or_add(const Point& p) { return find_or_add(SideCrossing{}, p, place_of(p)); }
-    /// The point of a crossing, which need not have been made, at its place.
+    /// The point of a crossing at its position; the exact point may be missing.
     Index find_or_add(const SideCrossing& crossing, std::optional<Point> p, const Vec3& place) {
         auto& here = at_place_[place_hash(place)];
         for (const Index other : here) {
@@ -98,7 +98,7 @@ class ExactNodes {
         const ExactKernel::FT whole = normal[0] * CGAL::cross_product(normal[1], normal[2]);
         std::array<ExactKernel::FT, 3> x{origin.x() + way.x() / whole, origin.y() + way.y() / whole,
                                          origin.z() + way.z() / whole};
-        for (const Index t : planes) // of a plane across an axis no number needs to be computed
+        for (const Index t : planes) // for a plane across an axis no number needs to be computed
             for (std::size_t k = 0; k < 3; ++k)
                 if (const auto there = level(t, k)) x[k] = *there;
         return {x[0], x[1], x[2]};
@@ -122,7 +122,7 @@ class ExactNodes {
         const ExactKernel::FT above = normal * (p - o), below = normal * (q - o);
         return p + (above / (above - below)) * (q - p);
     }
-    /// What a node was made as; nothing of given points and others.
+    /// The crossing that made a node; empty for given points and others.
     SideCrossing crossing_of(Index node) const {
         return node < points_.size() ? SideCrossing{} : made_[node - points_.size()].crossing;
     }
@@ -145,7 +145,7 @@ class ExactNodes {
             : crossing(other.crossing), planes(other.planes), point(std::move(other.point)) {}
         SideCrossing crossing;
         PlaneTriple planes;          ///< or none
-        mutable std::once_flag once; // asked for by several threads
+        mutable std::once_flag once; // several threads may request it
         mutable std::optional<Point> point;
     };
     const Point& point_of(const Made& made) const {
@@ -164,7 +164,7 @@ class ExactNodes {
         return node;
     }
 
-    /// Where a line along an axis passes through a plane across it: no number needs to be computed.
+    /// The intersection of a line along an axis and a plane across it: no number needs to be computed.
     std::optional<Point> plain_point_of(const SideCrossing& crossing) const {
         if (std::max(crossing.low, crossing.high) >= points_.size()) return {};
         const Vec3 &p = points_[crossing.low], &q = points_[crossing.high];
@@ -188,20 +188,20 @@ class ExactNodes {
     std::unordered_map<PlaneTriple, Index, HashOfIndices> of_planes_;
 };
 
-/// Between nodes, in a triangle, and the triangle across that it comes from, or one of them.
+/// A segment between nodes, in a triangle, and one of the crossing triangles that cause it.
 struct Segment {
     Index from, to, across;
     auto operator<=>(const Segment&) const = default;
 };
 
-/// What is to be cut: triangles in one plane, with area, that overlap or are one.
+/// The input of a cut: triangles in one plane, with area, that overlap or coincide.
 struct PlaneGroup {
     std::vector<Index> triangles;
     std::vector<Index> points; ///< nodes in the triangles
     std::vector<Segment> segments;
 };
 
-/// (triangle, node) -> the side of the triangle that the node is on.
+/// (triangle, node) -> the side of the triangle that contains the node.
 using SidesOfNodes = std::unordered_map<std::pair<Index, Index>, int, HashOfIndices>;
 
 /// Appends the pieces, group by group, by constrained triangulations with exact intersections, whose points

@@ -20,7 +20,7 @@ struct PlaneView {
 
 /// The axes, from the one along which a plane is seen best by its normal as doubles.
 std::array<std::size_t, 3> axes_by(const Vec3& rough_normal);
-/// Of the plane of a triangle with area.
+/// The view of the plane of a triangle with area.
 PlaneView view_of(const std::array<Vec3, 3>& corners);
 
 /// A region between points of the plane.
@@ -39,20 +39,20 @@ inline bool turns_left(const ExactKernel::Point_2& a, const ExactKernel::Point_2
 
 using FlatTriangles = std::vector<std::array<Index, 3>>;
 
-/// The constrained Delaunay triangulation of the region, all of whose points are in it or on its border, by
-/// rounded coordinates. That it is one for the true coordinates is proved by signs that doubles are sure of,
-/// or, for the few triangles where they are not, by what `is_left` says of their corners; else none, which
-/// says nothing. However they are found, this makes them right: they turn left; their edges pair up but for
-/// those of the border, so that they cover the region once; each line is an edge, and each point a corner.
+/// The constrained Delaunay triangulation of the region, whose points must all be in it or on its border, by
+/// rounded coordinates. The result is then proved for the true coordinates by certain signs of doubles, or
+/// by `is_left` for the few uncertain triangles. Returns none if the proof fails, which implies nothing
+/// about the region. The proof: all triangles turn left. Their edges pair up except border edges, so that
+/// they cover the region once. Each line is an edge, and each point a corner.
 std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
                                             const std::function<bool(Index, Index, Index)>& is_left);
 
-/// Likewise by exact numbers: points are in the place of the region's. None only where the border does not
-/// close, or what should not cross does.
+/// Likewise by exact numbers: `points` replace the region's points. Returns none only if the border does not
+/// close, or lines cross that must not.
 std::optional<FlatTriangles> exact_filling(const FlatRegion& region,
                                            const std::vector<ExactKernel::Point_2>& points);
 
-/// Likewise of a region of the arrangement; corners are nodes. Where doubles prove nothing, by exact numbers.
+/// Likewise for a region of the arrangement; corners are nodes. Uses exact numbers if doubles prove nothing.
 std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangement::Region& region);
 
 } // namespace facetmill

@@ -61,7 +61,7 @@ bool meet(const Corners& a, const Corners& b, int shared) {
 
 } // namespace
 
-/// The triangles to test, those of a polygon one by one.
+/// The triangles to test; a polygon gives several.
 class SelfIntersectionSearch::Search {
     struct Facet {
         std::array<Index, 3> vertices;
@@ -70,7 +70,7 @@ class SelfIntersectionSearch::Search {
 
     using Pairs = std::vector<std::pair<Index, Index>>;
 
-    /// The first pairs of many, and how many there are.
+    /// The first of many pairs, and their total number.
     struct First {
         std::size_t count = 0;
         Pairs pairs;
@@ -86,7 +86,7 @@ class SelfIntersectionSearch::Search {
             pairs.insert(pairs.end(), others.pairs.begin(), others.pairs.end());
             trim(limit);
         }
-        /// keep(limit) once there are twice as many, so that it costs little for each.
+        /// Calls keep(limit) once the list is twice as long, so that the cost per pair is small.
         void trim(std::size_t limit) {
             if (pairs.size() / 2 >= limit && pairs.size() >= 4096) keep(limit);
         }
@@ -116,7 +116,7 @@ class SelfIntersectionSearch::Search {
     const Box& frame() const { return pairs_.all(); }
     void choose(const std::vector<std::uint8_t>& among) { pairs_.choose(of_triangles(among)); }
 
-    /// As the vertices are now: those given, or, before all neighbours are looked at, those there are.
+    /// Uses the given plain stars, or computes the current ones before all neighbours are tested.
     void set_plain_stars(const SelfIntersectionSettings& settings) {
         if (!settings.stars.empty())
             plain_ = settings.stars;
@@ -184,7 +184,7 @@ class SelfIntersectionSearch::Search {
             });
         in_order(all.real, polygons);
         in_order(all.touching, polygons);
-        if (polygons) { // what runs into another in one triangle may touch it in others
+        if (polygons) { // a pair that intersects in one triangle may touch in others
             const Pairs touch = std::move(all.touching.pairs);
             all.touching.pairs.clear();
             std::set_difference(touch.begin(), touch.end(), all.real.pairs.begin(), all.real.pairs.end(),
@@ -219,7 +219,7 @@ class SelfIntersectionSearch::Search {
     }
 
   private:
-    /// The boxes, after those of the triangles that are flagged, or of all where none are given, are renewed.
+    /// Updates the boxes of the flagged triangles, or of all if no flags are given, and returns all boxes.
     std::span<const Box> with_boxes(const std::vector<std::uint8_t>& moved) {
         boxes_.resize(surface_.size());
         parallel_for(boxes_.size(), [&](std::size_t t) {
@@ -243,7 +243,7 @@ class SelfIntersectionSearch::Search {
         });
     }
 
-    /// Of triangles, from that of faces.
+    /// Converts face flags to triangle flags.
     std::vector<std::uint8_t> of_triangles(const std::vector<std::uint8_t>& among) const {
         if (among.empty() || surface_.faces.empty()) return among;
         std::vector<std::uint8_t> flags(surface_.size());
@@ -266,7 +266,8 @@ class SelfIntersectionSearch::Search {
     int facets_meet(const Facet& s, const Facet& t) const {
         return facets_meet(s, t, [] { return false; });
     }
-    /// As if they did not meet when passes(), which is asked only where signs of doubles leave it open.
+    /// Treats facets as disjoint when passes() holds, which is called only if the signs of doubles leave it
+    /// open.
     template <class Passes>
     int facets_meet(const Facet& s, const Facet& t, Passes&& passes) const {
         if (s.face == t.face) return -1;

@@ -23,7 +23,7 @@ struct FaceInfo {
     bool known = false;
 };
 
-/// The triangulation over a kernel, and what to call its parts.
+/// The triangulation over a kernel, and names of its parts.
 template <class K, class Intersections>
 struct Types {
     using Kernel = K;
@@ -38,10 +38,10 @@ struct Types {
     using Constraint = typename Triangulation::Constraint_id;
 };
 
-/// Rounds the points where edges cross: fast, and right but for edges that cross so near to others that the
-/// rounded point lies on their wrong side; CGAL then loses an edge.
+/// Rounds the crossings of edges. Fast, and correct unless edges cross so near to other edges that the
+/// rounded point is on the wrong side; CGAL then loses an edge.
 using Rounded = Types<CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Exact_predicates_tag>;
-/// Keeps those points exact. Right always, and several times slower.
+/// Keeps crossings exact: always correct, and several times slower.
 using Exact = Types<CGAL::Exact_predicates_exact_constructions_kernel, CGAL::Exact_intersections_tag>;
 
 std::vector<Index> lowest_at_same_place(const std::vector<Vec2>& points) {
@@ -86,8 +86,8 @@ class Filler {
   public:
     explicit Filler(const Contours& contours) : in_(contours) {}
 
-    /// None when rounding lost an edge, put a crossing beside its edges, or left the triangles with another
-    /// boundary.
+    /// Returns none if rounding lost an edge, moved a crossing off its edges, or changed the boundary of the
+    /// triangles.
     std::optional<Filling> run() {
         out_.same = lowest_at_same_place(in_.points);
         vertices_ = insert_points<T>(t_, in_.points, out_.same);
@@ -136,7 +136,8 @@ class Filler {
     static double rounded(double x) { return x; }
     template <class Number>
     static double rounded(const Number& x) {
-        return CGAL::to_double(CGAL::exact(x)); // of a lazy number alone, it depends on what was asked before
+        return CGAL::to_double(
+            CGAL::exact(x)); // the double of a lazy number alone would depend on earlier computations
     }
 
     double parameter(const Contours::Edge& e, const Vec2& at) const {
@@ -178,8 +179,8 @@ class Filler {
         }
     }
 
-    /// Whether a point on the path of an edge is farther from it than rounding its coordinates would put it:
-    /// where edges are almost parallel, rounded constructions are off by far more, and beyond its ends.
+    /// Whether a point on the path of an edge is farther from it than the rounding of its coordinates
+    /// explains. Rounded crossings of almost parallel edges are off by far more, and beyond the ends.
     bool is_beside(const Contours::Edge& edge, Index point) const {
         const Vec2 &a = in_.points[edge.from], &b = in_.points[edge.to],
                    p = point < in_.points.size() ? in_.points[point]
@@ -213,7 +214,7 @@ class Filler {
             for (int i = 0; i < 3; ++i) {
                 const Face g = f->neighbor(i);
                 if (g->info().known) continue;
-                // f lies left of the edge from a to b, and turns(left) - turns(right) is the count from a to
+                // f is left of the edge from a to b, and turns(left) - turns(right) is the count from a to
                 // b.
                 const Vertex a = f->vertex(Triangulation::ccw(i)), b = f->vertex(Triangulation::cw(i));
                 g->info() = {f->info().turns - count_along(a, b), true};

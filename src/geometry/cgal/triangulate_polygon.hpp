@@ -1,6 +1,6 @@
 #pragma once
-// Fills closed contours in the plane: any number of them, nested, touching, crossing or running along each
-// other. Free of CGAL, which does the work behind it.
+// Fills any number of closed contours in the plane: nested, touching, crossing or running along each other.
+// This header does not include CGAL, which does the work.
 
 #include "geometry/polygon/polygon.hpp"
 
@@ -22,21 +22,21 @@ struct Contours {
 struct Filling {
     struct Added {
         Vec2 at;
-        Index edge; ///< an edge that it lies on
+        Index edge; ///< an edge that contains it
         double t;   ///< where: 0 at its from, 1 at its to
     };
     /// Counter-clockwise; each once per turn that the contours make around it, reversed when they turn
     /// clockwise.
     std::vector<std::array<Index, 3>> triangles;
-    std::vector<Index> same;  ///< [points] the lowest point at the same place; triangles use only these
+    std::vector<Index> same;  ///< [points] the lowest point at the same position; triangles use only these
     std::vector<Added> added; ///< numbered after the points
     std::vector<Index> path_offsets; ///< [edges + 1] into path
     std::vector<Index> path; ///< the points strictly between the ends of each edge, from its from to its to
 };
 
-/// Constrained Delaunay triangulation with exact predicates. Requires finite coordinates. The boundary of the
-/// triangles is exactly the edges along their paths (points at one place counted as one), whatever the input.
-/// The same for the same input.
+/// Constrained Delaunay triangulation with exact predicates. Requires finite coordinates. The boundary of
+/// the triangles is exactly the edges along their paths (coincident points counted as merged), whatever the
+/// input. Deterministic.
 Filling fill(const Contours& contours);
 
 } // namespace facetmill

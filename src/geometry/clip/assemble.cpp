@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t block = 16384;
 
-/// Old elements that stay, and the new number of each; none for those that go.
+/// The remaining old elements, and the new number of each element; none if removed.
 struct Renumbering {
     std::vector<Index> kept, number;
 };
@@ -65,8 +65,8 @@ class Assembler {
     }
 
   private:
-    /// Elements on the kept side stay; those on the plane when a kept face has them. Of a cloud of points,
-    /// those on the plane are in front.
+    /// Elements on the kept side stay; elements on the plane stay if a kept face uses them. In a point
+    /// cloud, points on the plane are in front.
     void number_elements() {
         const bool cloud = from_.corner_count() == 0;
         std::vector<std::uint8_t> wedge_used, vertex_used;
@@ -117,8 +117,8 @@ class Assembler {
         return static_cast<Index>(vertices().kept.size() + (v - from_.vertex_count()));
     }
 
-    /// A cap with normals or coordinates of its own has a wedge at each of its vertices, made of what the
-    /// wall's is made of. In order of those, copies come before points on edges and these before mixes.
+    /// A cap with its own normals or coordinates has a wedge at each of its vertices, with the sources of
+    /// the wall's wedge. In this order copies come before points on edges, and these before mixes.
     void number_cap_wedges() {
         own_wedges_ = !cap_.corners.empty() && caps_have_own_wedges(from_);
         if (!own_wedges_) return;
@@ -132,7 +132,7 @@ class Assembler {
         }
     }
 
-    /// The number of a wedge of the cut; cap wedges of each kind stand behind the walls' of that kind.
+    /// The number of a wedge of the cut; cap wedges of each kind follow the wall wedges of that kind.
     Index new_wedge(Index w) const {
         if (w < from_.wedge_count()) return wedges_.number[w];
         if (w < cut_.first_extra_wedge())

@@ -68,7 +68,7 @@ CutSection find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
     return section;
 }
 
-/// Union-find over the vertices of a section, with the number of edges that leave minus those that arrive.
+/// Union-find over the vertices of a section, with the number of outgoing minus incoming edges.
 struct SectionGraph {
     std::vector<Index> vertices, root;
     std::vector<long long> balance;
@@ -99,8 +99,8 @@ struct SectionGraph {
     }
 };
 
-/// Removes contours that do not close (connected edges with a vertex where not as many arrive as leave), and
-/// says where they end, in order of their lowest vertex.
+/// Removes contours that do not close (connected edges with a vertex whose incoming and outgoing edges
+/// differ in number). Returns their ends, in order of their lowest vertex.
 std::vector<OpenEnd> drop_open_contours(CutSection& section, const PlaneCut& cut) {
     SectionGraph graph(section);
     std::vector<Index> number(graph.vertices.size(), none); // of the open contour with that root
@@ -170,7 +170,7 @@ class Capper {
         return i < local_.size() ? cut_.point(local_[i]) : cap_.extra.points[i - local_.size()];
     }
 
-    /// Appends to a mix what a wedge or vertex of the cut is made of.
+    /// Appends the sources of a wedge or vertex of the cut to a mix.
     static void add_sources(Provenance& mixes, Index id, std::size_t old,
                             const std::vector<Provenance::Edge>& fresh, double weight) {
         if (id < old) {
@@ -208,7 +208,7 @@ class Capper {
         return e == none ? std::span<const Index>{} : path(e);
     }
 
-    /// Gives the faces at divided section edges the points there too, so that no T-vertex is left.
+    /// Inserts the points of divided section edges into their faces, so that no T-vertex remains.
     void insert_into_walls() {
         if (filling_.path.empty()) return;
         Pieces whole;
@@ -269,7 +269,7 @@ class Capper {
         return at->second;
     }
 
-    /// A wall wedge for every vertex of the cap: the lowest there.
+    /// The lowest wall wedge at every vertex of the cap.
     void find_cap_wedges() {
         cap_.vertices = cap_.corners;
         sort_unique(cap_.vertices);

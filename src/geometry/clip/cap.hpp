@@ -1,5 +1,5 @@
 #pragma once
-// Caps: what closes a clipped mesh in the plane of the cut. For clip only.
+// Caps that close a clipped mesh in the plane of the cut. For clip only.
 
 #include "geometry/cut/cut.hpp"
 
@@ -27,9 +27,9 @@ struct Cap {
     std::vector<OpenEnd> open;
 };
 
-/// The cap of one side. pieces are that side's; points that the cap puts on their edges are inserted into
-/// them, and whole faces that get such points become pieces (class bit replaced in cut). When no contour is
-/// open, the kept faces, pieces and cap together have no boundary in the plane.
+/// The cap of one side. pieces are that side's pieces. Points that the cap puts on their edges are inserted,
+/// and whole faces that get such points become pieces (class bit replaced in cut). If no contour is open,
+/// the kept faces, pieces and cap together have no boundary in the plane.
 Cap make_cap(PlaneCut& cut, int side, Pieces& pieces);
 
 } // namespace facetmill

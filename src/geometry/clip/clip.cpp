@@ -13,7 +13,7 @@ namespace facetmill {
 
 namespace {
 
-// What is left of a mesh outside a convex body that planes bound.
+// Clips away a convex body bounded by planes.
 
 /// Attributes that number the elements of the scored mesh, so that the clipped one can be traced to it.
 constexpr std::string_view trace = "#trace";
@@ -164,7 +164,7 @@ class Rest {
         return at == vertex_at_.end() ? none : at->second;
     }
 
-    /// The front's caps alone, seen from behind.
+    /// Only the front's caps, reversed.
     Mesh turned_caps() const {
         RedrawnFaces caps(front_);
         Mesh& out = caps.mesh;
@@ -179,7 +179,7 @@ class Rest {
         turn(out);
         return std::move(caps.mesh);
     }
-    /// Normals look the other way; textures are not seen in a mirror.
+    /// Normals are reversed; textures are not mirrored.
     static void turn(Mesh& caps) {
         for (Attribute& a : caps.attributes) {
             if (a.domain != Domain::wedge) continue;
@@ -203,10 +203,10 @@ FlatSide flat_side(const Mesh& mesh, const ClipSettings& settings) {
     return settings.coplanar == Coplanar::keep ? FlatSide::front : FlatSide::back;
 }
 
-/// Clips by all planes at once: the front is what is in front of all of them, as the planes one after the
-/// other would leave it, the back is all the rest. The mesh is first scored along the body's faces, and the
-/// rest has the front's caps for its own, the other way round: so the two fit exactly, and with caps a closed
-/// mesh gives two closed ones. settings.keep is back or both.
+/// Clips by all planes at once: the front is in front of every plane, as after successive cuts; the back is
+/// the rest. The mesh is first scored along the body's faces, and the back gets the reversed caps of the
+/// front. So the two fit exactly, and with caps a closed mesh gives two closed meshes. settings.keep is back
+/// or both.
 ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     ClipResult all;
     ClipSettings inner = settings;
@@ -240,7 +240,7 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     return all;
 }
 
-/// The same of a cloud of points: the back has those that the front has not.
+/// The same for a point cloud: the back has all points that are not in the front.
 ClipResult clip_cloud(Mesh mesh, const ClipSettings& settings) {
     ClipSettings inner = settings;
     inner.keep = Keep::front;
@@ -350,7 +350,7 @@ class Clipper {
     const ClipSettings& settings_;
     ClipResult result_;
     double snap_ = 0;
-    Index last_cut_ = 0, last_group_ = 0; ///< numbers that were there
+    Index last_cut_ = 0, last_group_ = 0; ///< existing numbers
     std::vector<Vec3> made_;              ///< by the caps of a plane
 };
 

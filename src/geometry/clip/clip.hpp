@@ -12,23 +12,23 @@ enum class Keep {
     both,  ///< both sides, each as a mesh of its own
 };
 
-/// What becomes of faces that lie in the plane with all their vertices, when the mesh is open.
+/// The treatment of faces with all vertices in the plane, for open meshes.
 enum class Coplanar { keep, drop };
 
 struct ClipSettings {
-    std::vector<Plane> planes; ///< in the mesh's own space; one after the other
+    std::vector<Plane> planes; ///< in the mesh's own space; applied in order
     Keep keep = Keep::front;   ///< both takes one plane, or a convex body
-    /// The planes bound a convex body and look into it: the back is all that is not in front of every one,
-    /// rather than what is behind each.
+    /// The planes bound a convex body and face into it. The back is then everything outside the body,
+    /// instead of the back of each plane.
     bool convex = false;
-    bool cap = false;         ///< close what the cut opens
+    bool cap = false;         ///< close the openings of the cut
     bool triangulate = false; ///< leave triangles only, also of faces that were not cut
     Coplanar coplanar = Coplanar::keep;
-    /// What cap faces belong to; appended to the mesh's primitives unless an equal one is there. None:
+    /// The primitive of cap faces; appended to the mesh's primitives unless an equal primitive exists. None:
     /// primitive 0.
     std::optional<Primitive> cap_primitive;
-    /// Number cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group; both go on from
-    /// the largest number that is there.
+    /// Number cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group; both continue
+    /// after the largest existing number.
     bool cap_numbers = false;
     /// Take float32 positions (all three coordinates) within one float32 ulp of the mesh's bounds as on the
     /// plane.
@@ -44,7 +44,7 @@ struct OpenContour {
 };
 
 struct ClipResult {
-    Mesh front, back; ///< what was kept; a side that was not asked for stays empty
+    Mesh front, back; ///< the kept parts; a side that was not requested stays empty
     AttributeChanges changes;
     std::size_t cut_faces = 0;               ///< that a plane passed through
     std::size_t on_plane = 0;                ///< vertices that count as on a plane
@@ -52,32 +52,31 @@ struct ClipResult {
     std::size_t cap_faces = 0;
     bool changed = false;          ///< false: no plane met the mesh and all of it was kept
     std::vector<OpenContour> open; ///< not capped; empty unless cap
-    CutMemory memory;              ///< what is known now
+    CutMemory memory;              ///< the updated memory
 };
 
 /// Every vertex is classified once per plane, by the exact sign of side(plane, p), so neighbours always
-/// agree. Points that were built on a plane count as on it when it comes again (see CutMemory), so that the
-/// cuts of repeated and adjoining planes meet without slivers. A face with vertices strictly on both sides is
-/// cut: triangles, quads and n-gons (convex or not) directly. Each cut edge gets one new vertex, shared by
-/// all faces at it, and one new wedge per pair of wedges there, computed with the edge's ends in index order;
-/// for an axis-aligned plane its coordinate is exactly the plane's. A face that only touches the plane stays
-/// or goes whole. Faces in the plane: of a closed mesh (and with Keep::both) each stays on the side that its
-/// normal points away from; of an open one settings.coplanar decides.
-///
-/// Caps: the edges in the plane at which the directions of the kept faces do not cancel are closed contours
-/// for a closed mesh. They are filled, projected along the normal's dominant axis, by a constrained Delaunay
-/// triangulation that emits each triangle as often as the contours turn around it: islands and holes nest,
-/// and contours that cross still close. Points where contours cross are put into the wall faces too. So a
-/// closed mesh stays closed, for every closed mesh; edge-manifold too unless the plane passes exactly through
-/// a vertex or an edge, or its parts touch in the plane. Open contours are reported and left.
-///
-/// Attributes: kept elements keep theirs; new vertices and wedges are interpolated; pieces copy their face's.
-/// Cap faces have zeros in face attributes other than "primitive"; when the mesh has NORMAL or TEXCOORD_0,
-/// caps get wedges of their own with the plane's normal and planar coordinates (the cap's larger extent is
-/// 1), the rest interpolated as on the walls. Vertices that no kept face uses go, unless they are isolated on
-/// the kept side. Order: kept faces and pieces in the order of their faces, then the cap. Throws usage
-/// (E-PLANE) for a plane that is none, and for Keep::both with several planes that are no convex body.
-/// After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
+/// agree. Points built on a plane count as on it when it recurs (see CutMemory), so that repeated and
+/// adjoining cuts meet without slivers. A face with vertices strictly on both sides is cut directly, whether
+/// triangle, quad or n-gon (convex or not). Each cut edge gets one new vertex, shared by all faces at it,
+/// and one new wedge per pair of wedges, computed with the edge's ends in index order. For an axis-aligned
+/// plane its coordinate is exactly the plane's. A face that only touches the plane stays or goes whole. A
+/// face in the plane of a closed mesh (and with Keep::both) stays on the side that its normal points away
+/// from; for an open mesh settings.coplanar decides.
+/// Caps: for a closed mesh, the edges in the plane at which the directions of the kept faces do not cancel
+/// are closed contours. They are projected along the normal's dominant axis and filled by a constrained
+/// Delaunay triangulation that emits each triangle as often as the contours turn around it. So islands and
+/// holes nest, and contours that cross still close. Points where contours cross are also inserted into the
+/// wall faces. Therefore every closed mesh stays closed. It stays edge-manifold unless the plane passes
+/// exactly through a vertex or an edge, or its parts touch in the plane. Open contours are reported and left
+/// open.
+/// Attributes: kept elements keep their attributes; new vertices and wedges are interpolated; pieces copy
+/// their face's. Cap faces have zeros in face attributes other than "primitive". When the mesh has NORMAL or
+/// TEXCOORD_0, caps get their own wedges with the plane's normal and planar coordinates (the cap's larger
+/// extent is 1), the rest interpolated as on the walls. Vertices that no kept face uses are removed, unless
+/// they are isolated on the kept side. Order: kept faces and pieces in the order of their faces, followed by
+/// the cap. Throws usage (E-PLANE) for an invalid plane, and for Keep::both with several planes without
+/// `convex`. After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
 ClipResult clip(Mesh mesh, const ClipSettings& settings);
 
 } // namespace facetmill

@@ -29,24 +29,25 @@ CrumplePlaces::CrumplePlaces(std::span<const CrumpleSheet> sheets) {
 
 namespace {
 
-constexpr int patient_rounds = 8;   ///< after these, the places around are lowered too
+constexpr int patient_rounds = 8;   ///< after these, the surrounding positions are lowered too
 constexpr int widening_rounds = 16; ///< after these, twice as far around in every round
-/// Pairs of triangles with boxes that meet, for each face, that are looked at before shares fall in larger
-/// steps: enough for moves as long as the faces' edges.
+/// Box pairs per face that are examined before shares fall in larger steps: enough for moves as long as the
+/// faces' edges.
 constexpr std::size_t pairs_a_face = 32;
-/// As many times the pairs before the move are looked at in any case: faces may lie close.
+/// In any case, this many times the box pairs before the move are examined, because faces may be close
+/// together.
 constexpr std::size_t times_before = 3;
 constexpr std::uint8_t large_step = 3; ///< to an eighth
 constexpr int large_rounds = 3;        ///< after these, to nothing
 
-/// The rings of faces around those in trouble that are lowered with them.
+/// The rings of faces around intersecting faces that are lowered with them.
 std::size_t rings_in(int round) {
     if (round < patient_rounds) return 0;
     return std::size_t{1} << std::clamp(round - widening_rounds, 0, 32);
 }
 
-/// Finds new pairs that the full moves would make: all, or where some faces are overstretched, those of a few
-/// such faces, if there are any.
+/// Finds new pairs that the full moves would make. If some faces are overstretched, examines only a few of
+/// these.
 void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels, AvoidResult& result) {
     constexpr std::size_t few = 64;
     const auto look_at = [&](std::size_t s) {
@@ -84,7 +85,7 @@ class Patience {
         for (const TestSheet& test : tests)
             most_ += std::max(pairs_a_face * test.face_count(), times_before * test.pairs_before());
     }
-    /// For the next round, so many more pairs having been looked at.
+    /// For the next round, after examining so many more box pairs.
     Lowering next(std::size_t box_pairs) {
         seen_ += box_pairs;
         const int round = round_++;
@@ -99,7 +100,7 @@ class Patience {
     int round_ = 0, over_ = 0;
 };
 
-/// Notes the places that are about to be lowered in large steps.
+/// Marks the positions that are about to be lowered in large steps.
 void note(const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_t>& levels,
           std::vector<std::uint8_t>& coarse) {
     for (std::size_t p = 0; p < marked.size(); ++p)
@@ -109,7 +110,7 @@ void note(const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_
 /// Lowers places until no new faces meet.
 class Separation {
   public:
-    /// `coarse`: [places] 1 for those that were lowered in large steps before; `stretch`: so far.
+    /// `coarse`: [positions] 1 if lowered in large steps before; `stretch`: the stretch so far.
     Separation(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found,
                AvoidResult& result, std::vector<std::uint8_t> coarse, double stretch)
         : tests_(tests), levels_(levels), found_(found), result_(result), patience_(tests),
@@ -144,7 +145,7 @@ class Separation {
     }
 
   private:
-    /// [places] 1 for those that were lowered; empty when no faces meet.
+    /// [positions] 1 if lowered; empty when no faces meet.
     std::vector<std::uint8_t> lower_meeting(const std::vector<MeetingFaces>& trouble, const Lowering& how,
                                             bool is_first) {
         std::vector<std::uint8_t> marked(levels_.size());
@@ -155,14 +156,14 @@ class Separation {
         }
         if (!more) return {};
         if (how.step > 1) note(marked, levels_, coarse_);
-        if (!lower(marked, levels_, how.step)) // where nothing moves, all pairs were there before
+        if (!lower(marked, levels_, how.step)) // nothing moves, so all pairs existed before
             throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
         return marked;
     }
 
-    /// Where there is too much to look at: half as much stretch, or half of that, until some places are
-    /// lowered. Without patience left, or where all faces keep their shape, nothing moves of what was to be
-    /// looked at. [places] as above. again: set to the faces that may meet still, lowered or not.
+    /// If too many pairs would have to be examined, halves the allowed stretch repeatedly until some
+    /// positions are lowered. If no patience is left, or all faces keep their shape, stops all moves of the
+    /// faces in question. [positions] as above. again: set to the faces that may still meet, lowered or not.
     std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how,
                                         FacesOfSheets& again) {
         for (std::size_t s = 0; s < tests_.size(); ++s)

@@ -50,7 +50,7 @@ Transform inverse_linear(const Transform& t) {
     return inverse;
 }
 
-/// The vertices, those with equal keys side by side and ascending.
+/// The vertices, grouped by equal keys, ascending.
 std::vector<Index> by_place(const std::vector<std::uint64_t>& keys) {
     std::vector<Index> order(keys.size());
     for (std::size_t v = 0; v < order.size(); ++v) order[v] = static_cast<Index>(v);
@@ -58,7 +58,7 @@ std::vector<Index> by_place(const std::vector<std::uint64_t>& keys) {
     return order;
 }
 
-/// One byte per vertex: 1 when its place ends an edge between places that has exactly one face.
+/// One byte per vertex: 1 if its position ends an edge between positions that has exactly one face.
 std::vector<std::uint8_t> boundary_places(const Mesh& mesh, const std::vector<std::uint64_t>& keys) {
     const std::vector<Index> order = by_place(keys);
     std::vector<Index> first(keys.size());
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> boundary_places(const Mesh& mesh, const std::vector<st
     return held;
 }
 
-/// Sums, over the vertices at one place, the area vectors of their faces: a normal that copies of a vertex
+/// Sums the area vectors of the faces of all vertices at one position: a normal that copies of a vertex
 /// share.
 std::vector<Vec3> place_normals(const Mesh& mesh, const std::vector<Vec3>& world,
                                 const std::vector<std::uint64_t>& keys, bool mirrored) {

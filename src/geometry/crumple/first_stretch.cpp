@@ -11,13 +11,13 @@ namespace facetmill {
 
 namespace {
 
-// Faces in one of so many cubes, which are so many mean edges wide, are the sample.
+// The sample: faces in one of `one_cube_in` cubes, each `cube_width` mean edges wide.
 constexpr std::uint64_t one_cube_in = 16;
 constexpr double cube_width = 16;
-// Where no more than half of the faces are drawn out by so much, no sample is needed.
+// If at most half of the faces are stretched by this much, no sample is needed.
 constexpr double little_stretch = 0.5;
 
-/// Where a sample of the faces lies: in some of the cubes that space is cut into.
+/// The region of a sample of the faces: some of the cubes that divide space.
 class SampledCubes {
   public:
     explicit SampledCubes(double width) : width_(width) {}
@@ -34,7 +34,7 @@ class SampledCubes {
     double width_;
 };
 
-/// Those of the sheet's faces that begin in the cubes, as a sheet of their own.
+/// The sheet's faces that begin in the cubes, as a separate sheet.
 struct SampledSheet {
     Mesh mesh;
     CrumpleSheet sheet;
@@ -61,7 +61,7 @@ struct SampledSheet {
     }
 };
 
-/// Whether more than an eighth of the faces have trouble when they are drawn out by up to so many times their
+/// Whether more than an eighth of the faces intersect when they are stretched by up to `stretch` times their
 /// longest edge. Lowers levels.
 bool mostly_in_trouble(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, double stretch) {
     FacesOfSheets found(tests.size());
@@ -79,8 +79,8 @@ bool mostly_in_trouble(std::vector<TestSheet>& tests, std::vector<std::uint8_t>&
     return 8 * meeting > faces;
 }
 
-/// How far faces may be drawn out from the first, such that no more than an eighth of them have trouble, as
-/// told by a sample: else a round would lower most places, after looking at very many pairs.
+/// The largest first stretch of faces for which at most an eighth intersect, estimated from a sample.
+/// Otherwise a round would lower most positions, after examining very many pairs.
 double sampled_stretch(std::span<const CrumpleSheet> sheets, double mean_edge, std::size_t max_pairs) {
     const SampledCubes cubes(cube_width * mean_edge);
     std::vector<SampledSheet> samples;

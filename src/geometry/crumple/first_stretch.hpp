@@ -1,14 +1,14 @@
 #pragma once
-// How far moves may draw out faces, before all of them are looked at.
+// The initial limit of the stretch of faces, before all faces are examined.
 
 #include "geometry/crumple/tested_sheet.hpp"
 
 namespace facetmill {
 
-/// Of the longest edge of a face. Where most faces are drawn out much, a sample of them (all in some of the
-/// cubes that space is cut into) is tried at max_stretch, half of it and so on, until no more than an eighth
-/// have trouble: else a round would lower most places, after looking at very many pairs. A pure function of
-/// the sheets.
+/// Relative to the longest edge of a face. If most faces are stretched much, a sample (all faces in some of
+/// the cubes that divide space) is tested at max_stretch, half of it and so on. It ends when at most an
+/// eighth of the sample intersects. Otherwise a round would lower most positions, after examining very many
+/// pairs. A pure function of the sheets.
 double first_stretch(std::span<const CrumpleSheet> sheets, const std::vector<TestSheet>& tests,
                      const std::vector<std::uint8_t>& levels, std::size_t max_pairs);
 

@@ -17,8 +17,8 @@ std::uint32_t canonical_bits(double x) {
     return f == 0 ? 0 : std::bit_cast<std::uint32_t>(f);
 }
 
-/// The nearest number of 40 significant bits: fewer than the 53 of a double, so that what differs by the
-/// rounding of a transform is mostly one place. 0 for -0.
+/// Rounds to 40 significant bits, fewer than the 53 of a double, so that positions that differ by the
+/// rounding of a transform mostly coincide. 0 for -0.
 double as_far_place(double x) {
     constexpr int left_out = 53 - 40;
     const std::uint64_t half = std::uint64_t{1} << (left_out - 1);

@@ -49,7 +49,7 @@ void TestSheet::place(const std::vector<std::uint8_t>& levels, const std::vector
 
 std::vector<std::pair<Index, Index>> TestSheet::new_pairs(const std::vector<std::uint8_t>& levels) {
     Open& in = open(levels);
-    // With so many listed, one new pair at least is among them when there is any.
+    // With so many listed, the list contains a new pair if any exists.
     auto pairs = find(in, touched_, exempt_.size() + max_pairs_).pairs;
     std::erase_if(pairs,
                   [&](const auto& p) { return std::binary_search(exempt_.begin(), exempt_.end(), p); });

@@ -1,5 +1,6 @@
 #pragma once
-// Sheets as they are tested while their faces are kept apart, and the shares of the moves of their places.
+// Sheets in the form in which they are tested while their faces are kept apart, and the shares of the moves
+// of their positions.
 
 #include "base/error.hpp"
 #include "base/math/numbers.hpp"
@@ -14,7 +15,7 @@
 
 namespace facetmill {
 
-// Vertices by the place that they start from: what is at one place moves together.
+// Groups vertices by their initial position: coincident vertices move together.
 
 /// Places of all sheets, numbered by their keys.
 struct CrumplePlaces {
@@ -25,20 +26,21 @@ struct CrumplePlaces {
 };
 
 inline constexpr std::uint8_t last_level = 9; ///< of shares: no move at all
-/// Of the longest edge of a face: where moves draw two of its corners apart by more, it is nearly sure to
-/// meet others, so many that looking for them all would take most of the time.
+/// Relative to the longest edge of a face. If moves draw two of its corners apart by more, the face almost
+/// certainly meets others, so many that finding them all would take most of the time.
 inline constexpr double max_stretch = 8;
 inline constexpr double least_stretch = 1.0 / 64; ///< below, faces keep their shape
-/// Pairs of triangles with boxes that meet, for each face, that are looked at in one round: where there are
-/// more, faces are drawn out too far to be told apart one by one.
+/// Box pairs per face that are examined in one round. With more, faces are stretched too far to be examined
+/// individually.
 inline constexpr std::size_t pairs_a_round = 24;
-/// As many times the pairs before the move are looked at in any case: faces may lie close.
+/// In any case, this many times the box pairs before the move are examined, because faces may be close
+/// together.
 inline constexpr std::size_t times_before_a_round = 2;
 
 inline double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
 
-/// A sheet as it is tested: vertices at one place are one. What is searched, some hundred bytes a triangle,
-/// is made when it is asked for and, unless it stays, dropped again.
+/// A sheet for tests: coincident vertices are merged. The search structure, about a hundred bytes a
+/// triangle, is built on request and dropped again unless it is kept open.
 class TestSheet {
   public:
     /// `alike`: another sheet or none; where the two are the same before they move, nothing is searched
@@ -49,30 +51,30 @@ class TestSheet {
     std::size_t exempt() const { return exempt_.size(); }
     std::size_t pairs_before() const { return pairs_before_; }
     std::size_t face_count() const { return from().face_count(); }
-    /// As it is before it moves, by the places.
+    /// The mesh before it moves, by positions.
     Mesh mesh_before() const { return mesh_at({}); }
 
-    /// The vertices whose level has changed, or all of them, belong elsewhere now: remembers their faces, and
-    /// those that are to be looked at again, as touched. again: [faces], or none.
+    /// Moves the vertices whose level changed, or all. Marks their faces, and the faces in `again`, as
+    /// touched. again: [faces], or none.
     void place(const std::vector<std::uint8_t>& levels, const std::vector<std::uint8_t>& changed,
                std::vector<std::uint8_t> again = {});
 
-    /// The new pairs among faces that were touched, as many as are listed; a face that lost its area is a
-    /// pair with itself. levels: those at which the sheet was placed; so below.
+    /// The new pairs among touched faces, as many as are listed; a face that lost its area is paired with
+    /// itself. levels: the levels of the last place(); so below.
     std::vector<std::pair<Index, Index>> new_pairs(const std::vector<std::uint8_t>& levels);
 
-    /// [faces] 1 for those of which the moves, by the shares at the levels, draw two corners apart by more
-    /// than so many times the longest edge.
+    /// [faces] 1 if the moves, by the shares at the levels, draw two corners apart by more than `stretch`
+    /// times the longest edge.
     std::vector<std::uint8_t> overstretched(const std::vector<std::uint8_t>& levels, double stretch) const;
 
     /// Looks at these faces only; the others count as not touched.
     void touch_only(std::vector<std::uint8_t> faces) { touched_ = std::move(faces); }
 
-    /// Those of all new pairs among faces that were touched, unless there is too much to look at.
+    /// The faces of all new pairs among touched faces, unless too many pairs would have to be examined.
     MeetingFaces in_trouble(const std::vector<std::uint8_t>& levels);
 
-    /// Marks the places of the faces, and of all that so many rings of faces around them touch. Whether there
-    /// are any.
+    /// Marks the positions of the faces, and of `rings` rings of faces around them. Returns whether any was
+    /// marked.
     bool mark(const std::vector<std::uint8_t>& faces, std::size_t rings,
               std::vector<std::uint8_t>& marked) const;
 
@@ -94,7 +96,8 @@ class TestSheet {
         const auto& [x, y, z] = before_[vertex];
         return {x, y, z};
     }
-    /// Where a vertex that is the first of equal ones is at the levels; empty: before it moves.
+    /// The position at the levels of a vertex, which must be the first of its group; empty levels: before it
+    /// moves.
     Vec3 at(Index vertex, const std::vector<std::uint8_t>& levels) const;
     Mesh mesh_at(const std::vector<std::uint8_t>& levels) const;
     Open& open(const std::vector<std::uint8_t>& levels);
@@ -118,8 +121,8 @@ class TestSheet {
     std::vector<std::uint8_t> flat_, touched_;    ///< [faces]
 };
 
-/// All sheets, ready to be tested; alike ones are searched once before they move. The first stays open, and
-/// those that have no more than max_open triangles with all before them.
+/// All sheets, ready to be tested; identical sheets are searched once before they move. The first sheet
+/// stays open, and each sheet that has at most max_open triangles together with all before it.
 std::vector<TestSheet> tests_of(std::span<const CrumpleSheet> sheets, const CrumplePlaces& places,
                                 std::size_t max_pairs, std::size_t max_open = max_open_triangles);
 
@@ -143,8 +146,8 @@ inline void add(const std::vector<std::uint8_t>& faces, std::vector<std::uint8_t
     for (std::size_t f = 0; f < faces.size(); ++f) to[f] |= faces[f];
 }
 
-/// Lowers the places of overstretched faces until there are none, and adds those that there were to `found`.
-/// [places] 1 for those that were lowered.
+/// Lowers the positions of overstretched faces until none are left, and adds these faces to `found`.
+/// [positions] 1 if lowered.
 inline std::vector<std::uint8_t> slacken(const std::vector<TestSheet>& tests,
                                          std::vector<std::uint8_t>& levels, double stretch,
                                          FacesOfSheets& found) {

@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// The number of the cap's primitive in the table, which gets it when it is not there.
+/// The index of the cap's primitive in the table; appends it if missing.
 Index primitive_number(Mesh& mesh, const std::optional<Primitive>& wanted) {
     if (!wanted) return 0;
     if (mesh.primitives.empty()) mesh.primitives.push_back({});
@@ -18,7 +18,7 @@ Index primitive_number(Mesh& mesh, const std::optional<Primitive>& wanted) {
     return static_cast<Index>(mesh.primitives.size() - 1);
 }
 
-/// The face attribute of numbers, which is made when it is not there.
+/// The face attribute of numbers; created if missing.
 Attribute& numbers(Mesh& mesh, std::string_view name) {
     if (Attribute* a = mesh.find(name, Domain::face)) return *a;
     mesh.attributes.push_back({std::string(name), Domain::face, Role::index, 1, false,
@@ -107,7 +107,7 @@ void paint_cap(Mesh& mesh, FaceRange faces, std::span<const Index> wedges, const
                const CapPaint& paint) {
     paint_faces(mesh, faces, paint);
     if (wedges.empty()) return;
-    // A normal may be tiny or huge, being as the user gave it; its direction is what counts.
+    // The user's normal may be tiny or huge; only its direction matters.
     const double largest =
         std::max({std::fabs(plane.normal.x), std::fabs(plane.normal.y), std::fabs(plane.normal.z)});
     const Frame frame(plane.normal / largest);

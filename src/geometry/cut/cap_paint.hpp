@@ -9,7 +9,7 @@ namespace facetmill {
 /// The face attributes that number caps.
 inline constexpr std::string_view cut_id_attribute = "cut_id", group_attribute = "group";
 
-/// What the faces of a cap get.
+/// The attributes of the faces of a cap.
 struct CapPaint {
     std::optional<Primitive> primitive; ///< none: primitive 0
     Index cut_id = 0, group = 0;        ///< 0: these attributes are not made
@@ -22,7 +22,7 @@ Index largest_number(const Mesh& mesh, std::string_view name);
 /// operation took from another part have such a number, too, but no group: they close nothing.
 std::vector<std::uint8_t> later_caps(const Mesh& mesh, Index last);
 
-/// Whether a cap has wedges of its own: when there are normals, tangents or texture coordinates.
+/// Whether a cap needs its own wedges: for normals, tangents or texture coordinates.
 bool caps_have_own_wedges(const Mesh& mesh);
 
 /// The sum of the area vectors of the triangles.
@@ -33,9 +33,9 @@ struct FaceRange {
     std::size_t first = 0, last = 0;
 };
 
-/// Sets the attributes that a cap has of its own: the face attributes of the faces, and the normals, tangents
-/// and first texture coordinates of wedges (empty: the cap shares the walls'). The plane's normal looks out;
-/// texture coordinates are planar, the cap's larger extent being 1.
+/// Sets the attributes of a cap: the face attributes of the faces, and the normals, tangents and first
+/// texture coordinates of wedges (empty: the cap shares the walls'). The plane's normal faces out. Texture
+/// coordinates are planar, scaled so that the cap's larger extent is 1.
 void paint_cap(Mesh& mesh, FaceRange faces, std::span<const Index> wedges, const Plane& plane,
                const CapPaint& paint);
 

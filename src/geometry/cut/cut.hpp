@@ -1,6 +1,6 @@
 #pragma once
-// What a plane does to a mesh, before a side is chosen: classes of vertices and faces, and the points of the
-// cut. For clip only.
+// Cuts a mesh by a plane before a side is chosen: classes of vertices and faces, and the points of the cut.
+// For clip only.
 
 #include "mesh/cut_memory.hpp"
 #include "mesh/provenance.hpp"
@@ -9,31 +9,31 @@ namespace facetmill {
 
 /// A face's class, as bits.
 namespace face_class {
-// The lowest three bits say where its vertices are.
+// The lowest three bits record the sides of its vertices.
 inline constexpr std::uint8_t above = 1;       ///< has a vertex in front of the plane
-inline constexpr std::uint8_t below = 2;       ///< has a vertex behind it
+inline constexpr std::uint8_t below = 2;       ///< has a vertex on the back of the plane
 inline constexpr std::uint8_t touches = 4;     ///< has a vertex exactly on it
-inline constexpr std::uint8_t flat_above = 8;  ///< lies in the plane and stays with the front
+inline constexpr std::uint8_t flat_above = 8;  ///< is in the plane and stays with the front
 inline constexpr std::uint8_t flat_below = 16; ///< ... with the back
 inline constexpr std::uint8_t replaced = 32;   ///< stays, but as a polygon with points inserted
 } // namespace face_class
 
-/// Elements are numbered on: the mesh's own wedges and vertices first, then those of the cut, then those that
-/// a cap adds. So without seams a wedge's number is its vertex's.
+/// Numbering continues: the mesh's own wedges and vertices first, followed by the elements of the cut and of
+/// a cap. So without seams a wedge's number is its vertex's.
 struct PlaneCut {
     const Mesh* mesh = nullptr;
     Plane plane;
     std::vector<std::int8_t> signs;                             ///< [vertices] -1, 0, 1
     std::vector<std::uint8_t> classes;                          ///< [faces]
     std::size_t above_count = 0, below_count = 0, on_count = 0; ///< vertices
-    std::size_t snapped_count = 0, remembered_count = 0; ///< among on_count, those not exactly on the plane
+    std::size_t snapped_count = 0, remembered_count = 0; ///< among on_count, points not exactly on the plane
     std::vector<Index> cut_faces;                        ///< faces with vertices on both sides, ascending
     std::vector<Index> touching;         ///< faces with vertices on the plane and on one side, ascending
     std::vector<Index> flat;             ///< faces in the plane, ascending
     std::vector<Index> crossings;        ///< new wedge at each crossed corner's edge, by cut face and corner
     std::vector<Index> crossing_offsets; ///< [cut_faces + passing + 1] into crossings
-    /// Faces that are not to be cut but have an edge that a cut face is cut at, ascending. Their crossings
-    /// are one for each edge between vertices on both sides, none for those where no face is cut.
+    /// Excluded faces with an edge at which a neighbour is cut, ascending. Each edge between vertices on
+    /// both sides has one crossing, or none if no face at it is cut.
     std::vector<Index> passing;
     std::vector<Provenance::Edge> wedges, vertices; ///< the new ones: on which edge, and where
     std::vector<Index> wedge_vertex;                ///< [new wedges] -> vertex; empty without seams
@@ -63,21 +63,22 @@ struct PlaneCut {
     bool meets() const { return on_count > 0 || (above_count > 0 && below_count > 0); }
 };
 
-/// What counts as on a plane besides what is exactly on it.
+/// The points that count as on a plane in addition to points exactly on it.
 struct OnPlane {
-    /// Float32 positions at most this far away (mesh units) count as on the plane, and others within 2^-27 of
-    /// it: where the plane is to go through computed vertices, it would cut slivers off at them. 0: none.
+    /// Float32 positions at most this far away (mesh units) count as on the plane, and other positions
+    /// within 2^-27 of it. Otherwise a plane through computed vertices would cut slivers off at these. 0:
+    /// none.
     double snap = 0;
-    /// Points that it says were built on the plane count as on it. None: nothing is known.
+    /// Points built on the plane according to this memory count as on it. None: no known points.
     const CutMemory* memory = nullptr;
 };
 
 /// Whether all three coordinates are 32-bit floats.
 bool is_float32(const Vec3& p);
-/// How far positions that are 32-bit floats may be from what they were before they were rounded: float32_ulp
-/// of the bounds, or 0 where the coordinates show that nothing was rounded: the largest are multiples of
-/// more, or those along another axis, whose floats are less far apart, are multiples of as much. So it is
-/// with a terrain of whole metres in UTM, whose floats are half a metre apart, or a metre far in the south.
+/// The rounding error of positions that are 32-bit floats: float32_ulp of the bounds. Returns 0 if the
+/// coordinates show that no rounding happened. Then the largest coordinates are multiples of more, or
+/// coordinates along another axis with finer floats are multiples of as much. An example is a terrain of
+/// whole metres in UTM, whose floats are half a metre apart, or a metre far in the south.
 double float32_rounding(const Mesh& mesh);
 
 /// Makes points where a plane crosses edges.
@@ -86,7 +87,7 @@ class CrossingPoints {
     explicit CrossingPoints(const Plane& plane);
     /// How far along an edge whose ends have these sides, of different signs; 0 at a.
     static double parameter(double side_of_a, double side_of_b);
-    /// A coordinate that both ends have stays what it is, so that planes along axes are not left by rounding.
+    /// A coordinate that both ends share is preserved, so that rounding does not leave axis-aligned planes.
     Vec3 operator()(const Vec3& a, const Vec3& b, double t) const;
 
   private:
@@ -94,7 +95,7 @@ class CrossingPoints {
     double level_; ///< of a plane across that axis
 };
 
-/// Classifies everything and makes the points of the cut. Flat faces get no side yet. faces: 1 for those that
+/// Classifies all elements and makes the points of the cut. Flat faces get no side yet. faces: 1 if the face
 /// may be cut; empty: all.
 PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},
                       std::span<const std::uint8_t> faces = {});
@@ -106,12 +107,12 @@ PlaneCut cut_by_signs(const Mesh& mesh, const Plane& plane, std::vector<std::int
 /// At every edge the directions of the faces cancel.
 bool is_closed(const Mesh& mesh);
 
-/// Adds the points of a cut to what is known: new ones are on the cut's plane and on every known plane that
-/// both ends of their edge are on; snapped ones are on the cut's plane. more: other points made on it.
+/// Adds the points of a cut to the memory. New points are on the cut's plane and on every known plane that
+/// contains both ends of their edge; snapped points are on the cut's plane. more: other points made on it.
 void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more = {});
 
-/// Gives each flat face the side that its normal points away from; those without area to the back, so that
-/// the boundaries of the two sides are each other's.
+/// Gives each flat face the side that its normal points away from, and faces without area the back, so that
+/// the boundaries of the two sides match.
 void settle_flat_by_normal(PlaneCut& cut);
 /// Gives all flat faces to one side, or none (0).
 void settle_flat(PlaneCut& cut, int side);

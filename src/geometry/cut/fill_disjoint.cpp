@@ -7,7 +7,7 @@ namespace facetmill {
 
 namespace {
 
-/// A directed edge between points and how often it is there; negative: the other way.
+/// A directed edge between points and its count; negative: the reverse direction.
 struct CountedEdge {
     Index low, high;
     int count;
@@ -32,7 +32,7 @@ void cancel(std::vector<CountedEdge>& edges) {
     edges.resize(kept);
 }
 
-/// What the triangles leave of the boundary runs between points at one place only.
+/// The part of the boundary that triangles leave uncovered runs only between coincident points.
 std::vector<CountedEdge> left_over(const Contours& contours, const Filling& filling) {
     std::vector<CountedEdge> left;
     for (std::size_t e = 0; e < contours.edges.size(); ++e) {
@@ -48,7 +48,8 @@ std::vector<CountedEdge> left_over(const Contours& contours, const Filling& fill
     return left;
 }
 
-/// Triangles of the polygon high, low, and the points that stand for them; the same ones for either sense.
+/// Triangulates the polygon of high, low, and the points that represent them; the same triangles for both
+/// directions.
 void stitch(const CountedEdge& e, Filling& filling) {
     const auto standing_for = [&](Index i) { return i < filling.same.size() ? filling.same[i] : i; };
     std::vector<Index> polygon;

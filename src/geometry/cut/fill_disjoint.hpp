@@ -1,12 +1,12 @@
 #pragma once
-// Fills contours of a mesh, whose vertices may share a place and are none the less apart.
+// Fills contours of a mesh, whose coincident vertices remain separate.
 
 #include "geometry/cgal/triangulate_polygon.hpp"
 
 namespace facetmill {
 
-/// fill, with triangles without area between points at one place where they are needed: the boundary of all
-/// triangles is exactly the edges along their paths, every point counted as one of its own.
+/// fill, with triangles without area between coincident points where needed. The boundary of all triangles
+/// is exactly the edges along their paths, with coincident points counted separately.
 Filling fill_disjoint(const Contours& contours);
 
 } // namespace facetmill

@@ -9,7 +9,7 @@ namespace facetmill {
 
 namespace {
 
-/// Cuts one face. Its corners and crossings become a ring of nodes; what lies on a side is chains of that
+/// Cuts one face. Its corners and crossings become a ring of nodes; each side consists of chains of that
 /// ring.
 class PieceCutter {
   public:
@@ -43,7 +43,7 @@ class PieceCutter {
             ring_.push_back({a, s});
             if (s * cut_.sign_of(b) * side_ < 0) ring_.push_back({*crossing++, 0});
         });
-        // Start behind a node of the other side, so that no chain wraps around.
+        // Start after a node of the other side, so that no chain wraps around.
         const auto other = std::find_if(ring_.begin(), ring_.end(), [](const Node& n) { return n.sign < 0; });
         std::rotate(ring_.begin(), other, ring_.end());
     }
@@ -61,9 +61,9 @@ class PieceCutter {
 
     const Vec3& point(std::size_t node) const { return cut_.point(cut_.vertex_of(ring_[node].wedge)); }
 
-    /// An edge in the plane at the end of a chain belongs to it only when it runs the way that this side's
-    /// boundary runs in the plane; else it is the other side's. One that runs neither way, having no length,
-    /// is the front's.
+    /// An edge in the plane at the end of a chain belongs to it only if it runs in the direction of this
+    /// side's boundary in the plane; else it belongs to the other side. An edge without length belongs to
+    /// the front.
     void trim(Chain& c) const {
         const auto against = [&](std::size_t a, std::size_t b) {
             if (ring_[a].sign != 0 || ring_[b].sign != 0) return false;
@@ -111,7 +111,7 @@ class PieceCutter {
                 for (std::size_t n = chains_[i].begin; n < chains_[i].end; ++n)
                     polygon_.push_back(ring_[n].wedge);
             }
-            if (polygon_.size() > 2) out.add(face, polygon_); // two corners: there and back, nothing
+            if (polygon_.size() > 2) out.add(face, polygon_); // two corners enclose no area
         }
     }
 

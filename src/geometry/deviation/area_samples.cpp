@@ -33,8 +33,8 @@ AreaSamples::AreaSamples(const Surface& surface, std::size_t count, std::uint64_
     if (!areas.empty() && areas.back() > 0 && std::isfinite(areas.back())) place_all(count, areas);
 }
 
-/// Sample k lies at a random place of the k-th part of the area, so places ascend; most parts are of one
-/// triangle.
+/// Sample k has a random position in the k-th part of the area, so positions ascend. Most parts are within
+/// one triangle.
 void AreaSamples::place_all(std::size_t count, const std::vector<double>& areas) {
     const auto area_at = [&](double part) { return part / static_cast<double>(count) * areas.back(); };
     const auto place_of = [&](std::size_t k) {

@@ -1,5 +1,5 @@
 #pragma once
-// Points spread over a surface by its area, each computed when it is asked for.
+// Points spread over a surface by its area, each computed on request.
 
 #include "mesh/surface.hpp"
 
@@ -10,30 +10,29 @@
 
 namespace facetmill {
 
-/// The k-th of `size` samples lies in the k-th of as many equal parts of the area, taken triangle by
-/// triangle, so those of a triangle follow each other. They depend on the surface, their number and the seed
-/// only.
+/// The k-th of `size` samples is in the k-th of as many equal parts of the area, taken triangle by triangle.
+/// So the samples of a triangle are consecutive. They depend only on the surface, their number and the seed.
 class AreaSamples {
   public:
-    /// Of a surface that stays as it is for as long as its samples are asked for. None when it has no area.
+    /// The surface must not change while samples are requested. Empty if the surface has no area.
     AreaSamples(const Surface& surface, std::size_t count, std::uint64_t seed);
 
     std::size_t size() const { return triangles_.size(); }
     Index triangle_of(std::size_t k) const { return triangles_[k]; }
     Vec3 point(std::size_t k) const { return on(triangles_[k]).point(k); }
 
-    /// Those of one triangle.
+    /// The samples of one triangle.
     struct Run {
         Index triangle;
         std::size_t begin, end;
     };
-    /// Of all triangles that have samples, in the order of the triangles that is given.
+    /// The runs of all triangles with samples, in the given order of the triangles.
     std::vector<Run> runs(std::span<const Index> order) const;
 
-    /// A triangle, to ask for several of its samples.
+    /// A triangle, to compute several of its samples.
     class OnTriangle {
       public:
-        /// Sample k: of Roberts' additive sequence in the plane, which fills large triangles more evenly than
+        /// Sample k of Roberts' additive sequence in the plane, which fills large triangles more evenly than
         /// chance.
         Vec3 point(std::size_t k) const {
             double u = fraction(start_u_ + static_cast<double>(k) * 0.7548776662466927);

@@ -13,20 +13,20 @@ namespace facetmill {
 
 namespace {
 
-/// A corner, how far it is from the other surface, and from which triangle there.
+/// A corner, its distance from the other surface, and the closest triangle there.
 struct Corner {
     Vec3 at;
     Closest closest;
 };
 
-/// A triangle of the surface, or a part of one, and a distance that none of its points exceeds.
+/// A triangle of the surface, or a part of it, and an upper bound of the distance of its points.
 struct Piece {
     std::array<Corner, 3> corners;
     double bound = HUGE_VAL;
     Index face = none;
 };
 
-/// The greatest distance of the corners, and so of the whole piece, to one triangle.
+/// The greatest distance of the corners to one triangle, which bounds the whole piece.
 double distance_to(const FaceTree& tree, Index triangle, const Piece& piece) {
     double most = 0;
     for (const auto& c : piece.corners)
@@ -35,7 +35,7 @@ double distance_to(const FaceTree& tree, Index triangle, const Piece& piece) {
     return most;
 }
 
-/// What the corners alone say of the piece; `enough` saves the rest of the work.
+/// The bound of the piece from its corners alone; `enough` saves the rest of the work.
 double bound_of(const FaceTree& tree, const Piece& piece, double enough) {
     const auto& [a, b, c] = piece.corners;
     const double longest = std::max({length(b.at - a.at), length(c.at - b.at), length(a.at - c.at)});
@@ -58,11 +58,11 @@ struct FarthestCorner {
     }
 };
 
-/// What became of a piece in a round.
+/// The result of a round for a piece.
 struct Outcome {
     std::array<Piece, 4> left; ///< parts that may still hold a farther point
     std::size_t left_count = 0;
-    double settled = 0; ///< what the rest is bounded by
+    double settled = 0; ///< the bound of the rest
     FarthestCorner farthest;
     std::size_t looked_up = 0;
 };
@@ -100,8 +100,8 @@ class Certifier {
 
     Corner corner_at(const Vec3& p, Index hint) const { return {p, closest_point(tree_, p, hint)}; }
 
-    /// What of the surface may be farther than that. Where that is next to nothing, all: the search tells
-    /// float32 apart only.
+    /// The parts of the surface that may be farther than `within`. If that is next to nothing, the whole
+    /// surface, because the search has only float32 precision.
     Beyond beyond_within(std::span<const Index> order, std::span<const Index> near) const {
         std::vector<Index> finite;
         for (const Index t : order)
@@ -111,7 +111,7 @@ class Certifier {
         return pieces_beyond(from_, finite, tree_, near, within_, settings_.certify_work / per_piece);
     }
 
-    /// Keeps what its corners do not settle.
+    /// Keeps the pieces that their corners do not settle.
     template <class PieceOf>
     void keep_beyond_target(std::size_t count, const PieceOf& piece_of) {
         const double target = this->target();
@@ -197,7 +197,8 @@ class Certifier {
         return others;
     }
 
-    /// Settles or cuts every piece; what is left joins `later`. Returns how many points were looked up.
+    /// Settles or cuts every piece and appends the remaining parts to `later`. Returns the number of points
+    /// looked up.
     std::size_t round(std::vector<Piece>& later) {
         const double target = this->target();
         std::size_t looked_up = 0;
@@ -252,7 +253,7 @@ class Certifier {
     const FaceTree& tree_;
     const DeviationSettings& settings_;
     double within_;
-    double slack_; ///< so that equal surfaces come to an end
+    double slack_; ///< so that the search ends on equal surfaces
     std::vector<Piece> pieces_;
     double settled_ = 0;
 };

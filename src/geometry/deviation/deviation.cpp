@@ -20,7 +20,7 @@ namespace {
 constexpr double unmeasured = MeasuredSamples::unmeasured;
 constexpr std::size_t all_parts = MeasuredSamples::all_parts;
 
-/// Of the distances that were measured.
+/// Sums over the measured distances.
 struct DistanceSums {
     std::size_t count = 0;
     double distances = 0, squares = 0, differences = 0; ///< the last between squares of neighbours, squared
@@ -29,13 +29,13 @@ struct DistanceSums {
         return {count + b.count, distances + b.distances, squares + b.squares, differences + b.differences};
     }
     double rms() const { return std::sqrt(squares / static_cast<double>(count)); }
-    /// The standard error of the RMS, as a part of it; infinity when that is 0. Samples lie in equal parts of
-    /// the area one after the other, so what neighbours differ by is what chance adds. After W. G. Cochran,
-    /// "Sampling Techniques" (1977), 8.11.
+    /// The standard error of the RMS, relative to the RMS; infinity if the RMS is 0. Samples are in
+    /// consecutive equal parts of the area, so differences of neighbours estimate the random error. After W.
+    /// G. Cochran, "Sampling Techniques" (1977), 8.11.
     double error() const { return squares > 0 ? std::sqrt(differences / 2) / squares / 2 : HUGE_VAL; }
 };
 
-/// Of the samples of the parts before that.
+/// Sums over the samples of the first `parts` parts.
 DistanceSums sums_of(const std::vector<double>& distances, std::size_t parts = all_parts) {
     return parallel_reduce(
         distances.size(), DistanceSums{},
@@ -70,7 +70,7 @@ void raise_maximum(DirectedDeviation& d, const Surface& from, const Farthest& fa
     d.face = farthest.triangle == none ? none : from.face(farthest.triangle);
 }
 
-/// Of a surface without an area: the distances of its vertices, which are all that there is.
+/// Measures only the vertices, because a surface without area has no samples.
 void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWalk& walk, const FaceTree& to,
                       const DeviationSettings& settings) {
     const std::vector<Vec3> vertices = walk.vertices();
@@ -83,21 +83,22 @@ void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWal
     if (settings.means) set_means(d, sums_of(distances));
 }
 
-/// How many parts of the samples to measure next, when the error of `parts` is so many times what is wanted.
-/// Errors fall with the root, or faster, as neighbours come closer: four times as many may do where that says
-/// more.
+/// The number of parts to measure next, if the error of `parts` is `times` the allowed error. Errors fall
+/// with the square root, or faster, because neighbours come closer. So at most four times as many parts are
+/// measured next.
 std::size_t next_parts(std::size_t parts, double times) {
     const double enough = std::ceil(times * times * static_cast<double>(parts));
     const std::size_t most = std::min(4 * parts, all_parts);
     return enough < static_cast<double>(most) ? std::max(parts + 1, static_cast<std::size_t>(enough)) : most;
 }
 
-/// The means are of as many samples as they need; the maximum is the farthest of all, and of the vertices.
+/// The means use as many samples as they need. The maximum is over all samples and vertices.
 void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk& walk,
                      MeasuredSamples& samples, const DeviationSettings& settings, std::vector<Index>& near) {
     ProgressSteps steps({2, 12, 2});
     raise_maximum(d, from,
-                  walk.farthest_vertex(0, near)); // first: what is next to nothing beside it is soon measured
+                  walk.farthest_vertex(
+                      0, near)); // first, because parts with a far smaller distance are then measured quickly
     steps.next();
     if (!settings.means) return raise_maximum(d, from, walk.farthest_sample(samples, d.maximum, near));
     DistanceSums sums;
@@ -117,8 +118,8 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk
     set_means(d, sums);
 }
 
-/// Without the bound. order: the triangles, each near the one before. near: set to, [vertices], a triangle of
-/// the other surface's tree that the vertex is within the maximum of, or none; or left empty.
+/// Measures without the bound. order: the triangles, each near the previous. near: set to, [vertices], a
+/// triangle of the other surface's tree within the maximum of the vertex, or none; or left empty.
 DirectedDeviation measured_to(const Surface& from, std::span<const Index> order, const FaceTree& to,
                               const DeviationSettings& settings, std::vector<Index>& near) {
     DirectedDeviation d;
@@ -165,7 +166,7 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
 
 namespace {
 
-/// The length that half of about 64 triangles exceed.
+/// The median of the longest edges of about 64 triangles.
 double usual_length(const Surface& surface) {
     std::vector<double> lengths;
     for (std::size_t t = 0; t < surface.size(); t += surface.size() / 64 + 1) {
@@ -179,8 +180,8 @@ double usual_length(const Surface& surface) {
     return *middle;
 }
 
-/// Whether most of about 64 points of a surface are farther from another than its triangles are long. They
-/// are looked up from the triangle that the one before was near, until those that are near are enough.
+/// Whether most of about 64 points of a surface are farther from the other surface than its triangles are
+/// long. Each search starts at the previous result and stops when enough points are near.
 bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
     const double near = usual_length(to);
     const std::size_t step = from.size() / 64 + 1, points = (from.size() + step - 1) / step;
@@ -194,8 +195,8 @@ bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
     return points > 0;
 }
 
-/// Whether boxes along the axes hold far more than most of about 64 triangles, as around slivers that lie
-/// askew: those of thousands overlap then.
+/// Whether axis-aligned boxes are far larger than most of about 64 triangles, as for oblique slivers:
+/// thousands of such boxes overlap.
 bool are_askew(const Surface& surface) {
     constexpr double far_more = 32; // times the area, on three sides of the box; at most 6 of even triangles
     std::size_t askew = 0, count = 0;
@@ -214,7 +215,7 @@ void flatten_if_useful(FaceTree& tree, const Surface& of, const Surface& from) {
     if (!tree.empty() && (are_askew(of) || is_far(from, of, tree))) tree.flatten();
 }
 
-/// The triangles in the order of their tree, and those that are in none.
+/// The triangles in the order of their tree, followed by the triangles outside the tree.
 std::vector<Index> order_of(const Surface& surface, const FaceTree& tree) {
     std::vector<Index> order = tree.sources;
     if (order.size() == surface.size()) return order;
@@ -225,8 +226,8 @@ std::vector<Index> order_of(const Surface& surface, const FaceTree& tree) {
     return order;
 }
 
-/// Of a tree that is to be asked for points of another surface: where they are fewer than its triangles, it
-/// is not worth sorting as well as it can be. A bound may ask for many more.
+/// The kind of tree for queries from another surface. A tree for fewer points than triangles is not worth
+/// sorting fully. A bound may query many more points.
 FaceTree::Use use_of_tree(const Surface& surface, const Surface& other, const DeviationSettings& settings) {
     const std::size_t points =
         settings.samples + other.positions.size() + (settings.certify ? settings.certify_work : 0);
@@ -238,7 +239,7 @@ Surface scaled(Surface surface, const PowerScale& scale) {
     return surface;
 }
 
-/// Of surfaces that were scaled: what it is of them as they were.
+/// Converts the result for scaled surfaces back to the original scale.
 void unscale(DirectedDeviation& d, const PowerScale& scale) {
     for (double* x : {&d.maximum, &d.rms, &d.mean}) *x = unscaled(*x, scale.powers[0]);
     if (d.bound) d.bound = unscaled(*d.bound, scale.powers[0]);

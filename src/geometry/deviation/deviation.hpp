@@ -1,5 +1,5 @@
 #pragma once
-// How far two surfaces are apart, both ways: by samples, and, when asked, with a guaranteed upper bound.
+// The distance between two surfaces, both ways: by samples and, on request, with a guaranteed upper bound.
 // After P. Cignoni, C. Rocchini and R. Scopigno, "Metro: measuring error on simplified surfaces" (1998).
 
 #include "geometry/spatial/face_tree.hpp"
@@ -12,35 +12,36 @@ namespace facetmill {
 
 struct DeviationSettings {
     std::size_t samples =
-        100000; ///< each way, spread evenly over the area; besides, every vertex is a sample
-    /// The means are of as many 18ths of the samples, two at least, as it takes for the standard error of the
-    /// RMS, estimated from samples side by side, to be at most this part of it; else of all. The maximum is
-    /// of all even then.
+        100000; ///< each way, spread evenly over the area; in addition, every vertex is a sample
+    /// The means use 18ths of the samples, at least two, until the standard error of the RMS, relative to
+    /// it, is at most this. The error is estimated from neighbouring samples. The maximum always uses all
+    /// samples.
     double mean_error = 0.005;
-    /// Without them rms, mean and averaged stay 0, and the maximum, which is the same, is found sooner.
+    /// If false, rms, mean and averaged stay 0, and the maximum, which is the same, is found sooner.
     bool means = true;
     std::uint64_t seed = 1;
     bool certify = false; ///< also compute DirectedDeviation::bound
-    /// Stop when the bound exceeds the maximum, of both ways the larger, by no more than this part of it, and
-    /// a millionth of the diagonal.
+    /// The search for the bound stops when it exceeds the larger maximum of both ways by at most this
+    /// fraction of it, plus a millionth of the diagonal.
     double certify_to = 0.01;
-    /// Closest points that certify may look up, each way: work, not time, so that the result does not depend
-    /// on the machine.
+    /// The limit of closest points that certify may look up, each way. It limits work, not time, so that the
+    /// result does not depend on the machine.
     std::size_t certify_work = 4000000;
 };
 
-/// From one surface to the other: the distance of each sample to the closest point there; 0 where its
-/// coordinates, rounded as they are, cannot tell it from that (16 units of the last place).
+/// From one surface to the other: the distance of each sample to the closest point there. It is 0 within the
+/// rounding of coordinates (16 units of the last place).
 struct DirectedDeviation {
     std::size_t samples = 0;  ///< over the area
-    std::size_t averaged = 0; ///< of these, those that rms and mean are of; without any, vertices
-    std::size_t vertices = 0; ///< that triangles use; where there are samples they enter the maximum only
-    /// The means are of distances right to 1/256, or to 1/16384 of the maximum; most to a millionth.
+    std::size_t averaged = 0; ///< of these, the number that rms and mean use; without any, vertices
+    std::size_t vertices =
+        0; ///< vertices of triangles; if the surface has samples, vertices enter only the maximum
+    /// The means use distances accurate to 1/256, or to 1/16384 of the maximum; most to a millionth.
     double maximum = 0, rms = 0, mean = 0;
     Vec3 from, to;     ///< the farthest sample and the point closest to it
     Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex
-    /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`;
-    /// of two ways, the bound of both is at least the larger maximum, beyond which nothing is searched.
+    /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`.
+    /// Measured both ways, only the larger of the two maxima is bounded; the search stops there.
     std::optional<double> bound;
     std::size_t looked_up = 0; ///< closest points that certify looked up; they enter the maximum
 };
@@ -49,26 +50,26 @@ struct DirectedDeviation {
 struct DeviationResult {
     DirectedDeviation forward;  ///< from the first surface to the second
     DirectedDeviation backward; ///< from the second to the first
-    double diagonal = 0;        ///< of the box of the first surface: what percentages are of
+    double diagonal = 0;        ///< of the box of the first surface: the basis of percentages
     std::uint64_t seed = 0;
 
     double maximum() const { return std::max(forward.maximum, backward.maximum); }
     double rms() const { return std::max(forward.rms, backward.rms); }
     double mean() const { return std::max(forward.mean, backward.mean); }
-    /// The larger of both bounds, when there are both.
+    /// The larger of both bounds, if both exist.
     std::optional<double> bound() const;
     /// In percent of the diagonal; 0 for 0, infinity when the diagonal is 0.
     double percent(double length) const;
 };
 
-/// Two-sided deviation. The samples depend on the surface and the seed only: the k-th lies in the k-th of
-/// equal parts of the area, taken face by face. The same for any number of threads. Triangles with
-/// coordinates that are not finite are left out. O((samples + vertices) log n).
+/// Two-sided deviation. The samples depend only on the surface and the seed: the k-th is in the k-th of
+/// equal parts of the area, taken face by face. The result is the same for any number of threads. Triangles
+/// with coordinates that are not finite are ignored. O((samples + vertices) log n).
 DeviationResult deviation(const Surface& first, const Surface& second,
                           const DeviationSettings& settings = {});
-/// In the meshes' own spaces, which must be the same.
+/// In the meshes' own space, which must be the same for both.
 DeviationResult deviation(const Mesh& first, const Mesh& second, const DeviationSettings& settings = {});
-/// With trees at hand, one way only; `bound` needs certify.
+/// One way only, with a given tree; `bound` needs certify.
 DirectedDeviation deviation_to(const Surface& from, const FaceTree& to,
                                const DeviationSettings& settings = {});
 
@@ -77,15 +78,15 @@ struct SurfaceSample {
     Vec3 point;
     Index triangle = none; ///< of the surface
 };
-/// So many points spread over the area as described above; none when there is no area.
+/// `count` points spread over the area as described above; empty if the surface has no area.
 std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count, std::uint64_t seed);
 
-/// Samples on triangles are rounded, and so is what is closest to them: the distance up to which coordinates
-/// of that size cannot be told from there (16 units of the last place).
+/// Samples on triangles are rounded, and so are their closest points. Returns the distance below which such
+/// coordinates are indistinguishable (16 units of the last place).
 inline double distance_of_none(const Vec3& p) {
     return 16 * 2.220446049250313e-16 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
-/// Such a distance is 0, so that a surface is 0 from itself.
+/// Sets such a distance to 0, so that a surface has distance 0 from itself.
 inline double told_from_zero(double distance, const Vec3& p) {
     return distance <= distance_of_none(p) ? 0 : distance;
 }

@@ -1,13 +1,13 @@
 #pragma once
-// A measured deviation as reports have it.
+// The report fields of a measured deviation.
 
 #include "geometry/deviation/deviation.hpp"
 #include "options/fields.hpp"
 
 namespace facetmill {
 
-/// Both ways together and each for itself, with the place of the maximum. Lengths in scene units, null when
-/// infinite; the bound is null unless certified.
+/// Both ways together and each separately, with the position of the maximum. Lengths in scene units, null
+/// when infinite; the bound is null unless certified.
 void declare_deviation_fields(DeclareFields<DeviationResult>& d);
 /// The declared fields of a deviation.
 const Fields& deviation_fields();

@@ -17,7 +17,7 @@ std::vector<T> in_a_row(std::vector<T> a, const std::vector<T>& b) {
     return a;
 }
 
-/// Triangles beside each other, until their corners are as many as are compared at once.
+/// Neighbouring triangles, until their corners fill a group that is compared at once.
 class TriangleGroup {
   public:
     TriangleGroup(const Surface& from, const FaceTree& to, std::span<const Index> near, double distance)
@@ -37,7 +37,7 @@ class TriangleGroup {
         if (triangles_.empty()) return;
         left_ = sets_;
         together_.remove_within(points_, distance_, left_, hint_);
-        // What is left is in the order in which it was.
+        // The remaining sets keep their order.
         for (std::size_t i = 0, k = 0; k < left_.size(); ++i)
             if (sets_[i] == left_[k]) {
                 beyond.push_back(triangles_[i]);
@@ -52,7 +52,7 @@ class TriangleGroup {
     std::vector<Index> beyond;
 
   private:
-    /// Whether a triangle that a corner is near is as near to the others.
+    /// Whether the triangle near one corner is also near the other corners.
     bool is_within(Index t) const {
         if (near_.empty()) return false;
         const Index* const corners = &from_.corners[3 * std::size_t{t}];
@@ -98,7 +98,8 @@ double longest_edge(const SurfacePiece& piece) {
     return std::max({length(b - a), length(c - b), length(a - c)});
 }
 
-/// Into how many, at most, an edge is cut, so that parts of even deviation are near enough to one triangle.
+/// The number of parts of an edge, at most `most`, so that parts of even deviation are near enough to one
+/// triangle.
 std::size_t cuts_of(const SurfacePiece& piece, double distance, std::size_t most) {
     const double wanted = longest_edge(piece) / (2 * distance);
     return wanted >= static_cast<double>(most)
@@ -106,8 +107,8 @@ std::size_t cuts_of(const SurfacePiece& piece, double distance, std::size_t most
                : std::max<std::size_t>(2, static_cast<std::size_t>(wanted) + 1);
 }
 
-/// The corner across from an edge that is short beside the longest and beside the distance, so that nothing
-/// would be gained by cutting it; or none.
+/// The corner opposite an edge that is short relative to the longest edge and to the distance, so that
+/// cutting the edge would gain nothing; or none.
 std::size_t tip_of(const SurfacePiece& piece, double distance) {
     const auto& p = piece.corners;
     const double a = length(p[2] - p[1]), b = length(p[0] - p[2]), c = length(p[1] - p[0]);
@@ -121,7 +122,7 @@ class PieceCutter {
   public:
     PieceCutter(const FaceTree& to, double distance) : to_(to), distance_(distance), together_(to) {}
 
-    /// is_part: of what was cut, and found to be beyond.
+    /// is_part: the piece results from a cut and is known to be beyond.
     void cut(const SurfacePiece& piece, bool is_part) {
         if (!is_part && is_within(piece)) return;
         points_.clear();
@@ -145,7 +146,7 @@ class PieceCutter {
     std::vector<SurfacePiece> beyond;
 
   private:
-    /// Whether its middle is so near that all of it is.
+    /// Whether the middle is so near that the whole piece is within the distance.
     bool is_within(const SurfacePiece& piece) {
         const auto& [a, b, c] = piece.corners;
         const Vec3 middle = (a + b + c) / 3;
@@ -157,7 +158,8 @@ class PieceCutter {
         return closest.distance <= enough;
     }
 
-    /// The points of n equal parts of each edge and between them, row by row, and the parts as sets of them.
+    /// Divides each edge into n equal parts and stores the points row by row, and the parts as sets of
+    /// points.
     void lay_out(const SurfacePiece& piece, std::size_t n) {
         const auto& [a, b, c] = piece.corners;
         const auto size = static_cast<double>(n);
@@ -176,7 +178,7 @@ class PieceCutter {
         }
     }
 
-    /// The same of n rows between the tip of a sliver and the edge across from it, which is not cut.
+    /// The same with n rows between the tip of a sliver and the opposite edge, which is not cut.
     void lay_out_rows(const SurfacePiece& piece, std::size_t tip, std::size_t n) {
         const Vec3 &a = piece.corners[tip], &b = piece.corners[(tip + 1) % 3],
                    &c = piece.corners[(tip + 2) % 3];
@@ -218,7 +220,7 @@ std::vector<Index> triangles_beyond(const Surface& from, std::span<const Index> 
         in_a_row<Index>, 1024);
 }
 
-/// Their parts that are beyond.
+/// The parts of the pieces that are beyond.
 std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, bool are_parts,
                                        const FaceTree& to, double distance) {
     return parallel_reduce(
@@ -231,11 +233,11 @@ std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, boo
         in_a_row<SurfacePiece>, 256);
 }
 
-constexpr int most_times = 3;        ///< that a triangle is cut
-constexpr std::size_t batch = 16384; ///< pieces that are cut before it is asked whether too many are left
+constexpr int most_times = 3;        ///< the most times that a triangle is cut
+constexpr std::size_t batch = 16384; ///< pieces to cut before checking whether too many remain
 
-/// Cuts pieces so many times and adds what is left of them, those not cut as well: once more than about
-/// `most` are left, no more are cut. What is left of a batch is cut again before the next batch.
+/// Cuts pieces up to `times` times and appends the remaining parts, including uncut pieces. Once more than
+/// about `most` remain, no more are cut. The rest of a batch is cut again before the next batch.
 void cut_until(std::size_t most, int times, std::span<const SurfacePiece> pieces, const FaceTree& to,
                double distance, std::vector<SurfacePiece>& left) {
     while (times > 0 && !pieces.empty() && left.size() <= most) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which parts of a surface may be farther from another than a distance that most are within.
+// Finds the parts of a surface that may be farther from another than a distance that holds for most.
 
 #include "geometry/spatial/face_tree.hpp"
 
@@ -19,12 +19,12 @@ struct Beyond {
     std::vector<SurfacePiece> pieces; ///< parts of others
 };
 
-/// Leaves out what lies within `distance` > 0 for certain: what has all its corners that near to one triangle
-/// of the other surface, a convex set; what has its middle nearer by as much as its corners are from there;
-/// and what is a small part of a triangle whose parts do. Triangles are cut into up to 36 parts, slivers in
-/// rows between their tip and the edge across from it, and those parts twice again, as long as no more than
-/// about `most` are left. order: the triangles that are asked about, with finite corners, each near the one
-/// before. near: [vertices] a triangle of `to` that each is within the distance of, or none, or empty. The
+/// Skips all parts certainly within `distance` > 0, by three tests. All corners are that near to one
+/// triangle of the other surface, a convex set. The middle is nearer by at least its distance to the
+/// corners. Or all parts of a triangle pass these tests. Triangles are cut into up to 36 parts, slivers in
+/// rows between their tip and the opposite edge. These parts are cut twice more, as long as no more than
+/// about `most` remain. order: the triangles to test, with finite corners, each near the previous. near:
+/// [vertices] a triangle of `to` within the distance of each vertex, or none; or empty. The result is the
 /// same for any number of threads.
 Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
                      std::span<const Index> near, double distance, std::size_t most);

@@ -10,7 +10,7 @@
 
 namespace facetmill {
 
-/// Points whose distance is known, the last few of them, and triangles near them.
+/// The last few points with known distances, and the triangles near them.
 class SampleWalk::Known {
   public:
     static constexpr std::size_t few = 8;
@@ -20,8 +20,8 @@ class SampleWalk::Known {
         next_ = (next_ + 1) % items_.size();
         item = {point, distance, triangle};
     }
-    /// Sets `near` to the triangle of the nearest, if there is one. Returns whether one of them shows that p
-    /// is within `distance`: no point is farther than from it and from there.
+    /// Sets `near` to the triangle of the nearest known point, if any. Returns whether a known point proves
+    /// that p is within `distance`, by the triangle inequality.
     bool show_within(const Vec3& p, double distance, Index& near) const {
         double least = HUGE_VAL;
         for (const Item& item : items_) {
@@ -45,8 +45,8 @@ class SampleWalk::Known {
     std::size_t next_ = 0;
 };
 
-/// Raises `best` if p is farther, and returns a point that is as near as that, or the closest. The
-/// coordinates of samples are rounded, those of vertices are not.
+/// Raises `best` if p is farther. Returns a point that is near enough, or the closest. The coordinates of
+/// samples are rounded, coordinates of vertices are not.
 Closest SampleWalk::consider(const Vec3& p, Index triangle, Index hint, Farthest& best) const {
     const double none_below = triangle == none ? 0 : distance_of_none(p);
     const Closest c = closest_point(to_, p, hint, std::max(best.distance, none_below));
@@ -55,13 +55,13 @@ Closest SampleWalk::consider(const Vec3& p, Index triangle, Index hint, Farthest
     return c;
 }
 
-/// Points that wait to be compared with the farthest together.
+/// Points that wait for a joint comparison with the farthest.
 struct SampleWalk::Candidates {
     struct Waiting {
         Vec3 point;
-        Index triangle; ///< that it is on, none for vertices
+        Index triangle; ///< the triangle of a sample, none for vertices
         Index near;     ///< a triangle of the other surface, if one is known
-        Index vertex;   ///< that it is, none for samples
+        Index vertex;   ///< the vertex, none for samples
     };
 
     const SampleWalk& walk;
@@ -70,11 +70,11 @@ struct SampleWalk::Candidates {
     std::vector<Waiting> waiting{};
     std::vector<Vec3> points{};
     Index hint = none;
-    std::span<Index> found{};             ///< [vertices] to be set to what they are within the farthest of
-    std::span<const Index> near_corner{}; ///< the same, that was set
+    std::span<Index> found{}; ///< [vertices] output: a triangle within the farthest distance of each
+    std::span<const Index> near_corner{}; ///< [vertices] the same, as input
     Attempts attempts{}, corner_attempts{}, across_attempts{};
-    static constexpr std::size_t fewest = 8; ///< are worth looking at together
-    std::size_t size = GroupDistances::most; ///< up to so many are
+    static constexpr std::size_t fewest = 8; ///< the smallest group worth comparing together
+    std::size_t size = GroupDistances::most; ///< the largest group
     Known known{};
     double rounding = 0; ///< of samples on triangles at the group's vertices
 
@@ -84,7 +84,8 @@ struct SampleWalk::Candidates {
     }
 
     void add_unmeasured(const MeasuredSamples& samples, const AreaSamples::Run& run) {
-        constexpr std::size_t many = 16; // are more work one by one than together, and than the corners
+        constexpr std::size_t many =
+            16; // above this, single tests cost more than a group test, and than a test of the corners
         const Index t = run.triangle;
         const bool together = run.end - run.begin >= many;
         if (have_same_near(t)) return;
@@ -105,7 +106,7 @@ struct SampleWalk::Candidates {
         }
     }
 
-    /// Whether the corners of a triangle, and so all of it, are within the farthest of one and the same
+    /// Whether the corners of a triangle, and so all of it, are within the farthest distance of a single
     /// triangle.
     bool is_within(Index t) const {
         const Vec3 &a = walk.from_.point(t, 0), &b = walk.from_.point(t, 1), &c = walk.from_.point(t, 2);
@@ -117,7 +118,8 @@ struct SampleWalk::Candidates {
         return near != none && is_near(a) && is_near(b) && is_near(c);
     }
 
-    /// Whether the corners are within the farthest of the same triangle, and so all samples between them.
+    /// Whether the corners are within the farthest distance of the same triangle, and so all samples between
+    /// them.
     bool have_same_near(Index t) const {
         if (near_corner.empty()) return false;
         const Index* const corners = &walk.from_.corners[3 * std::size_t{t}];
@@ -133,8 +135,8 @@ struct SampleWalk::Candidates {
             waiting.push_back({p, t, near, none});
     }
 
-    /// Whether one of the triangles that are near the corners of the sample's shows that it is within the
-    /// farthest.
+    /// Whether a triangle near a corner of the sample's triangle proves that the sample is within the
+    /// farthest distance.
     bool is_near_corners(const Vec3& p, Index t) {
         if (near_corner.empty() || !corner_attempts.next()) return false;
         Index tried = none;
@@ -149,7 +151,7 @@ struct SampleWalk::Candidates {
         return is_near;
     }
 
-    /// What was measured of a sample may be off.
+    /// An upper bound of a measured distance, because the measurement has an error.
     double at_most(double distance) const {
         return distance + std::max(distance / (MeasuredSamples::most_errors - 1),
                                    best.distance * MeasuredSamples::least_part);
@@ -167,8 +169,8 @@ struct SampleWalk::Candidates {
         compare(some.subspan(half));
     }
 
-    /// Those that are not yet known to be within the farthest are looked up, one after the other. What is
-    /// closest to one is tried for the others.
+    /// Looks up, one at a time, the points not yet known to be within the farthest distance. The closest
+    /// triangle of each point is tried for the other points.
     void compare_group(std::span<Waiting> some) {
         points.clear();
         for (const Waiting& w : some) points.push_back(w.point);
@@ -194,11 +196,11 @@ struct SampleWalk::Candidates {
         }
     }
 
-    /// What is left out is shown to be within that: for vertices less than the farthest by what the rounding
-    /// of samples between them may add.
+    /// Skipped points are proved to be within this distance. For vertices it is less than the farthest by
+    /// the possible rounding of samples between them.
     double within_what() const { return best.distance - rounding; }
 
-    /// Brings those to the front.
+    /// Moves the points of these bits to the front.
     static std::span<Waiting> those_of(std::uint32_t those, std::span<Waiting> some) {
         std::size_t count = 0;
         for (; those != 0; those &= those - 1)
@@ -206,8 +208,8 @@ struct SampleWalk::Candidates {
         return some.first(count);
     }
 
-    /// Those that lie across from a triangle, within the farthest. False where fewer are to be tried
-    /// together.
+    /// Finds the points that project into a triangle within the farthest distance. Returns false if fewer
+    /// points are to be tried together.
     bool leave_out_across(std::span<const Waiting> some, std::uint32_t& left, double& laid_out) {
         constexpr int enough = 4; // else each by itself is as fast
         if (std::popcount(left) < enough || best.distance == 0) return true;
@@ -224,7 +226,7 @@ struct SampleWalk::Candidates {
         return tried;
     }
 
-    /// Those that the triangle `hint` is near.
+    /// Skips the points near the triangle `hint`.
     void leave_out(std::uint32_t those, std::span<const Waiting> some, std::uint32_t& left) {
         left &= ~those;
         if (found.empty()) return;
@@ -232,7 +234,7 @@ struct SampleWalk::Candidates {
             found[some[static_cast<std::size_t>(std::countr_zero(those))].vertex] = hint;
     }
 
-    /// Which of them are within the farthest of the triangle `hint`, as far as that is tried.
+    /// The points within the farthest distance of the triangle `hint`, as far as tried.
     std::uint32_t within(std::uint32_t left, double& laid_out) {
         if (left == 0 || !attempts.next()) return 0;
         if (laid_out < within_what()) laid_out = together.lay_out(points, within_what()) ? within_what() : 0;
@@ -242,7 +244,7 @@ struct SampleWalk::Candidates {
     }
 };
 
-/// The farthest of what add(i, candidates) adds for each number below count, in chunks of so many.
+/// The farthest point of all that add(i, candidates) adds for i below count, in chunks of the given size.
 template <class Add>
 Farthest SampleWalk::farthest(std::size_t count, double least, std::size_t chunk, const Add& add) const {
     ProgressScope::report_next_loop();

@@ -1,5 +1,5 @@
 #pragma once
-// Points beside each other, of which few enough at a time are looked at together.
+// Splits neighbouring points into groups small enough to be processed together.
 
 #include "base/math/vec.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// Whether to try again what may be in vain: then fewer and fewer of up to 32 are.
+/// Whether to retry an attempt that often fails: after failures, fewer of up to 32 attempts are made.
 class Attempts {
   public:
     bool next() {
@@ -26,7 +26,7 @@ class Attempts {
     std::size_t in_vain_ = 0, left_out_ = 0;
 };
 
-/// Parts the items across the middle of the longest side of their box; returns how many come first.
+/// Splits the items across the middle of the longest side of their box; returns the size of the first part.
 template <class T>
 std::size_t halved(std::span<T> some) {
     Box box;
@@ -37,7 +37,7 @@ std::size_t halved(std::span<T> some) {
     const auto upper =
         std::partition(some.begin(), some.end(), [&](const T& item) { return item.point[axis] < middle; });
     const auto half = static_cast<std::size_t>(upper - some.begin());
-    return half == 0 || half == some.size() ? some.size() / 2 : half; // all in one place
+    return half == 0 || half == some.size() ? some.size() / 2 : half; // all points coincide
 }
 
 } // namespace facetmill

@@ -13,9 +13,9 @@ namespace facetmill {
 
 namespace {
 
-/// The part that each of 18 samples in a row is of has the digits of the sample's number in bases 2, 3 and 3
-/// in reverse, so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen"
-/// (1935). For each part, bits for the samples of those before it.
+/// The part of each of 18 consecutive samples has the digits of the sample's number in bases 2, 3 and 3 in
+/// reverse, so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen"
+/// (1935). For each part, stores bits for the samples of earlier parts.
 constexpr auto rows_before_parts() {
     std::array<std::uint32_t, MeasuredSamples::all_parts + 1> rows{};
     for (std::size_t part = 0; part < MeasuredSamples::all_parts; ++part) {
@@ -25,7 +25,7 @@ constexpr auto rows_before_parts() {
     return rows;
 }
 
-/// Which triangle, of those that use it, is the first; none for vertices that are not finite.
+/// The first triangle that uses each vertex; none for vertices that are not finite.
 std::vector<Index> first_uses(const Surface& surface) {
     std::vector<Index> first(surface.positions.size(), none);
     for (std::size_t c = surface.corners.size(); c-- > 0;)
@@ -109,7 +109,7 @@ struct SampleWalk::Groups {
         measure(some.subspan(half));
     }
 
-    /// False when each is to be measured by itself.
+    /// Returns false if each sample is to be measured separately.
     bool measure_group(std::span<const Waiting> some) {
         if (!measures_together(some)) return false;
         for (std::size_t k = 0; k < some.size(); ++k) {

@@ -1,6 +1,6 @@
 #pragma once
-// The points of one surface that a deviation asks about, and their distances to another: its samples and
-// vertices, triangle by triangle in an order in which each is near the one before, so that those of
+// The points of one surface measured by a deviation, its samples and vertices, and their distances to
+// another. They are visited triangle by triangle in an order in which each is near the previous, so that
 // neighbours are measured together.
 
 #include "geometry/deviation/area_samples.hpp"
@@ -27,8 +27,8 @@ struct MeasuredSamples {
         : points(surface, count, seed), runs(points.runs(order)), distances(points.size(), unmeasured),
           nearest(points.size(), none) {}
 
-    /// Calls call(i) for those samples in [begin, end) that are of parts [first, last), in their order. A
-    /// part is spread evenly over all samples; so are several, as far as they go.
+    /// Calls call(i) for the samples in [begin, end) of parts [first, last), in their order. A part is
+    /// spread evenly over all samples, and so are several parts, approximately.
     template <class Call>
     static void each_of(std::size_t first, std::size_t last, std::size_t begin, std::size_t end,
                         const Call& call) {
@@ -48,12 +48,12 @@ struct MeasuredSamples {
 
     AreaSamples points;
     std::vector<AreaSamples::Run> runs; ///< in the order of the walk
-    std::size_t parts = 0;              ///< those before it are measured
+    std::size_t parts = 0;              ///< the parts before this are measured
     std::vector<double> distances;      ///< [samples]
-    std::vector<Index> nearest; ///< [samples] of those measured, a triangle of the other surface's tree
+    std::vector<Index> nearest; ///< [samples] for measured samples, a triangle of the other surface's tree
 
   private:
-    /// Of the first samples, one of each part: bit i if the i-th is of a part before that.
+    /// For the first sample of each part: bit i if the i-th is of an earlier part.
     static std::uint32_t row_before(std::size_t part);
 };
 
@@ -61,7 +61,7 @@ struct MeasuredSamples {
 struct Farthest {
     Vec3 from, to;
     double distance = -1;
-    Index triangle = none; ///< that the sample is on; none for a vertex
+    Index triangle = none; ///< the triangle of the sample; none for a vertex
 };
 inline Farthest farther_of(const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }
 
@@ -70,12 +70,12 @@ class SampleWalk {
     /// order: the triangles, each near the one before.
     SampleWalk(const Surface& from, std::span<const Index> order, const FaceTree& to);
 
-    /// Those that triangles use and that are finite.
+    /// The finite vertices of triangles.
     std::size_t vertex_count() const;
     std::vector<Vec3> vertices() const;
 
-    /// Measures the first `parts` of the samples, but for those that are; returns the farthest of them, when
-    /// it is beyond `least`.
+    /// Measures the first `parts` parts of the samples, except those already measured. Returns the farthest
+    /// sample if it is beyond `least`.
     Farthest measure(MeasuredSamples& samples, std::size_t parts, double least) const;
 
     // Those that turn out nearer than one before are not searched to the end:

@@ -135,7 +135,7 @@ class Cutter {
     std::size_t added_ = 0;
 };
 
-/// Of all parts, in the world.
+/// The vertices of all parts, in the world.
 std::vector<Vec3> vertices_of(const Scene& scene) {
     std::vector<Vec3> points;
     for (const Part& part : scene.parts) {
@@ -153,8 +153,8 @@ struct Cell {
     Index vertex;
 };
 
-/// Points by the cells of a grid of 112 along the longest side, each two or three pixels of a picture; those
-/// that are not finite are in the last.
+/// Sorts points into the cells of a grid of 112 along the longest side, each two or three pixels of a
+/// picture. Points that are not finite are in the last cell.
 std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
     constexpr double along = 111;
     constexpr int bits = 8; // of each coordinate
@@ -173,7 +173,7 @@ std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
     return cells;
 }
 
-/// Distances of many vertices: one of each cell is looked up, and all that lie around the farthest.
+/// Distances of many vertices: looks up one vertex of each cell, and all vertices near the farthest.
 class Reduced {
   public:
     Reduced(const FaceTree& tree, const std::vector<Vec3>& points) : tree_(tree), points_(points) {}

@@ -18,7 +18,7 @@ inline Vec3 beside_edge(const Mesh& mesh, Index f, Index c) {
     return mesh.point(c) + cross(normalised(area_vector(mesh, f)), mesh.point(next) - mesh.point(c));
 }
 
-/// For p in the plane of u, v, q: whether it lies on q's side of the line u v, exactly.
+/// For p in the plane of u, v, q: whether p is on q's side of the line u v, exactly.
 inline bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3& p) {
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t x = (i + 1) % 3, y = (i + 2) % 3;
@@ -28,7 +28,7 @@ inline bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3
     return true;
 }
 
-/// A face at an edge: its corner along it, a point beside, and which way it runs.
+/// A face at an edge: its corner along the edge, a point off the edge, and its direction along it.
 struct EdgeLeaf {
     Index corner;
     Vec3 beside;

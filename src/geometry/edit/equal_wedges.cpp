@@ -56,7 +56,7 @@ Groups wedges_of_vertices(const Mesh& mesh) {
 /// The first of the wedges of one vertex, which ascend, that each of them equals.
 void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, std::vector<Index>& different,
                           std::vector<Index>& representative) {
-    constexpr std::size_t few = 32; // so many different ones are compared one by one
+    constexpr std::size_t few = 32; // up to this many different wedges are compared linearly
     different.clear();
     for (std::size_t i = 0; i < wedges.size() && different.size() <= few; ++i) {
         const Index w = wedges[i];
@@ -76,7 +76,7 @@ void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, 
             i > 0 && bits.compare(sorted[i - 1], sorted[i]) == 0 ? representative[sorted[i - 1]] : sorted[i];
 }
 
-/// Keeps the wedges that stand for themselves, in order; attributes follow.
+/// Keeps the wedges that represent themselves, in order; attributes follow.
 void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) {
     std::vector<Index> kept, number(representative.size());
     for (Index w = 0; w < representative.size(); ++w)

@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// Makes wedges of one vertex with bit-equal attributes one wedge, the first of them, as unindexed glTF and
-/// joined tiles repeat them; how many there are less. Faces keep their corners' order; vertices and wedges
+/// Merges wedges of one vertex with bit-equal attributes into the first, as unindexed glTF and joined tiles
+/// repeat them. Returns the number of removed wedges. Faces keep their corners' order; vertices and wedges
 /// that no face uses stay. O(n log k) for k wedges at a vertex, parallel.
 std::size_t merge_equal_wedges(Mesh& mesh);
 

@@ -14,11 +14,11 @@ struct MaskSettings {
     bool any() const { return !material.empty() || group || !attribute.empty(); }
 };
 
-/// For each vertex a share from 0 (stays) to 1 (moves): 1 where all its faces have the material and the
-/// group, times the attribute (of the vertex; the least over its wedges or faces; integers that are
-/// normalised count as fractions, all others are cut to 0 .. 1). Vertices without faces have 1 as far as
-/// faces decide. Empty settings give an empty vector: all 1. Throws stage (E-MASK) when the mesh has no such
-/// attribute or group attribute.
+/// For each vertex a share from 0 (stays) to 1 (moves). The share is 1 if all its faces have the material
+/// and the group, times the attribute. The attribute counts at the vertex, or as the least over its wedges
+/// or faces. Normalised integers count as fractions; other values are clamped to 0 .. 1. The face condition
+/// is true for vertices without faces. Empty settings give an empty vector: all 1. Throws stage (E-MASK)
+/// when the mesh has no such attribute or group attribute.
 std::vector<double> vertex_mask(const Part& part, const Scene& scene, const MaskSettings& settings);
 
 /// Sets the share of each vertex of a cap to 0: of the faces that face attribute `cut_id` numbers, as clip,

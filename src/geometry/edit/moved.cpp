@@ -8,7 +8,8 @@ namespace facetmill {
 
 namespace {
 
-/// Takes the part along the normal out of each tangent; one that lies along the normal stays as it is.
+/// Removes the component along the normal from each tangent; a tangent parallel to the normal stays
+/// unchanged.
 template <class Number>
 void straighten(std::vector<Number>& tangents, const Attribute& normals) {
     parallel_for(tangents.size() / 4, [&](std::size_t i) {

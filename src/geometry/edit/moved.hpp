@@ -1,6 +1,6 @@
 #pragma once
-// What becomes of the attributes when a stage moves vertices and leaves the connectivity alone, and of the
-// size of what they enclose.
+// Updates attributes after a stage moves vertices without changing the connectivity, and measures the change
+// of size.
 
 #include "mesh/mesh.hpp"
 
@@ -8,13 +8,13 @@
 
 namespace facetmill {
 
-/// Call it after positions changed: wedge attribute NORMAL is recomputed, TANGENT (float32 or float64) is
-/// made perpendicular to it again, the others are as they were. Returns what became of every attribute, in
-/// the mesh's order.
+/// Call it after positions changed. Recomputes wedge attribute NORMAL and makes TANGENT (float32 or float64)
+/// perpendicular to it again; other attributes stay. Returns the change of every attribute, in the mesh's
+/// order.
 AttributeChanges settle_moved(Mesh& mesh);
 
-/// Takes the part along NORMAL out of the wedge attribute TANGENT (float32 or float64); whether there was
-/// one.
+/// Removes the component along NORMAL from the wedge attribute TANGENT (float32 or float64). Returns whether
+/// the mesh has one.
 bool straighten_tangents(Mesh& mesh);
 
 /// How far vertices came from where they were, in world units.

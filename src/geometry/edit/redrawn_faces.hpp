@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// A mesh with the vertices and wedges of another, whose faces are added one by one: their wedges to
-/// mesh.corners, then end_face. Vertices and wedges may be added behind those of the other.
+/// A mesh with the vertices and wedges of another, to which faces are added one at a time: append their
+/// wedges to mesh.corners, then call end_face. Vertices and wedges may be appended too.
 struct RedrawnFaces {
     Mesh mesh; ///< without attributes
     MeshProvenance provenance;

@@ -13,8 +13,8 @@ namespace facetmill {
 
 namespace {
 
-/// Pairs of corners that stay together along a crowded edge: those that have the inside between them. A
-/// forward face has the inside before it around the edge, a backward one behind it.
+/// Pairs of corners that stay together along a crowded edge, because the inside is between them. Around the
+/// edge, a forward face follows the inside, and a backward face precedes it.
 std::vector<std::pair<Index, Index>> pairs_along(std::vector<EdgeLeaf> leaves) {
     std::vector<std::pair<Index, Index>> pairs;
     for (bool found = true; found && leaves.size() > 1;) {
@@ -38,7 +38,7 @@ bool has_crowded_edges(const EdgeTable& edges) {
     return false;
 }
 
-/// Faces whose sheet has a boundary: what hangs together over edges of two faces.
+/// Faces whose sheet has a boundary. A sheet is connected over edges of two faces.
 std::vector<std::uint8_t> faces_of_open_sheets(const Mesh& mesh, const EdgeTable& edges,
                                                const std::vector<Index>& faces) {
     DisjointSets sheets(mesh.face_count());
@@ -75,7 +75,7 @@ class Joints {
     }
 
   private:
-    /// A fin on a solid lies between two of its faces, or beside them; they stay together without it.
+    /// A fin on a solid is between two of its faces, or outside them; the faces stay together without it.
     std::vector<std::pair<Index, Index>> joined(const std::vector<EdgeLeaf>& leaves) const {
         std::vector<EdgeLeaf> closed, open;
         for (const EdgeLeaf& leaf : leaves) (open_[faces_[leaf.corner]] ? open : closed).push_back(leaf);
@@ -91,7 +91,7 @@ class Joints {
     const Mesh& mesh_;
     const EdgeTable& edges_;
     const std::vector<Index>& faces_;
-    std::vector<std::uint8_t> open_; ///< [faces] where there are crowded edges
+    std::vector<std::uint8_t> open_; ///< [faces] only if the mesh has crowded edges
 };
 
 /// The corners of a crowded edge that get a point together, as pairs; a face left over twice.
@@ -135,7 +135,7 @@ Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges) {
     parallel_for(edges.size(), [&](std::size_t i) {
         const auto e = static_cast<Index>(i);
         if (const auto corners = edges.corners_of(e); corners.size() == 2)
-            link(corners[0], corners[1]); // as joints.at would say, which takes memory for it
+            link(corners[0], corners[1]); // the same as joints.at, without its memory
         else
             for (const auto& [a, b] : joints.at(e)) link(a, b);
     });

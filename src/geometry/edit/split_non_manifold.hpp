@@ -10,14 +10,14 @@
 
 namespace facetmill {
 
-/// The vertex that each corner goes to, and what the new vertices are copies of.
+/// The vertex of each corner, and the sources of the new vertices.
 struct Fans {
     std::vector<Index> vertex_of_corner; ///< [corners]
     std::vector<Index> copies;           ///< new vertices, numbered from the vertex count on
 };
-/// At an edge of more than two faces those stay together that have the inside of the surface between them, by
-/// the exact order around the edge, those of sheets with a boundary after all others; each fan of faces
-/// around a vertex gets a vertex of its own.
+/// At an edge of more than two faces, faces with the inside of the surface between them stay together, by
+/// the exact order around the edge. Faces of sheets with a boundary come after all others. Each fan of faces
+/// around a vertex gets its own vertex.
 Fans disjoint_fans(const Mesh& mesh);
 Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges); ///< given its edges
 
@@ -26,9 +26,9 @@ Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges); ///< given its edg
 EdgeTable part_fans(Mesh& mesh, std::size_t& parted);
 
 struct EdgeDivision {
-    /// The first pair of faces gets a point of its own, too, so that none lies in the middle of its edge.
+    /// The first pair of faces also gets its own point, so that no point is in the middle of its edge.
     bool all = false;
-    bool single = false; ///< points have coordinates of 32-bit floats, as far as those are finite
+    bool single = false; ///< points are rounded to 32-bit floats, where these are finite
     std::set<std::pair<Index, Index>> leave = {}; ///< edges (low vertex, high vertex) that stay as they are
 };
 
@@ -44,10 +44,10 @@ struct DividedEdges {
     std::vector<Index> edge_of_point; ///< [new vertices, the last of the mesh] into edges
     std::vector<Index> parents;       ///< [faces of the mesh] the faces that they were or are a piece of
 };
-/// Edges of more than two faces that are left once fans are parted, since other faces hold both ends
-/// together: every pair of faces but the first, and every face left over, gets a point in the middle of the
-/// edge, with interpolated attributes. Where the point cannot lie exactly on the edge the first pair gets one
-/// too, at the same place, as no face may pass beside another's corner.
+/// Divides the edges of more than two faces that remain after fans are separated, because other faces
+/// connect both ends. Every pair of faces except the first, and every face left over, gets a point in the
+/// middle of the edge, with interpolated attributes. If the point cannot be exactly on the edge, the first
+/// pair also gets a point at the same position, because no face may pass off another's corner.
 DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges, const EdgeDivision& how);
 
 /// The mesh with its fans parted and the crowded edges that are left divided.

@@ -14,7 +14,7 @@ struct SizeSums {
     std::uint64_t boundary = 0; ///< each directed edge once, its reverse as the negative
 };
 
-/// What is added up beside the area.
+/// The sums to compute in addition to the area.
 struct Wanted {
     bool volume = true, boundary = false;
 };

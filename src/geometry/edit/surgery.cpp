@@ -28,7 +28,7 @@ void forget_plain_wedges(Mesh& mesh) {
     mesh.wedge_vertex = {};
 }
 
-/// The elements that stay, and the new number of each old one (gone for those that do not).
+/// The remaining elements, and the new number of each old element (gone for removed elements).
 struct Numbering {
     std::vector<Index> old, renumbered;
     explicit Numbering(const std::vector<std::uint8_t>& stays) : renumbered(stays.size(), gone) {
@@ -211,7 +211,7 @@ Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
 
 namespace {
 
-/// Faces built anew from old ones, corner by corner.
+/// Rebuilds faces from old faces, corner by corner.
 class Inserter {
   public:
     Inserter(const Mesh& mesh, std::vector<Insertion> insertions, const std::vector<Provenance::Edge>& added)
@@ -324,7 +324,7 @@ class Inserter {
     const Mesh& mesh_;
     std::vector<Insertion> insertions_;
     const std::vector<Provenance::Edge>& added_;
-    bool plain_; ///< a vertex is all there is to a wedge
+    bool plain_; ///< a wedge consists of its vertex only
     std::vector<Index> wedges_;
     std::vector<Provenance::Edge> edges_;
     std::map<std::tuple<Index, Index, Index>, Index> made_;

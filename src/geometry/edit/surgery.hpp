@@ -10,16 +10,16 @@
 
 namespace facetmill {
 
-/// The mesh with these faces only, in this order. Vertices and wedges that lose their last face go; those
-/// that had none stay.
+/// The mesh with only these faces, in this order. Vertices and wedges that lose their last face are removed;
+/// vertices and wedges without faces stay.
 Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);
 
 /// One mesh per label below count: the faces of that label in order, with the vertices and wedges that they
 /// use, in order of use. Isolated vertices go. O(corners), for any number of labels.
 std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face, std::size_t count);
 
-/// The same, each mesh with a table of the primitives that its faces have, in the order of the table that
-/// there was. Also for meshes of many primitives O(corners).
+/// The same, each mesh with a table of its own primitives, in the order of the original table. O(corners),
+/// also for meshes of many primitives.
 std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
                                             std::size_t count);
 
@@ -27,12 +27,13 @@ std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>&
 std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags);
 
 /// Vertex v becomes target[v] <= v, for which target[target[v]] == target[v]; the others keep their order.
-/// Wedges stay apart when the mesh has wedge attributes. Faces are kept, also those that lose their area.
-/// Returns how many vertices went.
+/// Wedges stay separate when the mesh has wedge attributes. Faces are kept, also faces that lose their area.
+/// Returns the number of removed vertices.
 std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target);
 
-/// Corner c goes to vertex_of_corner[c]: its own vertex v, or one of the new ones (numbered from the mesh's
-/// vertex count), where new vertex i is a copy of copies[i]. Wedges follow, copied where their corners part.
+/// Corner c goes to vertex_of_corner[c]: its own vertex v, or a new vertex (numbered from the mesh's vertex
+/// count), where new vertex i is a copy of copies[i]. Wedges follow, and are copied where their corners
+/// separate.
 Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
                   const std::vector<Index>& copies);
 
@@ -40,12 +41,12 @@ Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
 struct Insertion {
     Index corner; ///< of the face; the edge runs to the next corner
     double t;     ///< where on the edge, above 0 and below 1
-    Index vertex; ///< there already, or a new one: vertex count + its place in `added`
+    Index vertex; ///< an existing vertex, or a new one: vertex count + its index in `added`
 };
 
-/// Puts the vertices on the edges: a triangle becomes triangles, a larger face gets corners. New vertices are
-/// interpolated between the ends given in added; so are wedges, once per pair of wedges and vertex.
-/// `changes` tells what became of the attributes.
+/// Inserts the vertices into the edges: a triangle becomes triangles, a larger face gets corners. New
+/// vertices are interpolated between the ends given in added; so are wedges, once per pair of wedges and
+/// vertex. `changes` receives the changes of the attributes.
 Mesh insert_on_edges(const Mesh& mesh, std::vector<Insertion> insertions,
                      const std::vector<Provenance::Edge>& added, AttributeChanges* changes = nullptr);
 

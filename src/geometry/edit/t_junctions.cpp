@@ -29,8 +29,8 @@ struct BoundaryEdgesAt {
     }
 };
 
-/// Where on the segment a b the point p lies when it lies inside it: exactly on it, or within tolerance and
-/// farther than that from the ends.
+/// The parameter of p on the segment a b if p is inside it: exactly on it, or within tolerance and farther
+/// than that from the ends.
 std::optional<double> place_on(const Vec3& a, const Vec3& b, const Vec3& p, double tolerance) {
     const Vec3 along = b - a;
     const double t = dot(p - a, along) / dot(along, along);
@@ -78,7 +78,7 @@ std::vector<Insertion> find_t_junctions(const Mesh& mesh, double tolerance) {
             if (v == edge.from || v == edge.to || uses(mesh, edge.face, v)) return;
             const auto t = place_on(a, b, p[v], tolerance);
             if (!t) return;
-            bool along = false; // a boundary edge of v lies along this one
+            bool along = false; // a boundary edge of v runs along this edge
             at.each(v, [&](Index e) {
                 const Index other = boundary[e].from == v ? boundary[e].to : boundary[e].from;
                 along = along || (boundary[e].face != edge.face && is_on(a, b, p[other], tolerance));

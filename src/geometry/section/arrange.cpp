@@ -1,4 +1,4 @@
-// What the contours of a section are to each other, and their measures.
+// Nesting, roles and measures of the contours of a section.
 #include "base/math/predicates.hpp"
 #include "geometry/polygon/ring_tree.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
@@ -13,7 +13,7 @@ namespace {
 using polygon::Ring;
 using polygon::RingTree;
 
-/// Finds, for each ring, the rings around it: those that a ray from one of its points crosses an odd number
+/// Finds, for each ring, the rings that enclose it: a ray from one of its points crosses them an odd number
 /// of times.
 class Nesting {
   public:

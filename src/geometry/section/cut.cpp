@@ -17,8 +17,8 @@ struct PlaneCrossing {
     double along;
 };
 
-/// Cuts faces into pieces. A face of many corners may cross a plane several times: crossings are ordered
-/// along the cut, and the first way down is joined with the first way up, and so on.
+/// Cuts faces into pieces. A face of many corners may cross a plane several times. Crossings are ordered
+/// along the cut, and each way down is joined with the way up of the same rank.
 class SectionCutter {
   public:
     SectionCutter(const Mesh& mesh, const std::vector<Index>& levels, const StackPlanes& stack,

@@ -1,5 +1,5 @@
 #pragma once
-// What the planes of a stack do to the faces of a mesh: pieces of contours. For section only.
+// Cuts the faces of a mesh by the planes of a stack: pieces of contours. For section only.
 
 #include "geometry/section/section.hpp"
 
@@ -7,14 +7,14 @@
 
 namespace facetmill {
 
-/// A place where a plane crosses an edge of the mesh, as endpoints in index order.
+/// The crossing of a plane and an edge of the mesh, as endpoints in index order.
 struct EdgeKey {
     Index low = 0, high = 0;
     std::uint64_t bits() const { return std::uint64_t{low} << 32 | high; }
 };
 
-/// A piece of a contour: across a face, from the edge where the face comes down through the plane to the edge
-/// where it goes up. Seen against the plane's normal, the face's back is on its left.
+/// A piece of a contour: across a face, from the edge where the face descends through the plane to the edge
+/// where it ascends. Seen against the plane's normal, the face's back is on its left.
 struct Piece {
     Index plane;
     EdgeKey from, to;
@@ -31,14 +31,14 @@ class StackPlanes {
         for (std::size_t k = 0; k < size(); ++k) known_.push_back(s.memory->find(plane(k)));
     }
     std::size_t size() const { return offsets_.size(); }
-    /// 0 for points that are known to be on the plane, too.
+    /// Returns 0 also for points known to be on the plane.
     double side_of(std::size_t k, const Vec3& p) const {
         const double s = side(plane(k), p);
         const CutMemory::Entry* known = known_.empty() ? nullptr : known_[k];
         return known && known->has(p, side(known->plane, p)) ? 0 : s;
     }
-    /// How many planes the point is on or above. Exact signs decide; the search in doubles only says where to
-    /// look.
+    /// The number of planes that the point is on or above. Exact signs decide; the search in doubles only
+    /// gives the starting point.
     Index level(const Vec3& p) const {
         const double s = side(local_, p);
         auto k = static_cast<std::size_t>(

@@ -61,8 +61,7 @@ class Chainer {
         }
     }
 
-    /// Where faces agree, every piece that stops meets one that starts. What is left over is joined all the
-    /// same.
+    /// If faces agree, every piece that stops meets a piece that starts. Remaining ends are joined anyway.
     void join(const std::vector<Index>& starts, const std::vector<Index>& stops, std::vector<Index>& rest) {
         const std::size_t both = std::min(starts.size(), stops.size());
         for (std::size_t i = 0; i < both; ++i) {
@@ -101,8 +100,8 @@ class Chainer {
 
 double magnitude(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// Leaves out points of a contour that are where their neighbour is, or straight on, but for rounding.
-/// Returns the new end.
+/// Removes points of a contour that coincide with a neighbour or are straight, up to rounding. Returns the
+/// new end.
 Index straighten(std::vector<Vec2>& points, Contour& c, Index to, double rounding) {
     const auto near = [&](const Vec2& a, const Vec2& b) {
         return std::abs(a.x - b.x) <= rounding && std::abs(a.y - b.y) <= rounding;
@@ -128,7 +127,8 @@ Index straighten(std::vector<Vec2>& points, Contour& c, Index to, double roundin
     return to;
 }
 
-/// Whether a closed contour winds around nothing. What it winds around both ways may cancel in its area.
+/// Whether a closed contour has winding number 0 everywhere. Zero area alone does not prove it, because
+/// opposite windings cancel.
 bool is_collapsed(polygon::Ring ring) {
     if (ring.size() < 3) return true;
     if (polygon::orientation(ring) != 0) return false;
@@ -194,7 +194,7 @@ std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings) 
     const StackPlanes stack(settings);
     auto pieces = pieces_of(mesh, stack, pulled_back(settings.plane, settings.to_world));
     if (settings.to_world.determinant() <
-        0) // a mirrored part: its faces are turned, so that fronts stay fronts
+        0) // a mirrored part: its faces are reversed, so that fronts stay fronts
         parallel_for(pieces.size(), [&](std::size_t i) { std::swap(pieces[i].from, pieces[i].to); });
     std::vector<Section> sections(stack.size());
     ProgressScope::report_next_loop();

@@ -1,10 +1,9 @@
 #pragma once
 // Plane sections of a mesh: the contours that a plane, or a stack of parallel planes, cuts out of it.
-//
-// Each vertex is classified once by the exact sign of its side (mesh/plane.hpp), and a vertex on the
-// plane counts as above it: the section is that of a plane just below. So a face lying in the plane gives its
-// outline when it is a top and nothing when it is a bottom, and the sections of two halves of a solid never
-// count the same place twice.
+// Each vertex is classified once by the exact sign of its side (mesh/plane.hpp). A vertex on the plane
+// counts as above it, so the result is the section of a plane just below. Therefore a face in the plane
+// contributes its outline if it is a top and nothing if it is a bottom. The sections of two halves of a
+// solid never count the same area twice.
 
 #include "geometry/polygon/polygon.hpp"
 #include "mesh/cut_memory.hpp"
@@ -35,12 +34,12 @@ struct SectionSettings {
     Plane plane;                    ///< in world space
     std::vector<double> heights{0}; ///< ascending, world units along the normal from the plane
     Transform to_world;             ///< from the mesh's space
-    /// Points known to be on planes, in the mesh's space: those on a plane of the stack count as on it. None:
-    /// nothing is known.
+    /// Points known to be on planes, in the mesh's space: points on a plane of the stack count as on it.
+    /// None: no known points.
     const CutMemory* memory = nullptr;
 };
 
-/// What a contour is to the others of its section.
+/// The role of a contour within its section.
 enum class ContourRole {
     outline, ///< nothing outside it, something inside
     hole,    ///< something outside, nothing inside
@@ -52,12 +51,12 @@ const char* to_string(ContourRole role);
 struct Contour {
     Index begin = 0, end = 0; ///< into Section::points
     ContourRole role = ContourRole::outline;
-    Index parent = none; ///< the contour right around it, or none
-    int orientation = 1; ///< 1 anticlockwise seen against the normal, -1 clockwise, 0 as much either way
+    Index parent = none; ///< the innermost contour around it, or none
+    int orientation = 1; ///< 1 anticlockwise seen against the normal, -1 clockwise, 0 balanced
     polygon::Kind kind = polygon::Kind::convex;
-    double area = 0;   ///< of what it winds around (nonzero rule), negative when it is clockwise
+    double area = 0;   ///< of the region that it winds around (nonzero rule), negative when it is clockwise
     double length = 0; ///< around it, or along it when open
-    std::optional<polygon::Moments> moments; ///< of what it winds around; none when open
+    std::optional<polygon::Moments> moments; ///< of the region that it winds around; none when open
 };
 
 /// The section at one height.
@@ -66,36 +65,36 @@ struct Section {
     SectionFrame frame;
     std::vector<Vec2> points;      ///< in the frame; contour by contour
     std::vector<Contour> contours; ///< in the order of the faces they start at
-    /// Sum over closed contours: holes take, what is covered twice counts twice. Negative where the surface
+    /// Sum over closed contours: holes are subtracted, and overlaps count twice. Negative where the surface
     /// is inside out, as its volume is.
     double area = 0;
-    bool oriented = true;      ///< neighbours agreed; else contours were turned by nesting (even-odd)
+    bool oriented = true;      ///< neighbours agreed; else contours were oriented by nesting (even-odd)
     std::size_t collapsed = 0; ///< contours that shrank to a point or line: the plane only touched there
     polygon::Contact contact = polygon::Contact::none; ///< among all closed contours
-    /// Of outlines and holes together; none when a contour is open, or overlaps itself or another.
+    /// Moments of outlines and holes together; none if a contour is open, or overlaps itself or another.
     std::optional<polygon::Moments> moments;
 
     polygon::Ring ring(const Contour& c) const { return {points.data() + c.begin, points.data() + c.end}; }
-    /// Outlines and holes: what a drawing fills, by the nonzero rule. So bodies that overlap are one region,
-    /// as they are in space, and of a contour that crosses itself all that it winds around is inside.
+    /// Outlines and holes to fill in a drawing, by the nonzero rule. So overlapping bodies are one region,
+    /// as in space, and everything that a self-crossing contour winds around is inside.
     std::vector<polygon::Ring> filled() const;
-    /// Outlines that run clockwise: the surface is inside out there.
+    /// The number of outlines that run clockwise: the surface is inside out at these.
     std::size_t inside_out() const;
 };
 
-/// Sections at all heights, in order; a plane that misses gives one without contours. Contours of
-/// consistently oriented closed meshes have the material on their left. Points are computed once per cut
-/// edge, and a vertex exactly on a plane is a contour's point as it is; points that are straight or the same
-/// but for rounding (64 units in the last place of the section's largest coordinate) are left out. Time is
-/// one pass over the vertices and the faces, and n log n in the points of each section; parallel, the same
-/// bytes for any number of threads. Throws usage (E-PLANE) for a bad plane and limit (E-SECTION) beyond 2^31
-/// segments.
+/// Sections at all heights, in order; a plane that misses the mesh gives a section without contours.
+/// Contours of consistently oriented closed meshes have the material on their left. Points are computed once
+/// per cut edge, and a vertex exactly on a plane is used unchanged. Points that coincide or are straight up
+/// to rounding (64 units in the last place of the section's largest coordinate) are dropped. One pass over
+/// the vertices and faces, plus n log n in the points of each section. Parallel, the same bytes for any
+/// number of threads. Throws usage (E-PLANE) for a bad plane and limit (E-SECTION) beyond 2^31 segments.
 std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings);
 
-/// Finds roles, parents, kinds and measures of the contours of a section whose points are there.
+/// Computes roles, parents, kinds and measures of the contours of a section whose points are set.
 void arrange(Section& section);
 
-/// The lowest and the highest along a plane's normal, from the plane, in world units; empty when low > high.
+/// The lowest and the highest distance along a plane's normal, from the plane, in world units; empty when
+/// low > high.
 struct Extent {
     double low = HUGE_VAL, high = -HUGE_VAL;
     void add(const Extent& other) {
@@ -112,8 +111,8 @@ struct Stack {
     double spacing = 0;             ///< 0: a single plane
 };
 
-/// With spacing and count: count planes from the plane on. With spacing (above zero) alone: at all its
-/// multiples from the plane, both ways, through the extent. With count alone: in the middles of as many equal
+/// With spacing and count: count planes from the plane on. With spacing (above zero) alone: all its
+/// multiples from the plane, both ways, through the extent. With count alone: the middles of as many equal
 /// slices of the extent, so that areas times spacing is the midpoint rule for the volume. Throws limit
 /// (E-SECTION) beyond a hundred thousand planes.
 Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optional<std::int64_t> count);

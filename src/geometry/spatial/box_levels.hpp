@@ -1,6 +1,6 @@
 #pragma once
-// Boxes of float32 over items in a row, four to a node, so that the processor tests four at a time. The items
-// are sorted so that neighbours in the row are neighbours in space, and every node stands over four of the
+// Float32 boxes over items in a row, four to a node, so that the processor tests four at a time. The items
+// are sorted so that neighbours in the row are neighbours in space. Every node covers four nodes of the
 // level below, so the tree needs no pointers and building it is a sort.
 
 #include "base/math/vec.hpp"
@@ -12,12 +12,12 @@
 
 namespace facetmill {
 
-/// Numbers as float32, rounded down and up by more than the rounding of either.
+/// Converts to float32, rounding down or up by more than the rounding error of the conversion.
 inline float rounded_down(double x) { return static_cast<float>(x - std::abs(x) * 0x1p-22); }
 inline float rounded_up(double x) { return static_cast<float>(x + std::abs(x) * 0x1p-22); }
 
 struct BoxLevels {
-    /// Four boxes in the tree's own frame (see local), a little larger than what they hold. Empty slots have
+    /// Four boxes in the tree's own frame (see local), slightly larger than their contents. Empty slots have
     /// min = infinity, max = -infinity.
     struct Node {
         float min[3][4], max[3][4];
@@ -32,12 +32,12 @@ struct BoxLevels {
     const Node& node(int level, std::size_t i) const {
         return nodes[level_begin[static_cast<std::size_t>(level)] + i];
     }
-    /// The tree's frame has the middle of everything as origin and all of it within [-1, 1]. Rounding is
-    /// monotone, so what is between two numbers stays between them.
+    /// The tree's frame has its origin at the middle of the bounds and fits within [-1, 1]. Rounding is
+    /// monotone, so a number between two others stays between them.
     double local(double x, std::size_t axis) const { return (x - middle[axis]) * scale; }
     Vec3 local(const Vec3& p) const { return (p - middle) * scale; }
 
-    /// The frame of what lies within a box of finite numbers.
+    /// Sets the frame of a box of finite numbers.
     void set_frame(const Box& all);
     /// Makes the nodes over `items` items: set(node, slot, i) gives item i its box. In parallel.
     template <class Set>
@@ -55,7 +55,8 @@ struct BoxLevels {
     std::vector<std::size_t> level_begin; ///< into nodes; the last level is the root alone
     std::vector<Node> nodes;
 
-    /// Sets the items that changed(i) anew, as above, and the boxes over them. The frame stays.
+    /// Recomputes the boxes of the items for which changed(i) holds, and the boxes above them. The frame
+    /// does not change.
     template <class Changed, class Set>
     void update(std::size_t items, Changed&& changed, Set&& set) {
         std::vector<std::uint8_t> moved = update_level(0, items, changed, set);
@@ -69,7 +70,7 @@ struct BoxLevels {
 
   private:
     void number_nodes(std::size_t items);
-    /// How many nodes a level has.
+    /// The number of nodes of a level.
     std::size_t count(std::size_t level) const {
         return (level + 1 < level_begin.size() ? level_begin[level + 1] : nodes.size()) - level_begin[level];
     }
@@ -87,7 +88,7 @@ struct BoxLevels {
             },
             2048);
     }
-    /// [nodes of the level] 1 for those of which something changed.
+    /// Returns [nodes of the level] 1 where a child changed.
     template <class Changed, class Set>
     std::vector<std::uint8_t> update_level(std::size_t level, std::size_t children, Changed&& changed,
                                            Set&& set) {

@@ -1,5 +1,5 @@
 #pragma once
-// All pairs of boxes of one set that meet, found in one walk of a tree against itself.
+// Finds all pairs of boxes of one set that meet, in one walk of a tree against itself.
 
 #include "base/math/simd.hpp"
 #include "base/progress.hpp"
@@ -15,30 +15,30 @@
 namespace facetmill {
 
 /// Built in parallel, the same for any number of threads. Items with an empty box are in no pair. Boxes are
-/// of float32 and a little larger than given: some pairs only nearly meet.
+/// float32 and slightly larger than given, so some reported pairs only nearly meet.
 class BoxPairs {
   public:
-    /// `among` as in choose. frame: what boxes are rounded in holds this, too.
+    /// `among` as in choose. frame: an additional box that the float32 frame must contain.
     explicit BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among = {},
                       const Box& frame = {});
 
-    /// Holds all boxes that there have been, and the frame.
+    /// The box of all boxes so far, including the frame.
     const Box& all() const { return all_; }
 
-    /// From now on only pairs with an item whose number is flagged; empty: all pairs.
+    /// From now on reports only pairs with at least one flagged item; empty: all pairs.
     void choose(std::span<const std::uint8_t> among);
 
-    /// The items that are flagged, or all when none are given, have these boxes now (those of others are not
-    /// read). Their order stays as it was built, so it takes no sorting; the nearer they stay, the better
-    /// the tree.
+    /// Gives the flagged items, or all items if no flags are given, new boxes (boxes of other items are not
+    /// read). The order of the items stays, so nothing is sorted. The less the items move, the better the
+    /// tree.
     void move_to(std::span<const Box> boxes, std::span<const std::uint8_t> moved);
 
-    /// The items along the curve; neighbours there are neighbours in space.
+    /// The items along the curve: neighbours in this order are neighbours in space.
     const std::vector<Index>& items() const { return items_; }
 
-    /// found(T&, i, j) for every pair, i and j being places in items(); each thread's pairs go into a T of
-    /// their own, and those are joined from left to right: join(first, second), the same for any number of
-    /// threads.
+    /// Calls found(T&, i, j) for every pair, where i and j are indices into items(). Each thread collects
+    /// its pairs in its own T, and the results are joined from left to right: join(first, second). The
+    /// result is the same for any number of threads.
     template <class T, class Found, class Join>
     T reduce(const T& identity, Found&& found, Join&& join) const {
         return reduce_fours(
@@ -48,8 +48,8 @@ class BoxPairs {
             },
             std::forward<Join>(join));
     }
-    /// Likewise, up to four pairs at a time: found(T&, i, four, bits) for those of i with four + k for every
-    /// bit k that is set. `four` is a multiple of 4.
+    /// Like reduce, up to four pairs at a time: found(T&, i, four, bits) reports the pairs of i with four +
+    /// k for every set bit k. `four` is a multiple of 4.
     template <class T, class Found, class Join>
     T reduce_fours(const T& identity, Found&& found, Join&& join) const {
         const std::vector<Couple> tasks = couples_above();
@@ -67,8 +67,8 @@ class BoxPairs {
             join, tasks_at_once(tasks.size()));
     }
 
-    /// found(i, j) for every pair, on several threads at once and in no order. How many there are, or most +
-    /// 1 when there are more: then it was called for some of them only.
+    /// Calls found(i, j) for every pair, on several threads at once and in no order. Returns the number of
+    /// pairs, or most + 1 if it is larger: then found was called for only some of the pairs.
     template <class Found>
     std::size_t for_each(std::size_t most, Found&& found) const {
         constexpr std::size_t batch = 1024;
@@ -95,13 +95,14 @@ class BoxPairs {
 
   private:
     using Node = BoxLevels::Node;
-    /// Two nodes of a level whose items are to be paired, or twice the same one.
+    /// Two nodes of a level whose items are to be paired, or the same node twice.
     struct Couple {
         std::int32_t level;
         std::uint32_t a, b;
     };
 
-    /// How many tasks one thread takes: of few boxes all, since another thread would take longer to come.
+    /// How many tasks a thread takes at once. One thread takes all tasks of a few boxes, because starting
+    /// another thread would take longer.
     std::size_t tasks_at_once(std::size_t tasks) const {
         constexpr std::size_t few = 256;
         return items().size() <= few ? tasks + 1 : 4;
@@ -109,7 +110,7 @@ class BoxPairs {
 
     static std::size_t lowest(unsigned bits) { return static_cast<std::size_t>(std::countr_zero(bits)); }
 
-    /// Which boxes of the node meet box s of the other: a bit each.
+    /// A bit for each box of the node that meets box s of the other node.
     static unsigned meeting(const Node& node, const Node& other, std::size_t s) {
         Int4 meets = Int4{} - 1;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -118,8 +119,9 @@ class BoxPairs {
         return bits_of(meets);
     }
 
-    /// The pairs of children of two nodes, or of one, whose boxes meet: found(child of a, first child of b, a
-    /// bit for each child of b). Of one node also each child with itself, unless they are items.
+    /// The pairs of children of two nodes whose boxes meet: found(child of a, first child of b, a bit for
+    /// each child of b). If both nodes are the same, also each child with itself, unless the children are
+    /// items.
     template <class Found>
     void children(const Couple& c, Found&& found) const {
         const Node &a = levels_.node(c.level, c.a), &b = levels_.node(c.level, c.b);
@@ -131,7 +133,7 @@ class BoxPairs {
         }
     }
 
-    /// Those with something that is flagged.
+    /// Keeps only the pairs with a flagged item.
     unsigned wanted(int level, std::uint32_t a, std::uint32_t four, unsigned bits) const {
         const auto& flags = flags_[static_cast<std::size_t>(level)];
         if (flags[a]) return bits;
@@ -140,7 +142,7 @@ class BoxPairs {
         return bits;
     }
 
-    /// found(i, four, bits): whether to go on.
+    /// found(i, four, bits) returns whether to go on.
     template <class Found>
     void walk(const Couple& from, Found&& found) const {
         std::array<Couple, 16 * 17> stack; // 17 levels of four hold all indices; fifteen wait at each
@@ -161,16 +163,16 @@ class BoxPairs {
         }
     }
 
-    /// The couples of an upper level, enough of them to share out.
+    /// The couples of an upper level, enough of them to distribute over threads.
     std::vector<Couple> couples_above() const;
 
     void set(Node& node, std::size_t slot, const Box& box) const;
     void build(std::span<const Box> boxes);
 
     BoxLevels levels_;
-    Box all_; ///< of all boxes that there have been
+    Box all_; ///< of all boxes so far
     std::vector<Index> items_;
-    /// For each level whether a child of a node has something flagged; child i of all on level 0 is item i.
+    /// For each level, whether a child of a node has a flagged item. Child i on level 0 is item i.
     std::vector<std::vector<std::uint8_t>> flags_;
 };
 

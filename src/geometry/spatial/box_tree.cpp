@@ -17,7 +17,7 @@ std::uint64_t spread(std::uint64_t x) {
 
 constexpr int axis_bits = 14; // 42 bits in all: four passes of the radix sort
 
-/// The place of a cell on the curve of G. M. Morton, "A computer oriented geodetic data base and a new
+/// The position of a cell on the curve of G. M. Morton, "A computer oriented geodetic data base and a new
 /// technique in file sequencing" (1966).
 std::uint64_t morton(const Vec3& p, const Box& all) {
     std::uint64_t code = 0;

@@ -10,13 +10,13 @@
 
 namespace facetmill {
 
-/// Whether they have a point in common, touching included.
+/// Whether the boxes have a point in common, touching included.
 inline bool boxes_meet(const Box& a, const Box& b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
            a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
-/// The box that holds all of them. Parallel.
+/// The box that contains all given boxes. Parallel.
 Box box_of_all(std::span<const Box> boxes);
 
 /// Built once from the items' boxes, in parallel, the same for any number of threads; then only read. Items
@@ -25,8 +25,8 @@ class BoxTree {
   public:
     explicit BoxTree(std::vector<Box> boxes);
 
-    /// Calls found(item) for every item whose box meets `box`, touching included; in an order that depends on
-    /// the boxes only.
+    /// Calls found(item) for every item whose box meets `box`, touching included. The order depends only on
+    /// the boxes.
     template <class Found>
     void visit(const Box& box, Found&& found) const {
         any_of(box, [&](Index item) {
@@ -67,7 +67,7 @@ class BoxTree {
     std::vector<Index> items_; ///< along the curve
     std::vector<Box> boxes_;   ///< of items_
     std::vector<std::vector<Box>>
-        levels_; ///< leaves first, the root last; node i stands over nodes 2i and 2i + 1
+        levels_; ///< leaves first, the root last; node i is the parent of nodes 2i and 2i + 1
 };
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
-// After C. Ericson, "Real-Time Collision Detection" (2005), 5.1.5, with edges and corners by segments, so
-// that slivers lose nothing.
+// After C. Ericson, "Real-Time Collision Detection" (2005), 5.1.5. Edges and corners are handled as
+// segments, so that slivers lose no precision.
 #include "geometry/spatial/closest_point.hpp"
 
 #include "base/math/simd.hpp"
@@ -44,8 +44,8 @@ Vec3 closest_to_origin(const Vec3& a, const Vec3& b, const Vec3& c) {
         consider(a * (wa / sum) + b * (wb / sum) + c * (wc / sum));
         if (!sliver) return best;
     }
-    // Beyond an edge the closest point is on an edge that the query is beyond. The signs of a sliver are
-    // worth little: all its edges are tried.
+    // Beyond an edge, the closest point is on an edge that the query is beyond. The signs of a sliver are
+    // unreliable, so all its edges are tried.
     if (sliver || wc < 0) consider(closest_on_segment(a, b));
     if (sliver || wa < 0) consider(closest_on_segment(b, c));
     if (sliver || wb < 0) consider(closest_on_segment(c, a));
@@ -58,8 +58,8 @@ Vec3 offset_to(const FaceTree& tree, Index triangle, const Vec3& p) {
     return closest_to_origin((t.a - p) * tree.scale, (t.b - p) * tree.scale, (t.c - p) * tree.scale);
 }
 
-/// A lower bound of the square of what offset_to gives, by the box of the triangle: a third of the work. What
-/// the triangle's size may lose to rounding is taken off.
+/// A lower bound of the square of offset_to's result, from the bounding box of the triangle. This costs a
+/// third of offset_to. The possible rounding error of the triangle's size is subtracted.
 double square_bound_to(const FaceTree& tree, Index triangle, const Vec3& p) {
     const auto [a, b, c] = tree.triangle(triangle);
     double sum = 0;
@@ -72,7 +72,7 @@ double square_bound_to(const FaceTree& tree, Index triangle, const Vec3& p) {
     return sum * (1 - 1e-12);
 }
 
-/// How far a query is from the middle of the surface, in units of the tree's frame.
+/// The distance of a query from the middle of the surface, in units of the tree's frame.
 double reach_of(const FaceTree& tree, const Vec3& p) {
     const Vec3 at = tree.local(p);
     return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
@@ -81,7 +81,7 @@ double reach_of(const FaceTree& tree, const Vec3& p) {
 /// A query in the tree's frame, in float32.
 class NearQuery {
   public:
-    static constexpr double largest = 64; ///< reach that it is good for
+    static constexpr double largest = 64; ///< largest supported reach
     using Number = float;
     static constexpr float most = 1e38F;
 
@@ -92,15 +92,15 @@ class NearQuery {
             low_[axis] = Float4{} + rounded_down(x);
             high_[axis] = Float4{} + rounded_up(x);
         }
-        // Rounding to float32 of the query, of its way to the centre of a turned box and of the products of
-        // that with an axis: less than 16 roundings of numbers up to its reach + 1.
+        // The rounding to float32 of the query, of its offset to the centre of a turned box and of the
+        // products with an axis: less than 16 roundings of numbers up to its reach + 1.
         error_ = Float4{} + static_cast<float>((reach_of(tree, p) + 2) * 0x1p-20);
     }
 
-    /// Which of the bounds are within the limit: a bit each.
+    /// A bit for each bound within the limit.
     static unsigned within(const Float4& bounds, float limit) { return bits_of(bounds <= Float4{} + limit); }
 
-    /// Lower bounds of the squared distances to the four things below a node.
+    /// Lower bounds of the squared distances to the four children of a node.
     Float4 bounds(const FaceTree& tree, int level, std::uint32_t node) const {
         if (level > tree.patch_levels) return bounds(tree.node(level, node));
         return level > 0 ? bounds(tree.patch(level, node)) : bounds(tree.plates[node]);
@@ -145,8 +145,8 @@ class NearQuery {
     Float4 at_[3], low_[3], high_[3], error_;
 };
 
-/// A query far from the surface, in float64, for which float32 is too coarse. Slower: it knows boxes along
-/// the axes only.
+/// A query far from the surface, in float64, because float32 is too coarse. It is slower because it uses
+/// axis-aligned boxes only.
 class FarQuery {
   public:
     static constexpr double largest = 1e8; ///< beyond, distances to all of the surface round to the same
@@ -181,7 +181,8 @@ class FarQuery {
     Vec3 at_;
 };
 
-/// Works in units of the tree's frame: squares then neither overflow nor vanish, whatever the surface's size.
+/// Works in units of the tree's frame, so that squares neither overflow nor vanish for any size of the
+/// surface.
 class Search {
   public:
     Search(const FaceTree& tree, const Vec3& p) : tree_(tree), p_(p) {}
@@ -205,7 +206,7 @@ class Search {
             if (square_bound_to(tree_, static_cast<Index>(t), p_) <= square_) test(static_cast<Index>(t));
     }
 
-    /// Searches what is near the hint in the tree, more and more of it, as long as it is not near enough.
+    /// Searches near the hint first and widens the search as long as no point is near enough.
     template <class Query>
     void run_from(Index hint, double enough_square) {
         const Query query(tree_, p_);
@@ -213,7 +214,7 @@ class Search {
         if (hint == none) return run(query, enough_square, root, 0);
         test(hint);
         if (square_ <= enough_square) return;
-        if (enough_square >= 0) { // nothing farther is of use, first beside the hint, then anywhere
+        if (enough_square >= 0) { // nothing farther is useful: search near the hint first, then everywhere
             farthest_square_ = enough_square;
             for (const int level : {0, 1, 2, 3, root}) {
                 if (level > root) continue;
@@ -242,7 +243,7 @@ class Search {
             const Entry entry = stack[--size];
             if (entry.bound > limit) continue;
             const auto bounds = query.bounds(tree_, entry.level, entry.node);
-            // Those near enough, nearest last. Empty slots are infinitely far.
+            // The children that are near enough, the nearest last. Empty slots are infinitely far.
             Entry near[4];
             int count = 0;
             for (unsigned bits = Query::within(bounds, limit); bits != 0; bits &= bits - 1) {
@@ -271,8 +272,8 @@ class Search {
     }
 
   private:
-    /// Asks for what is read when this node's turn comes: a tenth of the time. Searching eight points in
-    /// turns, as rays do, gained nothing more: 3.2 CPU s a million anywhere in the box either way.
+    /// Prefetches the data read at this node's turn: this saves a tenth of the time. Interleaving eight
+    /// searches, as rays do, gained nothing more: 3.2 CPU s a million anywhere in the box either way.
     [[gnu::always_inline]] void fetch(int level, std::uint32_t node) const {
         if (level < 0)
             tree_.fetch_triangle(std::size_t{node} << tree_.run_bits);
@@ -284,7 +285,7 @@ class Search {
             fetch_soon(tree_.patch(level, node));
     }
 
-    /// What a bound must not exceed to be of interest: the square so far, and a little for its rounding.
+    /// The largest bound of interest: the square so far, and a little for its rounding.
     template <class Query>
     typename Query::Number limit_for() const {
         using Number = typename Query::Number;
@@ -297,7 +298,7 @@ class Search {
     const Vec3 p_;
     Vec3 offset_; ///< from p to the closest point so far, in the tree's frame
     double square_ = HUGE_VAL;
-    double farthest_square_ = HUGE_VAL; ///< nothing beyond is searched
+    double farthest_square_ = HUGE_VAL; ///< the search stops beyond this
     Index triangle_ = none, face_ = none;
 };
 
@@ -315,7 +316,7 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint, double enough) {
     if (tree.empty() || !is_finite(p)) return {};
     const double reach = reach_of(tree, p);
-    // From very far the closest point is that of a point in the same direction.
+    // From very far away, the closest point is the same as for a nearer point in the same direction.
     const double largest = FarQuery::largest * tree.reach;
     const bool beyond = reach > largest;
     Search search(tree, beyond ? tree.middle + (p - tree.middle) * (largest / reach) : p);

@@ -1,5 +1,5 @@
 #pragma once
-// Which components of a surface are around a point.
+// Finds the components of a surface that enclose a point.
 
 #include "geometry/spatial/face_tree.hpp"
 
@@ -8,9 +8,9 @@
 
 namespace facetmill {
 
-/// The components, of those that count, that wind around p by a ray along an axis, ascending: for a closed
-/// one, p lies inside. p may lie on components that do not count. tree: for rays; component_of: [faces].
-/// Exact.
+/// Components, among the counted, with a nonzero winding number around p by a ray along an axis, ascending.
+/// A closed component winds around p if p is inside it. p may be on components that are not counted. tree:
+/// for rays; component_of: [faces]. Exact.
 std::vector<Index> components_around(const FaceTree& tree, const Vec3& p,
                                      const std::vector<Index>& component_of,
                                      const std::function<bool(Index component)>& counts);

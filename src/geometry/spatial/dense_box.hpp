@@ -1,5 +1,5 @@
 #pragma once
-// Where most of many points are. Frames and curves laid over the box of all of them lose their precision to a
+// The box of most of many points. Frames and curves over the box of all points lose their precision to a
 // single point far away.
 
 #include "base/math/vec.hpp"
@@ -10,9 +10,10 @@
 
 namespace facetmill {
 
-/// The box around the middle of the points in which all but far ones lie: 32 times as far to each side as the
-/// middle half of them reaches along its longest axis, and nothing beyond `all`, the box of all. `all` itself
-/// when nothing lies outside. Judged by about a thousand of them, evenly by number; point_of(i) gives one.
+/// The box around the middle of the points that contains all but far outliers. It reaches 32 times as far to
+/// each side as the middle half of the points along its longest axis, clipped to `all`, the box of all
+/// points. Returns `all` itself if no point is outside. Judged by about a thousand points, evenly by number;
+/// point_of(i) returns point i.
 template <class PointOf>
 Box dense_box(std::size_t count, const Box& all, PointOf&& point_of) {
     std::array<std::vector<double>, 3> at;

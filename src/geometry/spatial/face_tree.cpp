@@ -19,7 +19,7 @@ bool is_finite(const Surface& surface, std::size_t t) {
            facetmill::is_finite(surface.point(t, 2));
 }
 
-/// Whether all vertices are finite, corners or not.
+/// Whether all vertices are finite, including vertices without faces.
 bool is_finite(const Surface& surface) {
     std::atomic<bool> all = true;
     parallel_for(surface.positions.size(), [&](std::size_t v) {
@@ -46,9 +46,9 @@ Box box_of_triangle(const Surface& surface, std::size_t t) {
     return box;
 }
 
-/// Whether triangles that follow each other lie beside each other, as in most files: runs of so many are at
-/// most `near` times as long as a triangle. Judged by a thousand of them: in rows of a grid a run of eight is
-/// three times as long, sorted along a curve twice.
+/// Whether consecutive triangles are neighbours in space, as in most files: runs of `length` triangles are
+/// at most `near` times as long as a triangle. Judged by a thousand runs. A run of eight in rows of a grid
+/// is three times as long, sorted along a curve twice.
 bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& kept, std::size_t length,
                             double near) {
     const std::size_t runs = kept.size() / length;
@@ -69,7 +69,7 @@ bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& ke
 
 } // namespace
 
-/// A frame of where most triangles are, so that float32 tells them apart whatever else there is. Rays need a
+/// A frame of the region of most triangles, so that float32 separates them despite outliers. Rays need a
 /// frame of everything.
 void FaceTree::set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept) {
     const Box dense = dense_box(kept.size(), all, [&](std::size_t i) { return surface.point(kept[i], 0); });
@@ -112,7 +112,7 @@ std::vector<Index> FaceTree::runs_along_curve(const Surface& surface, const std:
     const std::vector<Index> order = order_along_curve(runs, {{-1, -1, -1}, {1, 1, 1}}, [&](std::size_t run) {
         return local(surface.point(kept[run * length + length / 2], 0));
     });
-    std::vector<Index> out = kept; // what is too few for a run stays at the end
+    std::vector<Index> out = kept; // triangles too few for a run stay at the end
     parallel_for(runs, [&](std::size_t i) {
         for (std::size_t k = 0; k < length; ++k) out[i * length + k] = kept[order[i] * length + k];
     });
@@ -121,7 +121,7 @@ std::vector<Index> FaceTree::runs_along_curve(const Surface& surface, const std:
 
 std::vector<Index> FaceTree::in_order(const Surface& surface, const std::vector<Index>& kept, Use use) const {
     if (use != Use::coarse && use != Use::few) return in_median_order(surface, kept);
-    // Runs of triangles are as good as single ones where they are short: at most so many times as long.
+    // Runs of triangles are as good as single triangles if they are short: at most so many times as long.
     const std::size_t length = use == Use::coarse ? std::size_t{1} << coarse_run_bits : node_run;
     if (has_neighbours_in_runs(surface, kept, length, use == Use::coarse ? 6 : 3))
         return runs_along_curve(surface, kept, length);

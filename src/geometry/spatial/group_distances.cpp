@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t few_nodes = 24;  ///< of one level; with more, smaller groups are as fast
 constexpr std::size_t many_nodes = 64; ///< likewise; with more, smaller groups of parts are as fast
 constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are too coarse for points beyond
-constexpr float rounding = TriangleSlabs::rounding; ///< points that close to an edge count as beside it
+constexpr float rounding = TriangleSlabs::rounding; ///< points that close to an edge count as outside it
 
 Float4 four(float x) { return Float4{x, x, x, x}; }
 
@@ -24,8 +24,8 @@ Box box_around(std::span<const Vec3> points) {
 
 } // namespace
 
-/// A triangle in the group's frame, as its plane and, for each edge, the directions out of the triangle and
-/// along the edge, all of unit length: what is near the group is then a small number and loses nothing.
+/// A triangle in the group's frame: its plane and, for each edge, the unit directions out of the triangle
+/// and along the edge. Numbers near the group are then small and keep their precision.
 struct GroupDistances::Flat {
     struct Edge {
         Float4 out[3], reach, along[3], begin, end; ///< each number four times
@@ -33,7 +33,7 @@ struct GroupDistances::Flat {
     Float4 normal[3], offset;
     Edge edges[3];
 
-    /// False for slivers, whose plane is uncertain, and for what is far beyond the group.
+    /// Returns false for slivers, because their plane is uncertain, and for triangles far beyond the group.
     bool set(const Vec3& a, const Vec3& b, const Vec3& c) {
         const Vec3 ab = b - a, ac = c - a, n = cross(ab, ac);
         const double square = dot(n, n), size = dot(ab, ab) + dot(ac, ac);
@@ -60,8 +60,8 @@ struct GroupDistances::Flat {
     }
 };
 
-/// Lays the points out in a frame in which what is within `reach` of the centre is below 1. The last four are
-/// filled up with the first point. False when the tree's float32 are too coarse for that.
+/// Stores the points in a frame in which everything within `reach` of the centre is below 1. The last four
+/// are padded with the first point. Returns false if the tree's float32 numbers are too coarse.
 bool GroupDistances::place(std::span<const Vec3> points, const Vec3& centre, double reach) {
     const Vec3 at = tree_.local(centre);
     if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest_reach) ||
@@ -84,7 +84,7 @@ bool GroupDistances::place(std::span<const Vec3> points, const Vec3& centre, dou
     return true;
 }
 
-/// Of four points, the squared distances to a triangle; infinity where all are at least `limit`.
+/// The squared distances of four points to a triangle; infinity where all are at least `limit`.
 Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::size_t four_of) const {
     const Float4 x = x_[four_of], y = y_[four_of], z = z_[four_of];
     const Float4 up = x * t.normal[0] + y * t.normal[1] + z * t.normal[2] - t.offset;
@@ -108,7 +108,7 @@ Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::si
     return up * up + across;
 }
 
-/// Lowers the squared distances to those to one triangle.
+/// Lowers the points' squared distances to the distances from one triangle.
 void GroupDistances::compare(const Flat& t, Index triangle) {
     for (std::size_t i = 0; i < fours_; ++i) {
         const Float4 least = least_[i], second = second_[i];
@@ -154,7 +154,7 @@ float GroupDistances::farthest_square() const {
 
 namespace {
 
-/// A box in the tree's frame, and which boxes are within a distance of it.
+/// A box in the tree's frame, and a test for the boxes within a distance of it.
 struct BoxQuery {
     Float4 low[3], high[3], square;
 
@@ -180,14 +180,14 @@ struct BoxQuery {
         }
         return sum;
     }
-    /// A bit for each of the four that is within the distance.
+    /// A bit for each of the four boxes within the distance.
     unsigned near(const Float4& squares) const { return bits_of(squares * (1 - 1e-6F) <= square); }
     unsigned near(const FaceTree::Node& node) const { return near(squares(node)); }
 };
 
 } // namespace
 
-/// Finds the nodes of the lowest level that are within `limit` of the box; false when they are more than
+/// Finds the nodes of the lowest level within `limit` of the box. Returns false if they are more than
 /// `most_nodes`.
 bool GroupDistances::gather(const Box& box, double limit, std::size_t most_nodes) {
     const BoxQuery query(tree_, box, limit);
@@ -203,8 +203,8 @@ bool GroupDistances::gather(const Box& box, double limit, std::size_t most_nodes
     return true;
 }
 
-/// Compares all points with the triangles below the gathered nodes that are within `limit` of the box, until
-/// they are near enough.
+/// Compares all points with the triangles below the gathered nodes within `limit` of the box, until the
+/// points are near enough.
 bool GroupDistances::compare_until(float enough_square, std::span<const Vec3> points, const Box& box,
                                    double limit) {
     const BoxQuery query(tree_, box, limit);
@@ -224,11 +224,11 @@ void GroupDistances::take_distances(std::size_t count) {
     }
 }
 
-/// A triangle that is farther from the box of the points is the closest to none of them, and for certain so.
+/// A triangle farther from the box of the points than this is certainly not the closest of any point.
 double GroupDistances::limit() const { return std::sqrt(double{farthest_square()}) / scale_ + 3 * error_; }
 
-/// Compares all points with the triangles below the gathered nodes that may be nearer than those so far, but
-/// for those of one leaf. False when they are so many that points by themselves are as fast.
+/// Compares all points with the triangles below the gathered nodes that may be nearer than the best so far,
+/// except leaf `but`. Returns false if they are so many that single queries are as fast.
 bool GroupDistances::compare_nearer(std::span<const Vec3> points, const Box& box, std::uint32_t but) {
     constexpr std::size_t most_triangles = 3; // for each point
     BoxQuery query(tree_, box, limit());
@@ -260,7 +260,7 @@ bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
     if (closest.triangle == none) return false;
     hint = closest.triangle;
     if (!place(points, box.centre(), box.diagonal() + closest.distance)) return false;
-    // Those beside the closest bring the limit down.
+    // The triangles of the same leaf lower the limit.
     const std::uint32_t leaf = closest.triangle / 4;
     for (std::size_t t = 4 * std::size_t{leaf}; t < std::min(4 * std::size_t{leaf} + 4, tree_.size()); ++t)
         compare(points, static_cast<Index>(t));
@@ -269,7 +269,8 @@ bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
     return true;
 }
 
-/// Squared distances up to this are within the distance in spite of their error; 0 when that hides it.
+/// Squared distances up to this are within the distance despite their error; 0 if the error is larger than
+/// the distance.
 float GroupDistances::enough_square(double distance) const {
     const double enough = std::max(0.0, (distance - error_) * scale_ * (1 - 1e-6));
     return static_cast<float>(enough * enough);
@@ -293,8 +294,8 @@ bool GroupDistances::all_within(std::span<const Vec3> points, double distance, I
     return all;
 }
 
-/// A bit for each of the points whose squared distance to the triangle is below that; of those in `among` all
-/// such.
+/// A bit for each point whose squared distance to the triangle is below `square`; complete for points in
+/// `among`.
 std::uint32_t GroupDistances::which_within(std::span<const Vec3> points, float square, Index triangle,
                                            std::uint32_t among) const {
     std::uint32_t within = 0;
@@ -320,8 +321,8 @@ bool GroupDistances::lay_out(std::span<const Vec3> points, double distance) {
     return done_square_ > 0;
 }
 
-/// Finds the nodes whose boxes are within a distance of that of the points in `among`; false when they are
-/// many.
+/// Finds the nodes whose boxes are within a distance of the box of the points in `among`. Returns false if
+/// they are many.
 bool GroupDistances::gather_near(std::span<const Vec3> points, double distance, std::uint32_t among) {
     Box box;
     for (std::uint32_t left = among; left != 0; left &= left - 1)
@@ -329,7 +330,7 @@ bool GroupDistances::gather_near(std::span<const Vec3> points, double distance, 
     return gather(box, distance, few_nodes);
 }
 
-/// Which points are within a distance of the box of a node, give or take rounding: bit i for the i-th.
+/// The points within a distance of the box of a node, up to rounding: bit i for the i-th.
 std::uint32_t GroupDistances::near_node(std::uint32_t node, double distance) const {
     const FaceTree::Node& boxes = tree_.node(0, node);
     Float4 low[3], high[3];
@@ -352,7 +353,7 @@ std::uint32_t GroupDistances::near_node(std::uint32_t node, double distance) con
 
 TriangleSlabs GroupDistances::slabs_of(std::uint32_t node) const {
     using Triangle = FaceTree::Triangle;
-    std::array<Triangle, 4> in_node; // the last again where there are no more
+    std::array<Triangle, 4> in_node; // the last triangle repeats if the node has fewer
     for (std::size_t i = 0; i < 4; ++i)
         in_node[i] = tree_.triangle(std::min(4 * std::size_t{node} + i, tree_.size() - 1));
     const auto rounded = [&](const auto& of) {
@@ -374,8 +375,8 @@ TriangleSlabs GroupDistances::slabs_of(std::uint32_t node) const {
             done_square_};
 }
 
-/// Of the triangles below the gathered nodes that are not tried, the one whose box is nearest to a point,
-/// within the distance of it; none when there is none. Then it is tried.
+/// Returns the untried triangle below the gathered nodes whose box is nearest to a point, if within the
+/// distance, else none. Marks it as tried.
 Index GroupDistances::next_near(const Vec3& point, double distance) {
     Box at;
     at.add(point);
@@ -397,8 +398,8 @@ Index GroupDistances::next_near(const Vec3& point, double distance) {
     return 4 * nodes_[n] + lane;
 }
 
-/// A triangle that is within the distance of all points of a set is so of their middle. For one set after the
-/// other those are tried, the nearest first, which other sets are within the distance of, too.
+/// A triangle within the distance of all points of a set is also within the distance of their middle. So
+/// each set tries triangles, nearest first, and each of these is tested for the other sets as well.
 void GroupDistances::remove_within(std::span<const Vec3> points, double distance,
                                    std::vector<std::uint32_t>& sets, Index& hint) {
     if (!lay_out(points, distance)) return;
@@ -422,7 +423,7 @@ void GroupDistances::remove_within(std::span<const Vec3> points, double distance
             sum += points[static_cast<std::size_t>(std::countr_zero(left))];
         const Index near = next_near(sum / std::popcount(sets[first]), distance);
         if (near == none)
-            ++first; // stays, and so is no more asked about
+            ++first; // stays, and is not tested again
         else
             remove(near, first);
     }

@@ -1,7 +1,7 @@
 #pragma once
-// How far points that lie beside each other are from a surface. One walk of the tree gathers the triangles
-// that can be the closest to any of them; all pairs are then computed in float32, four points at a time, in a
-// frame of the group's own.
+// Distances from a surface to points that are near each other. One walk of the tree gathers the triangles
+// that can be closest to any point. All pairs are then computed in float32, four points at a time, in the
+// group's own frame.
 
 #include "base/math/simd.hpp"
 #include "geometry/spatial/face_tree.hpp"
@@ -21,29 +21,29 @@ class GroupDistances {
     /// The tree must outlive this. One object for each thread.
     explicit GroupDistances(const FaceTree& tree) : tree_(tree) {}
 
-    /// Measures 1 to `most` finite points, the nearer to each other the faster. hint: a triangle of the tree
-    /// nearby, or none, which changes nothing but the time; becomes one for a group beside this. False when
-    /// nothing would be gained, since the surface has so many triangles there or is so far away: ask for each
-    /// point by itself then.
+    /// Measures 1 to `most` finite points; the nearer they are to each other, the faster. hint: a nearby
+    /// triangle of the tree, or none; it affects only the time and is updated for the next group nearby.
+    /// Returns false if measuring as a group gains nothing, because the surface has too many triangles
+    /// nearby or is too far away. Query each point separately then.
     bool measure(std::span<const Vec3> points, Index& hint);
 
-    /// Tries to show that 1 to `most` finite points are all within a distance, which needs fewer triangles.
-    /// hint as above. What has been shown of each is distance(i) + error(): not less than its distance.
+    /// Tries to prove that 1 to `most` finite points are all within a distance, which needs fewer triangles.
+    /// hint as above. Then distance(i) + error() is an upper bound of each point's distance.
     bool all_within(std::span<const Vec3> points, double distance, Index& hint);
 
-    /// Lays out 1 to `most` finite points to ask `within`, until anything else is asked. False when that
-    /// could not be told of a distance so small, or of points so far away.
+    /// Stores 1 to `most` finite points for `within`, until the next other call. Returns false if the
+    /// distance is too small, or the points are too far away, for a reliable result.
     bool lay_out(std::span<const Vec3> points, double distance);
-    /// Which of the points laid out are for certain within the distance of a triangle of the tree: bit i for
-    /// the i-th. Of those in `among` all that can be told.
+    /// The stored points that are certainly within the distance of a triangle of the tree: bit i for the
+    /// i-th. Complete for points in `among`, up to float32 error.
     std::uint32_t within(std::span<const Vec3> points, Index triangle, std::uint32_t among) const {
         return which_within(points, done_square_, triangle, among);
     }
 
-    /// Takes out of `among` the points laid out that lie across from the inside of a triangle, within the
-    /// distance: call(i, triangle) for each of them. A point beside an edge or a corner may stay though it is
-    /// within the distance. False, and nothing is tried, where so many triangles are near that fewer points
-    /// are as fast.
+    /// Removes from `among` the stored points that project into the inside of a triangle within the
+    /// distance: call(i, triangle) for each. A point near an edge or a corner may stay although it is within
+    /// the distance. Returns false, without a test, if so many triangles are near that fewer points are as
+    /// fast.
     template <class Call>
     bool take_across(std::span<const Vec3> points, double distance, std::uint32_t& among, const Call& call) {
         if (!gather_near(points, distance, among)) return false;
@@ -63,9 +63,9 @@ class GroupDistances {
         return true;
     }
 
-    /// Removes from `sets`, of which each has bit i for the i-th of 1 to `most` finite points, those whose
-    /// points all are within a distance of one and the same triangle: so is all between them. What cannot be
-    /// told stays. hint as above.
+    /// Each set has bit i for the i-th of 1 to `most` finite points. Removes the sets whose points are all
+    /// within a distance of a single triangle, because then everything between them is as well. Undecided
+    /// sets stay. hint as above.
     void remove_within(std::span<const Vec3> points, double distance, std::vector<std::uint32_t>& sets,
                        Index& hint);
 
@@ -76,7 +76,7 @@ class GroupDistances {
     double error() const { return error_; }
     /// In the tree's order: the closest triangle, or one that is as close up to the error.
     Index triangle(std::size_t i) const { return triangles_[i]; }
-    /// Whether no other triangle is as close as that one.
+    /// Whether every other triangle is farther.
     bool is_certain(std::size_t i) const { return seconds_[i] - distances_[i] > 2 * error_; }
 
   private:
@@ -103,13 +103,13 @@ class GroupDistances {
     float farthest_square() const;
 
     const FaceTree& tree_;
-    std::array<double, most> distances_{}, seconds_{}; ///< to the closest triangle, and the next
+    std::array<double, most> distances_{}, seconds_{}; ///< to the closest triangle, and the second closest
     std::array<Index, most> triangles_{};
     double error_ = 0;       ///< in the surface's units
-    float done_square_ = -1; ///< points that are this near need not be compared with more triangles
+    float done_square_ = -1; ///< points this near need no comparison with more triangles
 
     std::vector<std::uint32_t> nodes_,
-        children_; ///< of one level and the one below, that may hold the closest
+        children_; ///< nodes of one level and of the level below that may hold the closest
     std::vector<float>
         squares_; ///< of the distances of the points' box to the children's, in the tree's frame
     std::vector<Float4> tried_; ///< of the gathered nodes' children, infinity for those tried, else 0

@@ -1,5 +1,5 @@
 #pragma once
-// A Hilbert curve through a box: items sorted along it lie near each other in space and in memory.
+// A Hilbert curve through a box: items sorted along it are near each other in space and in memory.
 
 #include "base/math/vec.hpp"
 #include "mesh/mesh.hpp"
@@ -15,7 +15,7 @@ namespace hilbert {
 
 inline constexpr int axis_bits = 11; ///< 33 bits in all: three passes of the radix sort
 
-/// One step down the curve: which of the eight cells in turn, and the state inside it.
+/// One step down the curve: the index of the cell among the eight, and the state inside it.
 struct Step {
     std::uint8_t turn, state;
 };
@@ -59,7 +59,7 @@ constexpr std::array<std::array<Step, 64>, 24> make_double_steps() {
 }
 inline constexpr auto double_steps = make_double_steps();
 
-/// The place along the curve of the cell with these coordinates, axis_bits each.
+/// The position along the curve of the cell with these coordinates, axis_bits each.
 constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     static_assert(axis_bits % 2 == 1, "one step, then two at a time");
     constexpr int top = axis_bits - 1;
@@ -74,7 +74,8 @@ constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z)
     return along;
 }
 
-/// Of a point in the box; points outside count as on its border, not-a-number as its lower corner.
+/// The position of a point in the box. Points outside count as on its border, not-a-number as its lower
+/// corner.
 inline std::uint64_t index(const Vec3& p, const Box& all) {
     std::array<std::uint32_t, 3> cell{};
     constexpr double cells = (1 << axis_bits) - 1;
@@ -88,7 +89,7 @@ inline std::uint64_t index(const Vec3& p, const Box& all) {
 
 } // namespace hilbert
 
-/// The numbers 0 to count - 1 in the order of centre_of(i) along the curve through `all`; equal places by
+/// The numbers 0 to count - 1 in the order of centre_of(i) along the curve through `all`; equal positions by
 /// number.
 template <class CentreOf>
 std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf&& centre_of) {

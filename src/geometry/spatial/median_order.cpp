@@ -17,7 +17,7 @@ using Items = std::span<CentredItem>;
 /// The axis along which the centres reach farthest.
 std::size_t longest_side(Items items) {
     static_assert(sizeof(CentredItem) == sizeof(Float4));
-    const auto whole = [](const CentredItem& item) { // the last is the item's number, and not looked at
+    const auto whole = [](const CentredItem& item) { // the last lane is the item's number and is ignored
         Float4 four;
         std::memcpy(&four, &item, sizeof four);
         return four;
@@ -40,7 +40,8 @@ class Before {
     bool operator()(const CentredItem& a, const CentredItem& b) const {
         const float x = a.centre[axis_], y = b.centre[axis_];
         return (x < y) |
-               ((x == y) & (a.item < b.item)); // without a branch, which would go wrong half the time
+               ((x == y) &
+                (a.item < b.item)); // without a branch, because it would be mispredicted half the time
     }
 
   private:
@@ -53,7 +54,7 @@ std::size_t middle_of(Items items, std::size_t a, std::size_t b, std::size_t c, 
     return b;
 }
 
-/// About the middle one of the items.
+/// The approximate median of the items.
 std::size_t pivot_of(Items items, const Before& before) {
     const std::size_t n = items.size(), step = n / 8;
     if (n < 128) return middle_of(items, 0, n / 2, n - 1, before);
@@ -62,8 +63,8 @@ std::size_t pivot_of(Items items, const Before& before) {
                      middle_of(items, 6 * step, 7 * step, n - 1, before), before);
 }
 
-/// Brings what is before the pivot to the front, and the pivot next; returns its place. Every item is moved,
-/// so that nothing is to be predicted (N. Lomuto's partition, without branches).
+/// Moves the items before the pivot to the front, followed by the pivot; returns its index. Every item is
+/// moved, so that no branch can be mispredicted (N. Lomuto's partition, without branches).
 std::size_t parted(Items items, std::size_t pivot, const Before& before) {
     std::swap(items[pivot], items.back());
     const CentredItem last = items.back();
@@ -78,12 +79,12 @@ std::size_t parted(Items items, std::size_t pivot, const Before& before) {
     return front;
 }
 
-/// The lowest `half` of the items come first.
+/// Moves the lowest `half` of the items to the front.
 void halve(Items items, std::size_t half) {
     const Before before(longest_side(items));
     constexpr std::size_t few = 8;
     for (int tries = 4 * std::bit_width(items.size()); items.size() > few; --tries) {
-        if (tries == 0) { // pivots that all were bad
+        if (tries == 0) { // all pivots were bad
             std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                              before);
             return;
@@ -116,7 +117,8 @@ void sort_within(Items items, std::size_t room) {
 } // namespace
 
 void sort_in_median_order(std::vector<CentredItem>& items) {
-    // Upper halves one level at a time, those of a level in parallel; then each part by itself.
+    // Sorts the upper halves one level at a time, all parts of a level in parallel; then each part
+    // separately.
     constexpr std::size_t small = 8192;
     std::size_t room = std::bit_ceil(std::max<std::size_t>(items.size(), 1));
     const auto part = [&](std::size_t i) {

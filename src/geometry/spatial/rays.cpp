@@ -77,7 +77,7 @@ SegmentFacet meet(const Line& line, std::span<const Vec3> facet) {
         result.meeting = Meeting::outside_segment;
         return result;
     }
-    // Seen along the axis nearest to the normal, with the point where the line meets the plane.
+    // Projects along the axis nearest to the normal, with the point where the line meets the plane.
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (std::abs(n[i]) > std::abs(n[axis])) axis = i;
@@ -89,12 +89,12 @@ SegmentFacet meet(const Line& line, std::span<const Vec3> facet) {
     return result;
 }
 
-// Inside or outside, of geometry/spatial/rays.hpp: a ray along an axis needs two comparisons a box and signs
+// The inside test of geometry/spatial/rays.hpp: a ray along an axis needs two comparisons per box and signs
 // in the plane.
 
 namespace {
 
-/// The boxes of a node that may hold something on the ray: float32 comparisons with numbers rounded outward.
+/// The boxes of a node that may meet the ray: float32 comparisons with numbers rounded outward.
 class AxisQuery {
   public:
     AxisQuery(const FaceTree& tree, const Vec3& p, std::size_t axis, bool forward)
@@ -144,8 +144,8 @@ void visit(const FaceTree& tree, const Query& query, Found&& found) {
     }
 }
 
-/// On which side of the edge the point is, seen along the axis; a point on its line as if moved a little
-/// along u, and by less along v. 0 only for an edge seen as a point.
+/// The side of the edge that contains the point, seen along the axis. A point on the edge's line is treated
+/// as if moved a little along u, and by less along v. Returns 0 only for an edge seen as a point.
 int side(const Vec3& a, const Vec3& b, const Vec3& p, std::size_t u, std::size_t v) {
     if (const int sign = orientation_2d(a[u], a[v], b[u], b[v], p[u], p[v])) return sign;
     if (a[v] != b[v]) return b[v] > a[v] ? -1 : 1;
@@ -167,7 +167,7 @@ bool holds(const FaceTree::Triangle& t, const Vec3& p) {
         return within(t.a, t.b) || within(t.b, t.c) || within(t.c, t.a);
     }
     if (orientation_3d(t.a, t.b, t.c, p) != 0) return false;
-    // Some axis sees the triangle with an area.
+    // The triangle has an area as seen along at least one axis.
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         const int way = orientation_2d(t.a[u], t.a[v], t.b[u], t.b[v], t.c[u], t.c[v]);
@@ -214,7 +214,7 @@ int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3&
 
 int winding(const FaceTree& tree, const Vec3& p) {
     if (tree.empty() || !is_finite(p)) return 0;
-    // Towards the nearest side of the whole, where least is in the way.
+    // The ray runs towards the nearest side of the bounds, because the fewest faces are in its way.
     const Vec3 at = tree.local(p);
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)

@@ -1,7 +1,7 @@
 #pragma once
-// Where segments and rays meet a surface, and what is inside it. After P. Bourke, "Determining whether a line
-// segment intersects a 3 vertex facet" (1997) and "Determining if a point lies on the interior of a polygon"
-// (1987); whether a line meets a triangle is decided by exact signs (base/math/predicates.hpp).
+// Intersections of segments and rays with a surface, and inside tests. After P. Bourke, "Determining whether
+// a line segment intersects a 3 vertex facet" (1997) and "Determining if a point lies on the interior of a
+// polygon" (1987). Exact signs (base/math/predicates.hpp) decide whether a line meets a triangle.
 
 #include "geometry/spatial/face_tree.hpp"
 
@@ -12,13 +12,13 @@
 
 namespace facetmill {
 
-/// The points from + t (to - from): of a segment 0 <= t <= 1, of a ray t >= 0.
+/// The points from + t (to - from): 0 <= t <= 1 for a segment, t >= 0 for a ray.
 struct Line {
     Vec3 from, to;
     bool ray = false;
 };
 
-/// Where a line meets a face.
+/// An intersection of a line and a face.
 struct Hit {
     double t = 0;
     Vec3 point;
@@ -27,15 +27,14 @@ struct Hit {
     int way = 0;           ///< 1: the line leaves through the front of the face; -1: it enters
 };
 
-/// -1 or 1 (see Hit::way) when the line through from and to passes through the triangle, 0 when it does not.
-/// A line through an edge or a vertex is taken as the line beside it, moved aside by less than any distance
-/// and always to the same side: of the faces around an edge it passes through as many as it would there, so a
-/// surface that is crossed is crossed once and one that is only touched twice or not at all. A line within
-/// the plane of the triangle does not pass through it. Exact.
+/// Returns -1 or 1 (see Hit::way) if the line through from and to passes through the triangle, else 0. A
+/// line through an edge or a vertex is treated as if moved sideways by an infinitesimal amount, always to
+/// the same side. So a surface that is crossed is crossed once, and a surface that is only touched is
+/// crossed twice or not at all. A line within the plane of the triangle does not pass through it. Exact.
 int passes(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// The hit with least t, of equal ones that of the lowest face; none when the line meets nothing. An end of a
-/// segment that lies on a face meets it.
+/// The hit with the least t, of equal hits the lowest face; none if the line misses the surface. A segment's
+/// end point on a face is a hit.
 std::optional<Hit> first_hit(const FaceTree& tree, const Line& line);
 /// All hits, by t, then by face.
 std::vector<Hit> all_hits(const FaceTree& tree, const Line& line);
@@ -51,26 +50,27 @@ struct HitLists {
 /// In parallel; the same for any number of threads.
 HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all);
 
-/// The faces that a ray from p along a coordinate axis passes through, forward or back: hit(face, way) for
-/// every triangle, in no order, with way as in Hit. A ray through an edge or a vertex is taken as one beside
-/// it, as in `passes`; p itself is not on the ray. Exact.
+/// Calls hit(face, way) for every triangle that a ray from p along a coordinate axis passes through, forward
+/// or back, in no order; way as in Hit. A ray through an edge or a vertex is moved sideways as in `passes`.
+/// p itself is not on the ray. Exact.
 void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, bool forward,
                       const std::function<void(Index face, int way)>& hit);
 
-/// Of one triangle, as above: 1, -1, or 0 where the ray does not pass through it.
+/// The same for one triangle: 1, -1, or 0 if the ray does not pass through it.
 int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3& a, const Vec3& b,
                       const Vec3& c);
 
-/// How often the surface winds around p, which must not lie on it: 1 inside a closed surface, 0 outside, 2
-/// where two overlap, -1 inside one that is inside out. By the crossings of a ray along an axis, exact.
-/// Without a meaning for open surfaces.
+/// The winding number of the surface around p, which must not be on it: 1 inside a closed surface, 0
+/// outside, 2 where two overlap, -1 inside an inside-out surface. Counts the crossings of a ray along an
+/// axis; exact. Meaningless for open surfaces.
 int winding(const FaceTree& tree, const Vec3& p);
 
-/// The winding number at `to` from that at `from`, by what the segment between them crosses: the same number
-/// as winding(tree, to), faster when they are near each other. Neither may lie on the surface. Exact.
+/// Derives the winding number at `to` from the winding number at `from`, by counting the crossings of the
+/// segment between them. The result equals winding(tree, to), faster for near points. Neither point may be
+/// on the surface. Exact.
 int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, const Vec3& to);
 
-/// Whether p lies exactly on a triangle, borders included.
+/// Whether p is exactly on a triangle, borders included.
 bool lies_on(const FaceTree& tree, const Vec3& p);
 
 /// The cases of P. Bourke, "Determining whether a line segment intersects a 3 vertex facet" (1997), for one
@@ -82,7 +82,7 @@ struct SegmentFacet {
     double t = 0; ///< where the line meets the plane, unless parallel or in it
     Vec3 point;
 };
-/// Signs are exact for the plane through the first three corners that are not on one line.
+/// Signs are exact for the plane through the first three corners that are not collinear.
 SegmentFacet meet(const Line& line, std::span<const Vec3> facet);
 
 } // namespace facetmill

@@ -1,6 +1,6 @@
 #pragma once
-// How geometry/spatial/rays.hpp finds what a line meets: the exact test of a triangle, and the way through
-// the tree, in steps, so that many lines can take turns.
+// The intersection search of geometry/spatial/rays.hpp: the exact test of a triangle, and a walk through the
+// tree in steps, so that many lines can be interleaved.
 
 #include "base/math/predicates.hpp"
 #include "base/math/simd.hpp"
@@ -12,7 +12,8 @@
 
 namespace facetmill::rays {
 
-/// A point off the line through from and to: one step along the axis that the line follows least.
+/// A point off the line through from and to: one step along the axis with the smallest component of its
+/// direction.
 inline Vec3 point_beside(const Vec3& from, const Vec3& to) {
     const Vec3 d = to - from;
     std::size_t axis = 0;
@@ -23,10 +24,10 @@ inline Vec3 point_beside(const Vec3& from, const Vec3& to) {
     return beside;
 }
 
-/// The surface is looked at along the line, which is then a point; the half plane through `beside` is a ray
-/// from it to the right. A triangle holds the point when the ray crosses its border an odd number of times. A
-/// corner on the ray's line counts as above it, and an edge through the point as to the right: that belongs
-/// to the corner or the edge, whatever face asks, and so neighbours always agree.
+/// The surface is viewed along the line, which appears as a point. The half plane through `beside` is a ray
+/// from this point to the right. A triangle contains the point if the ray crosses its border an odd number
+/// of times. A corner on the ray's line counts as above it, and an edge through the point as to the right.
+/// This choice depends only on the corner or the edge, never on the face, so neighbours always agree.
 class LineSigns {
   public:
     LineSigns(const Vec3& from, const Vec3& to) : from_(from), to_(to), beside_(point_beside(from, to)) {}
@@ -42,10 +43,10 @@ class LineSigns {
   private:
     bool is_above(const Vec3& p) const { return orientation_3d(from_, to_, beside_, p) >= 0; }
 
-    /// 1 when the edge crosses the ray upward, -1 downward, 0 when it crosses to the left of the point or
-    /// not. Seen along the line with `beside` to the right, "above" is to the front of (from, to, beside),
-    /// and the line runs towards the viewer's back: anticlockwise is the way of a front that the line leaves
-    /// through.
+    /// Returns 1 if the edge crosses the ray upward, -1 downward, 0 if it does not cross or crosses to the
+    /// left of the point. Seen along the line with `beside` to the right, "above" is to the front of (from,
+    /// to, beside), and the line runs towards the viewer's back. So a front face that the line leaves
+    /// through is anticlockwise.
     int crossing(const Vec3& a, const Vec3& b, bool a_above, bool b_above) const {
         if (a_above == b_above) return 0;
         // The edge taken upward, so that both its faces compute the same.

@@ -12,8 +12,8 @@ namespace facetmill {
 
 namespace {
 
-/// The corners of the face without the coordinate along which its normal is longest, anticlockwise, from the
-/// first corner on so that numbers stay small.
+/// The corners of the face without the coordinate along which its normal is longest, anticlockwise, relative
+/// to the first corner so that numbers stay small.
 std::vector<Vec2> flattened(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
     const Vec3 normal = area_vector(mesh, f);
@@ -75,8 +75,8 @@ std::optional<Vec2> kernel_centroid(const std::vector<Vec2>& polygon) {
     return kernel[0] + sum * (1 / (3 * area));
 }
 
-/// Adds the weights that give the point as a mixture of corner k and of the edge that the ray from there
-/// through the point meets behind it. The point is in the kernel, so there is one such edge.
+/// Adds the weights that give the point as a mixture of corner k and of the edge that the ray from the
+/// corner through the point meets beyond it. The point is in the kernel, so exactly one such edge exists.
 bool add_weights_through(const std::vector<Vec2>& polygon, std::size_t k, const Vec2& point,
                          std::vector<double>& weights) {
     const Vec2 way = point - polygon[k];
@@ -98,8 +98,8 @@ bool add_weights_through(const std::vector<Vec2>& polygon, std::size_t k, const 
     return false;
 }
 
-/// Weights of at least 0 that give the point: the mean of those through every corner (or through 64 of them,
-/// evenly spread). Empty when the polygon is too odd for any.
+/// Weights of at least 0 that give the point: the mean of the weights through every corner (or through 64
+/// corners, evenly spread). Empty if numerical trouble leaves no weights.
 std::vector<double> weights_of(const std::vector<Vec2>& polygon, const Vec2& point) {
     std::vector<double> weights(polygon.size());
     const std::size_t step = (polygon.size() + 63) / 64;

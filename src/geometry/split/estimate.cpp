@@ -13,7 +13,7 @@ namespace facetmill {
 namespace {
 
 constexpr double corner_limit = 2147483648.0; ///< 2^31
-/// Of memory, at the peak: the result, the edges it comes from, and where everything descends from.
+/// Memory at the peak: the result, the edges of the input, and the provenance.
 constexpr double bytes_per_corner = 36;
 
 /// About how many triangles refining to max_edge makes: a triangle with all edges that long has at most
@@ -37,7 +37,7 @@ double refined_estimate(const Mesh& mesh, const SplitSettings& s) {
         [](double a, double b) { return a + b; });
 }
 
-/// Of all attributes, for a wedge or vertex; there is half of one for each corner of a triangle mesh at most.
+/// Bytes of all attributes for each wedge or vertex. A triangle mesh has at most half a vertex per corner.
 double attribute_bytes(const Mesh& mesh) {
     double bytes = 0;
     for (const auto& a : mesh.attributes)
@@ -45,8 +45,8 @@ double attribute_bytes(const Mesh& mesh) {
     return bytes;
 }
 
-/// The longest edge that there can be after one pass that cuts all edges in half: half of the longest, or
-/// from the middle of an edge of a larger face to its centroid. In triangles and quads that is no longer.
+/// The longest possible edge after one pass that halves all edges: half of the longest, or from the middle
+/// of an edge of a larger face to its centroid. In triangles and quads the latter is not longer.
 double longest_after_first(const Mesh& mesh, const SplitSettings& s, double longest) {
     if (mesh.all_triangles()) return longest / 2;
     return parallel_reduce(

@@ -1,5 +1,5 @@
 #pragma once
-// What a split would make, before it is made.
+// Estimates the result of a split before it is built.
 
 #include "geometry/split/split.hpp"
 
@@ -24,7 +24,8 @@ struct SplitCensus {
     }
 };
 
-/// Throws limit (E-LIMIT, E-MEMORY) when so many corners, with the mesh's attributes, are more than can be.
+/// Throws limit (E-LIMIT, E-MEMORY) if so many corners, with the mesh's attributes, exceed the index range
+/// or the memory.
 void refuse_giant_split(const Mesh& mesh, double corners, const SplitWords& words);
 
 } // namespace facetmill

@@ -91,7 +91,7 @@ struct NotchPattern {
     }
 };
 
-/// Quads cut between two opposite edges, and as many marks more as the neighbours set.
+/// Quads cut between two opposite edges, plus the marks that neighbours set.
 struct HalvePattern {
     Marked marked;
     const std::vector<std::uint8_t>& first_edge; ///< [faces] of quads: the first of their pair of edges
@@ -188,7 +188,7 @@ std::vector<double> feet(const Mesh& mesh, const MeasuredEdges& edges, const Edg
             const double cosine_here = a * b > 0 ? dot(low, high) / (a * b) : 1;
             if (!(cosine_here < widest)) continue;
             widest = cosine_here;
-            // A bisector divides the opposite edge as the sides beside it.
+            // A bisector divides the opposite edge in the ratio of the adjacent sides.
             at[e] = a + b > 0 ? std::clamp(a / (a + b), 0.001, 0.999) : 0.5;
         }
     });
@@ -327,13 +327,13 @@ std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings
 
 namespace {
 
-/// Marks edges and what follows from them, one after the other, as long as the faces stay within the budget.
+/// Marks edges and their closure, one edge at a time, as long as the faces stay within the budget.
 class Budget {
   public:
     Budget(const MeasuredEdges& edges, const std::vector<std::uint8_t>& longest, std::uint64_t room)
         : edges_(edges), longest_(longest), room_(room) {}
 
-    /// False, and nothing marked, when it would cost more than there is room for.
+    /// Returns false, and marks nothing, if the cost exceeds the remaining budget.
     bool add(EdgeMarks& marks, Index e) {
         if (marks[e]) return true;
         trail_.assign(1, e);
@@ -364,8 +364,8 @@ class Budget {
     std::vector<Index> trail_;
 };
 
-/// The edges longer than the limit (squared), the longest first; of a round with a budget only those longer
-/// than half the longest, because what is left of a cut edge is that long at most.
+/// The edges longer than the limit (squared), the longest first. A round with a budget uses only edges
+/// longer than half the longest, because the pieces of a cut edge are at most that long.
 std::vector<Index> candidates(const MeasuredEdges& edges, double limit, bool budget) {
     if (budget) {
         double longest = 0;

@@ -22,8 +22,9 @@ std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& e
 /// The number of triangles that have an angle below settings.min_angle; the mesh must have only triangles.
 std::size_t narrow_faces(const Mesh& mesh, const SplitSettings& settings);
 
-/// bisect, notch or halve of every face, or of the narrow ones (settings.min_angle). One pass; min_angle
-/// finds nothing: an empty optional. AttributeChanges and counts of spots go to so_far.
+/// One pass of bisect, notch or halve over every face, or over the narrow faces (settings.min_angle).
+/// Returns an empty optional if min_angle finds no face. Adds attribute changes and counts of spots to
+/// so_far.
 std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far);
 
 /// Cuts at the marked edges by bisect's rule; the marks must be closed under it.

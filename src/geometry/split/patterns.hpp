@@ -1,6 +1,5 @@
 #pragma once
-// What one face becomes by the methods of split that cut every face alike (see below for the
-// frame).
+// The replacement of one face by the methods of split that cut every face alike (see below for the frame).
 
 #include "geometry/split/centre.hpp"
 #include "geometry/split/points.hpp"
@@ -14,7 +13,8 @@
 
 namespace facetmill {
 
-/// What one face becomes: how many new faces and corners, points inside it (mixes) and sources of those.
+/// The size of a face's replacement: new faces and corners, points inside it (mixes) and sources of the
+/// mixes.
 struct PatternCounts {
     std::uint64_t faces = 0, corners = 0, mixes = 0, sources = 0;
 
@@ -27,7 +27,7 @@ struct PatternCounts {
     }
 };
 
-/// A face of the old mesh with the points on its edges and the room for its new ones.
+/// A face of the old mesh with the points on its edges and the space for its new faces.
 struct PatternFace {
     const Mesh& mesh;
     const EdgePoints* points;
@@ -42,7 +42,7 @@ struct PatternFace {
     Index inside(Index i) const { return first_mix + i; }
 };
 
-/// Where a pattern puts what it makes, in order.
+/// The output of a pattern, in order.
 struct PatternOut {
     Index* corners;
     Index* offsets; ///< null: triangles only
@@ -96,12 +96,11 @@ AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance, 
 
 } // namespace split_detail
 
-/// The mesh with every face replaced by what the pattern makes of it. A Pattern has
+/// The mesh with every face replaced by its pattern. A Pattern has
 ///   PatternCounts counts(const Mesh&, Index face) const;
 ///   void emit(const PatternFace&, PatternOut&) const;   faces and mixes, as many as counted
-///   bool triangles_only(const Mesh&) const;             true: no face that it makes has more than three
-///   corners
-/// points may be null when the pattern uses none.
+///   bool triangles_only(const Mesh&) const;             true: all new faces are triangles
+/// points may be null if the pattern uses none.
 template <class Pattern>
 Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pattern,
                    AttributeChanges& changes) {
@@ -222,8 +221,7 @@ inline void centroid(const PatternFace& face, PatternOut& out) {
     out.end_mix();
 }
 
-/// A triangle at every corner and one between the middles of the edges: what the grid of 2 gives, in its
-/// order.
+/// A triangle at every corner and a triangle between the middles of the edges: the grid of 2, in its order.
 inline void four_triangles(const PatternFace& face, PatternOut& out) {
     const Index first = face.on(0), second = face.on(1), third = face.on(2);
     out.face(face.at(0), first, third);
@@ -268,7 +266,7 @@ struct CentroidPattern {
     }
 };
 
-/// Faces of four corners and more into triangles around their centroid; triangles stay.
+/// Turns faces of four corners and more into triangles around their centroid; triangles stay.
 struct FanPattern {
     PatternCounts counts(const Mesh& mesh, Index f) const {
         return mesh.face_size(f) == 3 ? PatternCounts{1, 3, 0, 0} : CentroidPattern{}.counts(mesh, f);
@@ -280,8 +278,8 @@ struct FanPattern {
     }
 };
 
-/// A triangle at every corner, and the polygon of the edges' middles; corners that another face shares with
-/// both their edges stay in the polygon, because the edge across them would belong to both.
+/// A triangle at every corner, and the polygon of the edges' middles. Corners whose two edges another face
+/// shares stay in the polygon, because the edge across them would belong to both faces.
 struct VarignonPattern {
     const std::vector<std::uint8_t>& shared; ///< [corners]
 

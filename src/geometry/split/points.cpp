@@ -79,8 +79,8 @@ void EdgePoints::number_bundles() {
 
 void EdgePoints::describe(Provenance& vertices, Provenance& wedges) const {
     const auto n = static_cast<std::size_t>(points_);
-    // Points are reckoned from the lexicographically smaller end, so that unwelded copies of an edge, in this
-    // mesh or another, get exactly the same points whatever their numbers.
+    // Points are computed from the lexicographically smaller end. So unwelded copies of an edge, in this
+    // mesh or another, get exactly the same points whatever their vertex numbers.
     const auto fill = [&](std::vector<Provenance::Edge>& out, std::size_t at, std::size_t e, Index low,
                           Index high) {
         const auto& [a, b] = table_->edges[e];

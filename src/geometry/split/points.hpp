@@ -1,5 +1,5 @@
 #pragma once
-// New points on edges, the same for all faces that meet there. For the methods of split.
+// New points on edges, the same for all faces that share the edge. For the methods of split.
 
 #include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
@@ -8,19 +8,19 @@
 
 namespace facetmill {
 
-/// The points that divide edges into equal parts: vertices numbered after the old ones, edge by edge and from
-/// the edge's low vertex to its high one; wedges likewise, one set per pair of wedges that some face has
-/// along the edge.
+/// The points that divide edges into equal parts. Vertices are numbered after the old vertices, edge by edge
+/// and from the edge's low vertex to its high vertex. Wedges likewise, one set per pair of wedges that some
+/// face has along the edge.
 class EdgePoints {
   public:
-    /// pieces >= 1: each edge gets pieces - 1 points. With marks (one per edge), only marked edges get any.
-    /// With at (one per edge, pieces = 2), the point is at that parameter from the edge's low vertex instead
-    /// of in the middle.
+    /// Each edge gets pieces - 1 points, pieces >= 1. With marks (one per edge), only marked edges get
+    /// points. With at (one per edge, pieces = 2), the point is at that parameter from the edge's low vertex
+    /// instead of in the middle.
     EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
                const std::vector<std::uint8_t>& marks = {}, std::vector<double> at = {});
 
     /// The wedge of point i (1 .. pieces - 1, counted from corner c's own vertex) on the edge of corner c,
-    /// which must have points. An edge from a vertex to itself has its own wedge for all of them.
+    /// which must have points. For an edge from a vertex to itself, this is the corner's own wedge.
     Index wedge(Index c, int i) const {
         const Index e = table_->corner_edge[c];
         if (e == none) return mesh_->corners[c];
@@ -33,7 +33,7 @@ class EdgePoints {
     std::size_t vertex_points() const { return edge_count_ * static_cast<std::size_t>(points_); }
     std::size_t wedge_points() const { return bundle_count_ * static_cast<std::size_t>(points_); }
 
-    /// Appends the points to the provenances; wedges is left alone when the mesh has no seams.
+    /// Appends the points to the provenances. Leaves wedges unchanged if the mesh has no seams.
     void describe(Provenance& vertices, Provenance& wedges) const;
     /// Appends the vertex of each wedge point; for meshes with seams.
     void append_wedge_vertices(std::vector<Index>& wedge_vertex) const;

@@ -16,7 +16,7 @@ namespace facetmill {
 
 namespace {
 
-// The neighbourhood that subdivision masks speak of, on a manifold, oriented mesh.
+// The neighbourhood used by subdivision masks, on a manifold, oriented mesh.
 
 /// Halfedges are corners: corner c runs from its vertex to the next corner's. A feature edge has one
 /// face, or its two faces meet at more than the feature angle.
@@ -35,14 +35,15 @@ class SmoothRings {
     Index from(Index c) const { return mesh.vertex(c); }
     Index to(Index c) const { return mesh.vertex(next_[c]); }
     bool is_feature(Index e) const { return e == none || feature_[e]; }
-    /// The other ends of the feature edges at a vertex, at most two of them; and how many there are.
+    /// The other ends of at most two feature edges at a vertex, and the number of its feature edges.
     struct FeatureEdges {
         Index ends[2] = {none, none};
         int count = 0;
     };
     FeatureEdges features_at(Index v) const;
     bool is_boundary(Index e) const { return edges.corners_of(e).size() == 1; }
-    /// Whether a smooth rule holds at the vertex: not on a boundary, and fewer than two feature edges.
+    /// Whether a smooth rule applies at the vertex: it is not on a boundary, and has fewer than two feature
+    /// edges.
     bool is_smooth(Index v) const;
 
   private:
@@ -83,7 +84,7 @@ SmoothRings::FeatureEdges SmoothRings::features_at(Index v) const {
     };
     for (const Index c : corners.of(v)) {
         see(c, to(c));
-        // The edge that ends here is another corner's own, unless it is a boundary.
+        // The edge that ends at this vertex is another corner's own edge, unless it is a boundary.
         if (twin(previous(c)) == none) see(previous(c), from(previous(c)));
     }
     return features;
@@ -95,7 +96,7 @@ bool SmoothRings::is_smooth(Index v) const {
     return features_at(v).count < 2;
 }
 
-/// A vertex on a curve of feature edges: the cubic B-spline's rule along it; corners and ends stay.
+/// A vertex on a curve of feature edges: the cubic B-spline's rule along it. Corners and ends stay.
 std::optional<Vec3> on_curve(const SmoothRings& rings, Index v) {
     const auto features = rings.features_at(v);
     const auto& p = rings.mesh.positions;
@@ -153,8 +154,7 @@ Vec3 catmull_clark_edge(const SmoothRings& rings, const std::vector<Index>& face
            (corner_mean(rings.mesh, faces[at[0]]) + corner_mean(rings.mesh, faces[at[1]])) * 0.25;
 }
 
-/// The point beyond a of the curve of feature edges that runs from b to a, mirrored when the curve ends
-/// there.
+/// The point beyond a on the curve of feature edges from b to a, mirrored if the curve ends at a.
 Vec3 beyond(const SmoothRings& rings, Index a, Index b) {
     const auto& p = rings.mesh.positions;
     const auto features = rings.features_at(a);
@@ -162,8 +162,8 @@ Vec3 beyond(const SmoothRings& rings, Index a, Index b) {
     return p[a] * 2 - p[b];
 }
 
-/// The vertex across the edge of corner c, mirrored at a feature edge: what the eight-point mask calls a
-/// wing. c runs along a side of the triangle whose third vertex is `third`.
+/// The vertex across the edge of corner c, mirrored at a feature edge: a wing of the eight-point mask. c
+/// runs along a side of the triangle whose third vertex is `third`.
 Vec3 wing(const SmoothRings& rings, Index c, Index third) {
     const auto& p = rings.mesh.positions;
     if (!rings.is_feature(rings.edges.corner_edge[c])) return p[rings.from(rings.previous(rings.twin(c)))];
@@ -198,7 +198,7 @@ Vec3 butterfly_edge(const SmoothRings& rings, Index e) {
     const auto irregular = [&](Index v) { return rings.is_smooth(v) && Star(rings, v).n != 6; };
     Vec3 sum;
     int masks = 0;
-    for (const Index c : at) // each of the two runs from another end
+    for (const Index c : at) // each of the two runs starts from another end
         if (irregular(rings.from(c))) {
             sum += butterfly_irregular(rings, c);
             ++masks;
@@ -211,8 +211,8 @@ Vec3 butterfly_edge(const SmoothRings& rings, Index e) {
     return (p[low] + p[high]) * 0.5 + (p[b0] + p[b1]) * 0.125 - (wings(at[0]) + wings(at[1])) * (1.0 / 16);
 }
 
-/// The new places of the old vertices (vertex) and of the points on edges (edge) of a pattern that has one
-/// point per edge; what comes after them, centroids, stays.
+/// Sets the new positions of the old vertices (vertex) and of the points on edges (edge) of a pattern with
+/// one point per edge. Later points (centroids) stay.
 template <class VertexRule, class EdgeRule>
 void place(Mesh& finer, const SmoothRings& rings, VertexRule&& vertex, EdgeRule&& edge) {
     const std::size_t n = rings.mesh.vertex_count();
@@ -255,9 +255,9 @@ Mesh catmull_clark_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRi
     return finer;
 }
 
-/// A triangle from each edge to the point inside its face, turned, where the edge may be, to the points
-/// inside the two faces beside it. Odd passes cut faces at boundaries in three along the boundary instead:
-/// there the points of the boundary edge stand for the one inside.
+/// A triangle from each edge to the point inside its face. Where the edge may turn, the triangle joins the
+/// points inside the two adjacent faces instead. Odd passes cut faces at boundaries in three along the
+/// boundary. The points of the boundary edge then replace the point inside.
 struct Sqrt3Pattern {
     const SmoothRings& rings;
     const EdgePoints& points;
@@ -268,7 +268,7 @@ struct Sqrt3Pattern {
         return boundary[f] < 3 ? PatternCounts{3, 9, 0, 0} : PatternCounts{3, 9, 1, 3};
     }
     bool triangles_only(const Mesh&) const { return true; }
-    /// The third wedge of the triangle at the edge of corner c, which is not the boundary's that is cut.
+    /// The third wedge of the triangle at the edge of corner c, which is not the cut boundary edge.
     Index third(const PatternFace& face, Index c) const {
         const Index f = c / 3, k = boundary[f];
         if (k == 3) return face.first_mix - before[face.face] + before[f];

@@ -1,16 +1,17 @@
 #pragma once
-// Where the smooth methods of split put vertices; the faces come from the same patterns as the others'.
+// Vertex positions of the smooth methods of split; the faces come from the same patterns as other methods.
 
 #include "geometry/split/split.hpp"
 
 namespace facetmill {
 
-/// One pass of loop, butterfly, catmull_clark or sqrt3; pass counts from 0 (sqrt3 cuts boundary edges in
-/// three in every second one). The mesh must be manifold, oriented, and of triangles but for catmull_clark.
+/// One pass of loop, butterfly, catmull_clark or sqrt3. pass counts from 0 (sqrt3 cuts boundary edges in
+/// three in every second pass). The mesh must be manifold and oriented, and all triangles unless the method
+/// is catmull_clark.
 Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, AttributeChanges& changes);
 
-/// Throws stage (E-MANIFOLD) when the mesh has an edge of more than two faces or of two that run along it the
-/// same way, or a vertex where several fans meet.
+/// Throws stage (E-MANIFOLD) if an edge has more than two faces or two faces that run along it the same way,
+/// or if several fans meet at a vertex.
 void require_manifold(const Mesh& mesh, SplitMethod method);
 
 } // namespace facetmill

@@ -19,7 +19,7 @@ namespace facetmill {
 
 namespace {
 
-/// What is known of a method beside how it splits.
+/// The properties of a method, except the way it splits.
 struct MethodRow {
     SplitMethod method;
     const char* name;  ///< as users write it
@@ -71,8 +71,8 @@ void check_polygons(const Mesh& mesh, const SplitSettings& settings) {
                                   : "use triangulate first to make triangles of every face");
 }
 
-/// One pass; what it did to attributes and where it could not keep its promises goes to the result. Without
-/// faces when min_angle finds no narrow one.
+/// One pass. Adds attribute changes and counts of problem spots to the result. Returns no faces if min_angle
+/// finds no narrow face.
 Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
     AttributeChanges& changes = so_far.changes;
     so_far.folded += folding_faces(mesh, settings.method);
@@ -120,12 +120,13 @@ Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so
     return split_smooth(mesh, settings, so_far.passes, changes);
 }
 
-/// Whether the mesh is as the target wants it; false without a target that can be looked for.
+/// Whether the mesh meets the target; false if no target can be tested.
 bool is_reached(const Mesh& mesh, const SplitSettings& settings) {
     return settings.max_edge > 0 && facet_shape(mesh, settings.to_world).longest_edge <= settings.max_edge;
 }
 
-/// How long each pass takes, as far as it is known before: those that halve edges make four faces of one.
+/// The expected duration of each pass, as far as it is known in advance: methods that halve edges replace a
+/// face by four.
 std::vector<double> lengths_of_passes(const Mesh& mesh, const SplitSettings& s) {
     double passes = std::min(s.passes, 16);
     if (s.max_edge > 0) {

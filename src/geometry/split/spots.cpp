@@ -18,7 +18,7 @@ struct Turn {
     bool operator<(const Turn& b) const { return beyond != b.beyond ? beyond < b.beyond : corner < b.corner; }
 };
 
-/// Calls visit(corners of faces that share the edge and the next one at its end) for each end of edge e.
+/// Calls visit(corners of faces that share the edge and the next edge at its end) for each end of edge e.
 template <class Visit>
 void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<Index>& faces, Index e,
                   std::vector<Turn>& room, Visit&& visit) {
@@ -47,8 +47,8 @@ void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<In
 
 Index other_end(const EdgeTable::Edge& edge, Index end) { return edge.low == end ? edge.high : edge.low; }
 
-/// Whether triangles may share two edges, told from a third of the edges where all have two faces: such
-/// triangles share all three, and one of these is the first of the lower triangle.
+/// Whether triangles may share two edges, decided from a third of the edges if all have two faces: such
+/// triangles share all three, including the first edge of the lower triangle.
 bool may_share(const Mesh& mesh, const EdgeTable& edges) {
     const auto apex = [&](Index c) { return mesh.vertex(c - c % 3 + (c % 3 + 2) % 3); };
     return parallel_reduce(
@@ -69,7 +69,7 @@ std::vector<Index> faces_of_corners(const Mesh& mesh) {
     return mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
 }
 
-/// Whether the triangle of three points looks the other way than the normal.
+/// Whether the triangle of three points faces against the normal.
 bool looks_back(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
     return dot(cross(b - a, c - a), normal) < 0;
 }
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edge
         std::vector<Turn> room;
         for (auto e = static_cast<Index>(begin); e < end; ++e)
             visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
-                if (turns[0].beyond < other_end(edges.edges[e], at)) return; // seen from its other edge
+                if (turns[0].beyond < other_end(edges.edges[e], at)) return; // visited from its other edge
                 for (const Turn& t : turns) shared[t.corner] = 1;
             });
     });

@@ -1,6 +1,6 @@
 #pragma once
-// Spots of a mesh where cutting every face by itself is not enough: faces that share two edges, and faces
-// that their pieces do not fit into. For the methods of split.
+// Spots of a mesh where cutting each face separately fails: faces that share two edges, and faces that do
+// not contain their pieces. For the methods of split.
 
 #include "geometry/split/split.hpp"
 #include "mesh/quad_diagonal.hpp"
@@ -8,19 +8,19 @@
 
 namespace facetmill {
 
-/// One byte per corner: 1 where another face has both edges of the corner too, so that a new edge between the
-/// two would be theirs together. O(corners), parallel.
+/// One byte per corner: 1 if another face also has both edges of the corner, so that a new edge between the
+/// two would belong to both faces. O(corners), parallel.
 std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges);
 
-/// How many vertices have such corners of two triangles at least, one of whose edges is marked (no marks: all
-/// are): there the new edges of the triangles coincide. Of counted vertices (none given: of all).
+/// The number of vertices with such corners of at least two triangles and a marked edge (no marks: all
+/// edges): the new edges of the triangles coincide. Only counted vertices (empty: all).
 std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks,
                         const std::vector<std::uint8_t>& counted = {});
 
-/// How many faces have a piece that looks the other way than the face: not convex ones where grid, halve or
-/// varignon cut between edges; those that their centre (centre_weights) does not see all of where a method
-/// cuts to it, because they have no kernel (of quads only those that cross themselves). 0 for the smooth
-/// methods, and those that cut triangles or diagonals.
+/// The number of faces with a piece that faces against the whole face. For grid, halve and varignon, which
+/// cut between edges, these are the non-convex faces. For methods that cut to the centre (centre_weights),
+/// these are faces without a kernel (only self-intersecting quads). 0 for the smooth methods, and for
+/// methods that cut triangles or diagonals.
 std::size_t folding_faces(const Mesh& mesh, SplitMethod method);
 
 } // namespace facetmill

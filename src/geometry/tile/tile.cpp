@@ -25,8 +25,8 @@ class Tiler {
                 throw Error(ErrorKind::usage, "E-TILE", "a tile's size must be above zero");
     }
 
-    /// within: the cells along this axis that the cuts so far leave. A point that rounding puts beyond a
-    /// plane it was cut at stays on its side of it, so every cut leaves fewer cells and the recursion ends.
+    /// within: the cells along this axis that the cuts so far leave. A point that rounding moves beyond its
+    /// cut plane stays on its side of it, so every cut leaves fewer cells and the recursion ends.
     TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, TileCell cell, CellRange within = {}) {
         if (size_of(mesh) == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
@@ -44,8 +44,8 @@ class Tiler {
         settings.keep = Keep::both;
         settings.memory = std::move(memory);
         ClipResult halves = clip(std::move(mesh), settings);
-        // A mesh that the plane only touches may reach over it by rounding in the world: it is in the cell
-        // beside.
+        // A mesh that the plane only touches may extend over it by rounding in the world: it belongs to the
+        // neighbouring cell.
         if (size_of(halves.front) == 0 || size_of(halves.back) == 0)
             return one_side(std::move(halves), axis, cell, middle, within);
         TileResult front, back;
@@ -60,11 +60,11 @@ class Tiler {
     }
 
   private:
-    /// What there is to be cut: faces, or the points of a cloud.
+    /// The number of elements to cut: faces, or the points of a cloud.
     std::size_t size_of(const Mesh& mesh) const { return cloud_ ? mesh.vertex_count() : mesh.face_count(); }
 
-    /// The number between the cells that halves evenly most often, 0 before all: so an edge on a border that
-    /// both neighbours are cut along is cut in the same order in both, and its points are rounded alike.
+    /// The border between cells that can be halved evenly most often, 0 before all. So an edge on a border
+    /// is cut in the same order in both neighbours, and its points are rounded alike.
     static double first_plane(const CellRange& cells) {
         double best = cells.low + 1;
         for (double step = 2; best != 0; step *= 2) {
@@ -104,7 +104,7 @@ class Tiler {
                         fmt::format("a part would be cut into about {:.3g} rows of tiles along one axis",
                                     r.high - r.low + 1),
                         "choose a larger size");
-        // The planes themselves decide, as they are rounded.
+        // The rounded planes themselves decide.
         while (a.origin + r.low * a.size > least) --r.low;
         while (a.origin + (r.low + 1) * a.size <= least) ++r.low;
         while (a.origin + (r.high + 1) * a.size < most) ++r.high;
@@ -165,7 +165,7 @@ class Tiler {
     }
 
     const TileSettings& settings_;
-    const bool cloud_; ///< a mesh without faces: its points are put into the cells
+    const bool cloud_; ///< a mesh without faces: its points are sorted into the cells
     std::atomic<std::size_t> made_ = 0;
 };
 

@@ -17,30 +17,30 @@ struct TileAxis {
 struct TileSettings {
     std::vector<TileAxis> axes; ///< each axis at most once
     Transform to_world;
-    ClipSettings clip;          ///< cap, cap_primitive, cap_numbers, snap and memory count; the rest is set
+    ClipSettings clip; ///< cap, cap_primitive, cap_numbers, snap and memory apply; tile sets the others
     std::size_t limit = 100000; ///< tiles at most
 };
 
-/// What lies in one cell: coordinates from k * size up to (k + 1) * size.
+/// The contents of one cell: coordinates from k * size up to (k + 1) * size.
 struct Tile {
     std::array<std::int64_t, 3> cell{}; ///< k by axis, 0 for axes that are not cut
     Mesh mesh;
 };
 
 struct TileResult {
-    std::vector<Tile> tiles; ///< that have faces (of a cloud: points), by z, then y, then x of their cells
+    std::vector<Tile> tiles; ///< the nonempty tiles, by z, then y, then x of their cells
     AttributeChanges changes;
     std::size_t cut_faces = 0, cap_faces = 0;
     std::vector<OpenContour> open;
     CutMemory memory;
 };
 
-/// Cuts the mesh in two again and again until every piece is in one cell, so that time grows with the
-/// logarithm of the cells. Neighbours come out of one cut, so their borders have the same points; caps that
-/// face each other have the same triangles, but for points that a later cap adds where contours cross. Faces
-/// in a plane of the grid go with what they are the boundary of, as with Keep::both. Every tile has face
-/// attributes (of a cloud: wedge attributes) tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws
-/// usage (E-TILE) for a size that is not above zero and limit (E-TILE) for too many tiles.
+/// Cuts the mesh in two recursively until every piece is in one cell, so that time grows with the logarithm
+/// of the cells. Neighbours result from one cut, so their borders have the same points. Facing caps have the
+/// same triangles, except points that a later cap adds where contours cross. Faces in a plane of the grid go
+/// to the side that they bound, as with Keep::both. Every tile has face attributes (for a cloud: wedge
+/// attributes) tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws usage (E-TILE) for a size
+/// that is not above zero and limit (E-TILE) for too many tiles.
 TileResult tile(Mesh mesh, const TileSettings& settings);
 
 } // namespace facetmill

@@ -30,15 +30,15 @@ Contours outline_of(const std::vector<Vec2>& ring) {
     return contours;
 }
 
-/// Whether the outline winds around points more than once or both ways, or touches itself so that its corners
-/// alone do not bound its triangles.
+/// Whether the outline winds around points more than once or both ways, or touches itself so that its
+/// triangulation needs further vertices.
 bool crosses(const std::vector<Vec2>& ring, polygon::Kind kind) {
     if (kind != polygon::Kind::complex) return kind == polygon::Kind::self_intersecting;
     return fill(outline_of(ring)).triangles.size() != ring.size() - 2;
 }
 
-/// Whether the diagonal from the first corner of a quad parts the other two, seen along the axis nearest to
-/// its normal: then no edges cross. So most faces need no more than two signs.
+/// Whether the diagonal from the first corner of a quad separates the other two corners, seen along the axis
+/// nearest to its normal: then no edges cross. So most faces need only two signs.
 bool is_parted_quad(std::span<const Vec3> p) {
     if (p.size() != 4) return false;
     const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
@@ -60,7 +60,7 @@ CrossingKind crossing_of(std::span<const Vec3> corners) {
     const polygon::Kind kind = polygon::classify(ring);
     if (!crosses(ring, kind)) return CrossingKind::none;
     if (is_planar(corners, polygon::plane_deviation(corners))) return CrossingKind::in_plane;
-    // The two triangles of a skewed quad share a diagonal and nothing else, wherever it is seen from.
+    // The two triangles of a skewed quad share only a diagonal, from every direction of view.
     const bool may_overlap = kind == polygon::Kind::self_intersecting && corners.size() > 4;
     return may_overlap ? CrossingKind::in_no_plane : CrossingKind::none;
 }
@@ -71,7 +71,7 @@ Contours flat_outline(const Mesh& mesh, Index f) {
     return outline_of(polygon::flattened(corners));
 }
 
-/// Faces whose outlines cross or touch themselves elsewhere than along bridges to holes.
+/// Faces whose outlines cross or touch themselves other than along bridges to holes.
 struct Found {
     std::vector<Index> in_plane;
     std::size_t in_no_plane = 0; ///< as seen along the axis nearest to their normal
@@ -96,7 +96,7 @@ Found find_crossing_faces(const Mesh& mesh) {
     return found;
 }
 
-/// Puts vertices where the outlines of faces meet themselves, on all faces along their edges.
+/// Adds vertices where the outlines of faces meet themselves, to all faces along their edges.
 class OutlineSplitter {
   public:
     explicit OutlineSplitter(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)) {}
@@ -140,7 +140,7 @@ class OutlineSplitter {
         return std::abs(d.x) > std::abs(d.y) ? (p.x - a.x) / d.x : (p.y - a.y) / d.y;
     }
 
-    /// One for each place where the same edges of the mesh meet, whichever face says so.
+    /// One vertex for each crossing of the same edges of the mesh, whichever face reports it.
     Index vertex_for(const std::vector<Index>& corners, const Provenance::Edge& at) {
         std::vector<Index> edges;
         edges.reserve(corners.size());
@@ -229,7 +229,8 @@ class FaceFiller {
         if (!filling.added.empty()) return {}; // crossings of rounded crossings
         FaceTriangles once = filling.triangles;
         once.erase(std::unique(once.begin(), once.end()), once.end()); // they are sorted
-        if (stands_alone(f)) return once; // corners at one place may be of several vertices: nobody minds
+        if (stands_alone(f))
+            return once; // coincident corners may have several vertices: no neighbour is affected
         if (!bounded_by_face(mesh_, f, filling.triangles)) return {};
         out_.overlapping += once.size() != filling.triangles.size();
         return filling.triangles;

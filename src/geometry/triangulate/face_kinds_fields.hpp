@@ -1,5 +1,5 @@
 #pragma once
-// What kinds of face a mesh has, as info and the stages report it.
+// Report fields of the kinds of face of a mesh, for info and the stages.
 
 #include "geometry/triangulate/triangulate.hpp"
 #include "options/fields.hpp"

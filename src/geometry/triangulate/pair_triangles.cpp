@@ -18,8 +18,9 @@ struct Candidate {
     Index edge;
 };
 
-/// The quad of two triangles at the edge that starts at corner a of the one and at corner b of the other:
-/// around the edge's start, the far corner of the second, the edge's end, the far corner of the first.
+/// The quad of two triangles at the edge that starts at corner a of the first and at corner b of the second.
+/// Its corners are the edge's start, the far corner of the second, the edge's end, the far corner of the
+/// first.
 Quad quad_of(const Mesh& mesh, const std::vector<Index>& face, Index a, Index b) {
     const Index a1 = next_corner(mesh, face[a], a), a2 = next_corner(mesh, face[a], a1);
     const Index b2 = next_corner(mesh, face[b], next_corner(mesh, face[b], b));
@@ -28,7 +29,7 @@ Quad quad_of(const Mesh& mesh, const std::vector<Index>& face, Index a, Index b)
 
 Vec3 at(const Mesh& mesh, Index wedge) { return mesh.positions[mesh.vertex_of_wedge(wedge)]; }
 
-/// The largest |cosine| of the quad's corners; above 1 when it is bent too much, not convex, or without area.
+/// The largest |cosine| of the quad's corners; above 1 if it is bent too much, not convex, or without area.
 double worst_corner(const Mesh& mesh, const Quad& q, double min_cosine) {
     const std::array<Vec3, 4> p{at(mesh, q[0]), at(mesh, q[1]), at(mesh, q[2]), at(mesh, q[3])};
     const Vec3 second = cross(p[1] - p[0], p[2] - p[0]), first = cross(p[2] - p[0], p[3] - p[0]);
@@ -88,7 +89,7 @@ PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
         } else {
             const auto corners = edges.corners_of(edge_of[f]);
             if (face[std::min(corners[0], corners[1])] != f)
-                continue; // its partner, which came before, is the quad
+                continue; // its partner, which came before, became the quad
             const Quad q = quad_of(mesh, face, corners[0], corners[1]);
             out.corners.insert(out.corners.end(), q.begin(), q.end());
             ++result.quads;

@@ -17,8 +17,8 @@ using Triangle = std::array<Index, 3>; ///< corners of a face, counted from its 
 
 int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
 
-/// Whether the direction from p to x lies in the sector that opens at p from out, anticlockwise, up to but
-/// without in.
+/// Whether the direction from p to x is in the sector that opens at p anticlockwise from out, up to and
+/// excluding in.
 bool in_sector(const Vec2& p, const Vec2& out, const Vec2& x, const Vec2& in) {
     const auto same = [&](const Vec2& a, const Vec2& b) {
         return turn(p, a, b) == 0 && dot(a - p, b - p) > 0;
@@ -30,7 +30,7 @@ bool in_sector(const Vec2& p, const Vec2& out, const Vec2& x, const Vec2& in) {
     return turn(p, out, in) > 0 ? after_out && before_in : after_out || before_in;
 }
 
-/// Cuts one face after the other, with room that is used again.
+/// Cuts one face at a time, reusing its buffers.
 class FaceCutter {
   public:
     FaceCutter(const Mesh& mesh, const QuadCuts& quads) : mesh_(mesh), quads_(quads) {}
@@ -76,7 +76,8 @@ class FaceCutter {
         return true;
     }
 
-    /// Of the corners at the place of a triangle's k-th, the one in whose sector the triangle lies.
+    /// Of the corners that coincide with a triangle's k-th, returns the corner whose sector contains the
+    /// triangle.
     Index corner(const Triangle& t, std::size_t k) const {
         const Vec2 &p = flat_[t[k]], &next = flat_[t[(k + 1) % 3]];
         const auto n = static_cast<Index>(flat_.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Faces of any kind into triangles, and the census of what kinds of face a mesh has.
+// Triangulates faces of any kind, and counts the kinds of face of a mesh.
 
 #include "geometry/polygon/polygon.hpp"
 #include "mesh/mesh.hpp"
@@ -24,38 +24,36 @@ struct FaceKinds {
 /// Puts the corners of face f into `corners`.
 void face_corners(const Mesh& mesh, Index f, std::vector<Vec3>& corners);
 
-/// What kind of polygon these corners are.
+/// The kind of polygon of these corners.
 polygon::Kind face_kind(std::span<const Vec3> corners);
-/// Whether corners that are at most so far from their plane (polygon::plane_deviation) lie in it: no farther
-/// than planar times the perimeter.
+/// Whether corners with this deviation from their plane (polygon::plane_deviation) count as planar: at most
+/// planar times the perimeter.
 bool is_planar(std::span<const Vec3> corners, double deviation, double planar = 1e-6);
 
-/// Counts the faces by kind. A face is not planar when a corner is farther from its plane than planar times
-/// the face's perimeter; the default is what float32 coordinates can tell. Parallel.
+/// Counts the faces by kind. A face is not planar if a corner is farther from its plane than planar times
+/// the face's perimeter. The default is the resolution of float32 coordinates. Parallel.
 FaceKinds face_kinds(const Mesh& mesh, double planar = 1e-6);
-/// Over all parts as they stand in the world; worst is none.
+/// Counts over all parts in world space; worst is none.
 FaceKinds face_kinds(const Scene& scene, double planar = 1e-6);
 
 struct TriangulateResult {
     Mesh mesh;
     AttributeChanges changes;
     FaceKinds kinds;      ///< of the faces that came in
-    std::size_t cut = 0;  ///< faces that became several
+    std::size_t cut = 0;  ///< faces that became several triangles
     std::size_t fans = 0; ///< among them, self-intersecting or without area: cut as fans
 };
 
 /// Cuts every face of four corners or more into its corners less two triangles, without new points, so that
 /// closed stays closed and neighbours still match. Vertices, wedges and their attributes are kept, face
 /// attributes copied.
-/// - Quads that are convex: along the shorter diagonal (ties: the one at the first corner).
+/// - Quads that are convex: along the shorter diagonal (ties: the diagonal at the first corner).
 /// - Convex, concave, and complex faces (holes joined by coincident edges): constrained Delaunay of the
-/// corners seen along
-///   the coordinate axis nearest to the area vector, which is the projection for faces that are not planar
-///   too. Corners at the same place keep their own wedges.
-/// - Self-intersecting faces: by windings. A fan from the first corner; its triangles may lie over each other
-/// or face
-///   backwards, and add up at every point to how often the face winds around it. Faces without area: the same
-///   fan.
+/// corners, projected along the coordinate axis nearest to the area vector, even for faces that are not
+/// planar. Coincident corners keep their own wedges.
+/// - Self-intersecting faces: by windings. A fan from the first corner; its triangles may overlap each other
+/// or face backwards, and add up at every point to the winding number of the face. Faces without area: the
+/// same fan.
 TriangulateResult triangulate(const Mesh& mesh);
 
 struct PairSettings {
@@ -72,10 +70,10 @@ struct PairResult {
     std::size_t triangles = 0; ///< left
 };
 
-/// Merges pairs of triangles that meet at an edge of exactly two faces, run along it opposite ways with the
-/// same wedges and have the same primitive. The edge whose quad has corners nearest to right angles goes
-/// first (ties: the lower edge); each triangle is used once. Vertices and wedges are kept; a quad has the
-/// face attributes of its first triangle, and takes its place. Other faces pass as they are.
+/// Merges pairs of triangles across an edge of exactly two faces, if they run along it opposite ways with
+/// the same wedges and have the same primitive. The edge whose quad has corners nearest to right angles goes
+/// first (ties: the lower edge); each triangle is used once. Vertices and wedges are kept. A quad replaces
+/// its first triangle and has its face attributes. Other faces stay unchanged.
 PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings = {});
 
 } // namespace facetmill

@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-/// The lines between places, each once, and those at every place.
+/// The distinct lines between points, and the lines at every point.
 class LineGraph {
   public:
     explicit LineGraph(const Lines& given) : lines_(given.segments) {
@@ -71,7 +71,7 @@ class LineGraph {
 
     std::vector<Lines::Segment> lines_;
     std::size_t skipped_ = 0;
-    std::vector<Index> first_, at_; ///< the lines at each place
+    std::vector<Index> first_, at_; ///< the lines at each point
     std::vector<std::uint8_t> done_;
 };
 

@@ -6,18 +6,18 @@
 namespace facetmill {
 
 struct Chain {
-    std::vector<Index> points; ///< into Lines::points; of a closed one the first is not repeated
+    std::vector<Index> points; ///< into Lines::points; a closed chain does not repeat the first point
     bool closed = false;
     Index material = none;
 };
 
 struct Chains {
     std::vector<Chain> chains;
-    std::size_t skipped = 0; ///< lines without length, or that are there twice
+    std::size_t skipped = 0; ///< lines without length, or duplicates
 };
 
-/// Every line once. Chains end where one line ends, more than two meet, or the material changes; they are in
-/// the order of their lowest end, closed ones last.
+/// Uses every line once. Chains end where one line ends, more than two meet, or the material changes. They
+/// are in the order of their lowest end, closed chains last.
 Chains chains_of(const Lines& lines);
 
 } // namespace facetmill

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double step = pi / 8; ///< of a corner that is turned through
 
-/// The direction d of a line, and what is up across it.
+/// The direction d of a line, and the up direction across it.
 struct TubeFrame {
     Vec3 d, up;
     Vec3 aside() const { return cross(d, up); }
@@ -33,7 +33,7 @@ TubeFrame turned(const TubeFrame& f, const Vec3& d) {
     return {d, normalised(up - d * dot(up, d))};
 }
 
-/// Sweeps a section along chains, one after the other.
+/// Sweeps a section along chains, one chain at a time.
 class Sweep {
   public:
     Sweep(const Lines& lines, const TubesSettings& settings)
@@ -92,7 +92,8 @@ class Sweep {
         const std::size_t n = directions_.size();
         const TubeFrame start = frame_along(directions_.back());
         twist_ = {1, 0};
-        // Once to see how far the frame has turned about the line when it is back, and once to take that up.
+        // The first pass measures how far the frame has turned about the line at its return; the second
+        // distributes this turn.
         TubeFrame frame = start;
         for (std::size_t i = 0; i < n; ++i) frame = carried((i + n - 1) % n, i, frame);
         const double left = arc_tangent(dot(frame.up, start.aside()), dot(frame.up, start.up));
@@ -105,7 +106,7 @@ class Sweep {
             twist_ = {cosine(turn), sine(turn)};
             frame = corner(i, (i + n - 1) % n, i, frame);
         }
-        const bool twisted = std::abs(each) > 1e-12; // radians: far above rounding, and nobody can see it
+        const bool twisted = std::abs(each) > 1e-12; // radians: far above rounding, and invisible
         for (Index k = 0; k + 1 < rings_; ++k) wall(k, k + 1, 0, twisted);
         const auto shifted = static_cast<Index>((static_cast<long>(shift) + 2L * sides_) % sides_);
         wall(rings_ - 1, 0, shifted, twisted);
@@ -131,7 +132,7 @@ class Sweep {
         return radius_ * sine_of_half <= most * cosine_of_half;
     }
 
-    /// The frame behind a corner.
+    /// The frame after a corner.
     TubeFrame carried(std::size_t before, std::size_t after, const TubeFrame& f) const {
         const Vec3 &from = directions_[before], &to = directions_[after];
         if (dot(from, to) > -0.5) return turned(f, to);
@@ -168,7 +169,7 @@ class Sweep {
         const Vec3 sideways = to - from * dot(from, to);
         const double sine_of_turn = length(sideways);
         const double turn = arc_tangent(sine_of_turn, dot(from, to));
-        const Vec3 other = sine_of_turn > 1e-12 ? sideways / sine_of_turn : up; // 1e-12: nothing but rounding
+        const Vec3 other = sine_of_turn > 1e-12 ? sideways / sine_of_turn : up; // 1e-12: rounding only
         const int steps = std::max(1, static_cast<int>(std::ceil(turn / step)));
         std::vector<Vec3> all;
         for (int k = 1; k < steps; ++k) {
