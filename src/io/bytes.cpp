@@ -21,7 +21,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Below this a file is read rather than mapped, unless less is asked for: nobody can shrink memory under us.
+/// Smaller files are read, not mapped, unless max_stream is lower: another process cannot truncate a copy.
 constexpr std::size_t map_from = std::size_t{16} << 20;
 
 struct Descriptor {
@@ -48,14 +48,13 @@ struct Descriptor {
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));
 }
 
-/// How many bytes are taken from what does not say its size: an eighth of the memory that this process may
-/// still take.
+/// The limit for streams of unknown size: an eighth of the memory still available to this process.
 std::size_t stream_limit() {
     const auto there = available_memory();
     return there ? static_cast<std::size_t>(*there / 8) : SIZE_MAX;
 }
 
-/// A device never ends (/dev/zero), or is a terminal.
+/// A device may be endless (/dev/zero) or a terminal.
 constexpr std::size_t max_device_bytes = std::size_t{64} << 20;
 
 /// Reads up to room bytes; 0 at the end.
@@ -67,7 +66,7 @@ std::size_t read_some(int fd, std::byte* to, std::size_t room, const std::string
     }
 }
 
-/// Memory that is filled from a file, and so not with zeros before.
+/// Memory to be filled from a file, so it is not zeroed first.
 struct Piece {
     std::unique_ptr<std::byte[]> bytes;
     std::size_t size = 0;
@@ -75,7 +74,7 @@ struct Piece {
     explicit Piece(std::size_t room) : bytes(new std::byte[room]) {}
 };
 
-/// One after the other; each is freed as soon as it is copied, so that all are there hardly twice.
+/// Joins the pieces in order. Each is freed after its copy, so that the peak is little more than the total.
 Piece joined(std::vector<Piece> pieces, std::size_t size) {
     if (pieces.size() == 1) return std::move(pieces.front());
     Piece all(size);
@@ -87,8 +86,8 @@ Piece joined(std::vector<Piece> pieces, std::size_t size) {
     return all;
 }
 
-/// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink). Read in pieces:
-/// a buffer that grows would be there twice, which for what never ends is twice the limit.
+/// Reads everything from the descriptor. `expected` is only a hint, because files grow and shrink. Reading
+/// in pieces avoids a growing buffer, which would need twice the limit for an endless stream.
 Piece read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
     constexpr std::size_t least = std::size_t{64} << 10, most = std::size_t{64} << 20;
     limit = std::min(limit, SIZE_MAX - 1);
