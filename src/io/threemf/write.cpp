@@ -41,15 +41,16 @@ std::uint32_t packed_colour(const Colour& c) {
 const char* unit_name(Unit unit) {
     for (const UnitName& known : unit_names)
         if (known.unit == unit) return known.name;
-    if (unit == Unit::unknown) return "millimeter"; // the format's own: write has warned
+    if (unit == Unit::unknown) return "millimeter"; // the format's default; write has warned
     throw Error(ErrorKind::stage, "E-UNIT", fmt::format("3MF has no unit {}", to_string(unit)),
                 "write: {unit: m}");
 }
 
-/// The properties of the triangles of a mesh, as they are written.
+/// The properties of a mesh's triangles as written.
 class Looks {
   public:
-    /// materials: the index in the group of materials by that of the scene. id: of a group of colours.
+    /// materials: from the scene's material index to the index in the material group. id: of a group of
+    /// colours.
     Looks(const Mesh& mesh, const std::vector<Index>& materials, std::uint32_t materials_id, std::uint32_t id)
         : mesh_(mesh), materials_(materials), materials_id_(materials_id), id_(id) {
         const Attribute* a = mesh.find("COLOR_0", Domain::wedge);
@@ -68,13 +69,13 @@ class Looks {
             all_white &= at->first == white;
             of_wedge_[w] = at->second;
         }
-        if (!all_white) return; // white is what a mesh without colours is, so a material counts
+        if (!all_white) return; // a mesh without colours is white too, so a material takes precedence
         colours_.clear();
         of_wedge_.clear();
     }
 
     const std::vector<Colour>& colours() const { return colours_; }
-    /// Whether a face has a material that its colours hide.
+    /// Whether colours hide the material of a face.
     bool hides_materials() const {
         for (Index f = 0; !colours_.empty() && f < mesh_.face_count(); ++f)
             if (material(f) != none && has_colours(f)) return true;
@@ -126,7 +127,7 @@ class ModelWriter {
                    unit_name(scene_.unit), core_space, material_space, FACETMILL_VERSION));
         put_materials();
         const auto first = first_with_equal_mesh(scene_);
-        std::vector<Object> objects(scene_.parts.size()); // of the meshes that are first
+        std::vector<Object> objects(scene_.parts.size()); // of the first part with each mesh
         std::string items;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
             const Part& part = scene_.parts[i];
@@ -134,7 +135,7 @@ class ModelWriter {
                 warn("W-SKIPPED", fmt::format("part '{}' has no faces and is not written to 3MF", part.name));
                 continue;
             }
-            // A mirrored or flattened placement is not allowed, so such a part is written where it stands.
+            // 3MF forbids mirrored or flattened transforms, so such a part is written in world space.
             const bool placed = part.transform.determinant() > 0;
             Object object = placed ? objects[first[i]] : Object();
             if (object.id == 0)
@@ -154,7 +155,7 @@ class ModelWriter {
   private:
     struct Object {
         std::uint32_t id = 0;          ///< 0: none yet
-        std::size_t dropped_faces = 0; ///< that are not in it, however often it is placed
+        std::size_t dropped_faces = 0; ///< missing from the file, counted once per mesh
     };
 
     void warn(const char* id, std::string message) {
@@ -219,7 +220,7 @@ class ModelWriter {
         return object;
     }
 
-    /// The same mesh under another name.
+    /// Writes the same mesh under another name.
     std::uint32_t put_instance(const std::string& name, std::uint32_t object) {
         append(out_,
                fmt::format("  <object id=\"{}\" type=\"model\" name=\"{}\">\n   <components>\n    <component "
@@ -258,7 +259,7 @@ class ModelWriter {
         out += "\"/>\n";
     }
 
-    /// Triangles of one vertex twice are not allowed.
+    /// 3MF forbids triangles that repeat a vertex.
     static bool is_degenerate(const Mesh& mesh, Index f) {
         const Index a = mesh.vertex(3 * f), b = mesh.vertex(3 * f + 1), c = mesh.vertex(3 * f + 2);
         return a == b || b == c || c == a;
