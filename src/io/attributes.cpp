@@ -31,7 +31,7 @@ void add_attribute(Mesh& mesh, Attribute attribute) {
     attribute.name = free_name(attribute.name, [&](const std::string& name) {
         return name.empty() || name == primitive_attribute || mesh.find(name, attribute.domain) != nullptr;
     });
-    // What lost the name that its role goes with is an array like any other.
+    // An attribute without the name of its role becomes generic.
     if (attribute.role == Role::normal && attribute.name != "NORMAL") attribute.role = Role::generic;
     mesh.attributes.push_back(std::move(attribute));
 }
@@ -84,7 +84,7 @@ Attribute selected(const Attribute& attribute, std::span<const Index> kept) {
 
 namespace {
 
-/// How many values hold(value) is true of; change(value) is called for each of these. None of integers.
+/// Counts the values for which hold(value) is true, and calls change(value) for each. Skips integers.
 template <class Data, class Hold, class Change>
 std::size_t count_values(Data& data, const Hold& hold, const Change& change) {
     return std::visit(
@@ -110,7 +110,7 @@ std::size_t count_values(Data& data, const Hold& hold, const Change& change) {
 
 constexpr auto lacks_value = [](auto x) { return std::isnan(x); };
 
-/// Only numbers that mean nothing to facetmill may be missing: what draws or moves a surface may not.
+/// Only generic attributes may have missing values, because others draw or move a surface.
 bool may_lack_values(const Attribute& a) { return a.role == Role::generic; }
 
 } // namespace
@@ -176,7 +176,7 @@ void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
                 a.data,
                 [](auto& x) {
                     const bool is = std::isinf(x);
-                    // Of the many NaNs one, so that values that are alike have equal bits.
+                    // A single NaN pattern, so that equal values have equal bits.
                     if (!std::isfinite(x)) x = std::numeric_limits<std::decay_t<decltype(x)>>::quiet_NaN();
                     return is;
                 },
@@ -220,7 +220,8 @@ Wedges make_wedges(std::size_t vertices, std::vector<Index> corner_vertex,
     w.keys.assign(vertices, no_key);
     std::vector<bool> used(vertices, false);
     std::vector<Index> next(vertices, none), extra_vertex;
-    // Wedges of a vertex are a short list. A hostile file may have millions at one; those are looked up.
+    // The wedges of a vertex are a short list. A hostile file may have millions at a vertex, so long lists
+    // use a map.
     constexpr int longest_walk = 64;
     std::map<std::pair<Index, std::uint64_t>, Index> crowded;
     for (std::size_t c = 0; c < corner_vertex.size(); ++c) {

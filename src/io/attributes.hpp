@@ -1,7 +1,7 @@
 #pragma once
-// What codecs share about attributes and corners: roles by name, numbers from one array type to another,
-// finite values, and wedges from corners that name a vertex and a key (what else the corner has: indices of a
-// texture point and a normal): corners that agree in both share one.
+// Attribute and corner helpers of the codecs: roles by name, conversion between array types, finite values,
+// and wedges. Wedges come from corners that name a vertex and a key, which identifies the texture point and
+// the normal. Corners with the same vertex and key share a wedge.
 
 #include "io/codec.hpp"
 #include "mesh/mesh.hpp"
@@ -12,34 +12,33 @@
 
 namespace facetmill::io {
 
-/// The role that glTF gives the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n) when
-/// components and type fit it. Else integers of 16 bits and more are identifiers (Role::index), other numbers
-/// generic.
+/// The role that glTF gives the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n), if
+/// components and type fit it. Otherwise integers of 16 bits and more are identifiers (Role::index) and
+/// other numbers are generic.
 Role role_of(const std::string& name, int components, const AttributeData& data);
 
-/// Adds the attribute, under a name of its own: "quality_2" when there is a quality already in that domain,
-/// and another name than those that the mesh keeps for itself ("primitive").
+/// Adds the attribute under a unique name: "quality_2" if the domain already has a "quality". Names that the
+/// mesh reserves ("primitive") are changed too.
 void add_attribute(Mesh& mesh, Attribute attribute);
 
 /// The elements of three components as vectors, in parallel.
 std::vector<Vec3> to_vectors(const Attribute& attribute);
 
-/// Gives the wedges behind the first `vertices` the values of the vertex they are at.
+/// Gives the wedges after the first `vertices` the values of their vertices.
 void extend_to_wedges(Attribute& attribute, std::span<const Index> wedge_vertex, std::size_t vertices);
 
-/// The attribute with the elements [kept] only, in that order.
+/// The attribute with only the elements [kept], in that order.
 Attribute selected(const Attribute& attribute, std::span<const Index> kept);
 
-/// Values that are no number (NaN) say of generic attributes that there is none, and stay; infinite ones
-/// become so, too. In attributes that draw or move a surface what is not finite becomes 0. Warns of what
-/// changes (W-NAN).
+/// NaN marks a missing value in generic attributes and stays; infinite values become NaN. In attributes that
+/// draw or move a surface, values that are not finite become 0. Warns of the changes (W-NAN).
 void fix_attributes(Part& part, const std::string& file, ReadLog& log);
 
-/// How many values there were, by the name of the attribute.
+/// The number of NaN values by attribute name.
 using NanCounts = std::map<std::string, std::size_t>;
-/// Sets attribute values that are no number to 0, for formats that cannot hold them.
+/// Sets NaN attribute values to 0, for formats that cannot hold them.
 NanCounts zero_nan(Mesh& mesh);
-/// Those of them that a format gets which writes of each primitive the attributes that it has.
+/// NaN values in attributes that primitives have, for formats that write attributes per primitive.
 NanCounts nan_of_primitives(const Mesh& mesh);
 bool has_nan(const Mesh& mesh);
 /// Warns (W-NAN) of values that the format cannot hold.
@@ -56,7 +55,8 @@ struct Wedges {
     std::vector<std::uint64_t> keys; ///< [wedges]; no_key for vertices that no corner uses
 };
 
-/// Wedge v is the first one of vertex v; further ones follow in the order of their first corner. O(corners).
+/// Wedge v is the first wedge of vertex v; further wedges follow in the order of their first corner.
+/// O(corners).
 Wedges make_wedges(std::size_t vertices, std::vector<Index> corner_vertex,
                    std::span<const std::uint64_t> corner_key);
 

@@ -36,7 +36,7 @@ std::vector<std::string> names_where(Condition&& condition) {
     return names;
 }
 
-/// The codec that the content asks for; else the one that the name asks for.
+/// The codec that the content identifies, else the codec of the extension.
 const Codec& choose(const Input& input, ReadLog& log) {
     const Codec* by_name = codec_for(input.name());
     if (const Codec* surely = sure_codec(input)) {
@@ -59,7 +59,7 @@ const Codec& choose(const Input& input, ReadLog& log) {
                 fmt::format("give 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
 }
 
-/// The input as its codec reads it: text in UTF-8, and what is surely of some format as it is.
+/// The input for its codec: text becomes UTF-8, and files with a magic number stay unchanged.
 Input readable(const Input& input) { return sure_codec(input) ? input : in_utf8(input); }
 
 /// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
@@ -105,8 +105,8 @@ void leave_out_not_finite(Part& part, const std::string& name, ReadLog& log) {
          file_mark(name), "clean: {holes: minimal} closes the holes that this leaves"});
 }
 
-/// Beyond this size, or below one over it, what stages compute from products of coordinates may overflow or
-/// vanish.
+/// With sizes above far_size or below its inverse, products of coordinates in stages may overflow or
+/// underflow.
 constexpr double far_size = 1e60;
 
 void warn_of_size(const Part& part, ReadLog& log) {
@@ -124,12 +124,12 @@ void warn_of_size(const Part& part, ReadLog& log) {
          false});
 }
 
-/// The file's name without directory, .gz or .zst, and suffix, for parts that bear none.
+/// The file's name without directory, .gz or .zst, and suffix, for unnamed parts.
 std::string stem_of(const Input& input) {
     return without_packing(std::filesystem::path(input.name()).filename()).stem().string();
 }
 
-/// Lines under the name of a part with faces get one of their own.
+/// Renames parts of lines that share the name of a part with faces.
 void name_lines(Scene& scene) {
     std::set<std::string> names;
     for (const Part& part : scene.parts)
@@ -216,7 +216,7 @@ const std::vector<Capability>& capabilities() {
 
 FileHeader file_header(const Input& file, const ReadSettings& settings, const Codec* forced) {
     const Input input = readable(file).with_asset_roots(settings.asset_roots);
-    ReadLog log; // its warnings come again when the file is read
+    ReadLog log; // reading the file repeats its warnings
     const Codec& codec = reader_for(input, log, forced);
     FileHeader header{codec.name, codec.unit, codec.up};
     if (codec.peek) codec.peek(input, header);
@@ -229,8 +229,8 @@ FileHeader file_header(const Input& file, const ReadSettings& settings, const Co
 
 namespace {
 
-/// What the file states, where load was given something else. A scene as it is read has what its file states,
-/// but for formats with a unit and an axis of their own, which are those of the codec.
+/// Warns if the load settings differ from the file. A scene as read has the file's unit and axis. Formats
+/// with a fixed unit and axis take these from the codec.
 void warn_of_override(const Input& input, const Codec& codec, const Scene& scene,
                       const ReadSettings& settings, ReadLog& log) {
     FileHeader header{codec.name, codec.unit, codec.up};

@@ -20,7 +20,7 @@ std::string_view skip_parting(std::string_view line) {
     return line;
 }
 
-/// Takes a number off the front of the line; false when something else is there.
+/// Reads a number from the start of the line; false if there is no number.
 bool take_number(std::string_view& line, double& value) {
     const std::string_view rest = skip_parting(line);
     const char *at = rest.data(), *end = rest.data() + rest.size();
@@ -30,7 +30,7 @@ bool take_number(std::string_view& line, double& value) {
     return true;
 }
 
-/// What parts the cells of a heading.
+/// The separator of a heading's cells.
 char delimiter_of(std::string_view heading) {
     for (const char c : {',', ';', '\t'})
         if (heading.find(c) != heading.npos) return c;
@@ -43,7 +43,7 @@ std::string_view bare_cell(std::string_view cell) {
     return cell;
 }
 
-/// The cells of a line, empty ones too; blanks beside each other part once.
+/// The cells of a line, including empty cells; consecutive blanks separate once.
 std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
     std::vector<std::string_view> cells;
     for (std::size_t at = 0; at <= line.size();) {
@@ -54,7 +54,7 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
     return cells;
 }
 
-/// Where the columns of these names stand; empty when one of them is missing, or when they are the first.
+/// The indices of the named columns; empty if a name is missing or the columns are already the first.
 std::vector<std::size_t> places_of(std::span<const std::string_view> names,
                                    const std::vector<std::string_view>& heading) {
     std::vector<std::size_t> places;
@@ -64,12 +64,12 @@ std::vector<std::size_t> places_of(std::span<const std::string_view> names,
                 places.push_back(c);
                 break;
             }
-    bool first = true; // as they stand without a heading
+    bool first = true; // the columns are already in order
     for (std::size_t i = 0; i < places.size(); ++i) first = first && places[i] == i;
     return places.size() == names.size() && !first ? places : std::vector<std::size_t>{};
 }
 
-/// Reads lines one after another, and knows their numbers for messages.
+/// Reads line by line and counts lines for messages.
 class Table {
   public:
     Table(const Input& input, std::size_t columns, std::span<const std::string_view> names)
@@ -96,7 +96,7 @@ class Table {
     }
 
   private:
-    /// Without what follows #.
+    /// Without the text after #.
     std::string_view next_line() {
         ++number_;
         const auto end = text_.find_first_of("\r\n");
@@ -116,7 +116,7 @@ class Table {
                   fmt::format("expected a number, found {}", in_quotes(found)));
     }
 
-    /// The first columns.
+    /// Reads the first columns.
     void read_first(std::string_view line) {
         double value = 0;
         for (std::size_t c = 0; c < columns_; ++c) {
@@ -131,7 +131,7 @@ class Table {
         }
     }
 
-    /// The columns that the heading names.
+    /// Reads the columns that the heading names.
     void read_places(std::string_view line) {
         const auto cells = cells_of(line, delimiter_);
         for (const std::size_t place : places_) {

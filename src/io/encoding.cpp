@@ -21,7 +21,7 @@ enum class Encoding { utf8, marked_utf8, utf16_little, utf16_big, utf32 };
 
 bool is_plain(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\n' || c == '\r'; }
 
-/// Whether the beginning is ASCII with a zero behind (or before) each character.
+/// Whether the text starts with ASCII characters, each after (or before) a zero byte.
 bool alternates(std::string_view text, std::size_t character) {
     constexpr std::size_t pairs = 8;
     if (text.size() < 2 * pairs) return false;
@@ -58,7 +58,7 @@ void append_utf8(Bytes& out, std::uint32_t code) {
     }
 }
 
-/// The bytes behind a mark, if there is one, which are UTF-16 in that byte order.
+/// Converts the UTF-16 bytes after an optional mark, in that byte order.
 Bytes from_utf16(const Input& input, bool big) {
     const Span bytes = input.bytes();
     std::size_t at = as_text(bytes).starts_with(big ? big_mark : little_mark) ? 2 : 0;

@@ -82,7 +82,7 @@ void leave_documents(Written& written, const Scene& scene, const char* format,
 
 namespace {
 
-/// Those that faces have.
+/// Materials that faces use.
 std::set<Index> materials_in_use(const Scene& scene) {
     std::set<Index> used;
     for (const auto& part : scene.parts) {
@@ -95,7 +95,7 @@ std::set<Index> materials_in_use(const Scene& scene) {
     return used;
 }
 
-/// Of a material without a name: its number.
+/// The name to show; the number for an unnamed material.
 std::string shown_name(const Material& material, std::size_t number) {
     return material.name.empty() ? std::to_string(number) : material.name;
 }
@@ -128,7 +128,7 @@ void warn_of_colours(Written& written, const Scene& scene, const char* format) {
 
 namespace {
 
-/// Calls with each material that faces have and that a document describes: its name, and what is said there.
+/// Calls body with each documented material that faces use: its name and its JSON.
 void for_each_described(const Scene& scene,
                         const std::function<void(const std::string& name, const Json& said)>& body) {
     std::map<int, Json> documents;
@@ -145,7 +145,7 @@ void for_each_described(const Scene& scene,
     }
 }
 
-/// The number that is said there.
+/// The number at that JSON pointer.
 double number_at(const Json& said, const char* place, double otherwise) {
     const Json::json_pointer at(place);
     return said.contains(at) && said[at].is_number() ? said[at].get<double>() : otherwise;
@@ -219,7 +219,8 @@ void warn_of_point_materials(Written& written, const Scene& scene, const char* f
 }
 
 void warn_of_parts(Written& written, const Scene& scene, const char* format) {
-    std::vector<std::string> names, lines; // which are apart from faces when the file is read again
+    std::vector<std::string> names,
+        lines; // lines have their own list because files hold them apart from faces
     for (const auto& part : scene.parts)
         if (part.mesh.vertex_count() > 0)
             (part.mesh.line_count() > 0 ? lines : names).push_back(one_line(part.name));

@@ -1,5 +1,5 @@
 #pragma once
-// For formats without nodes: the scene as meshes in world space.
+// Scenes as meshes in world space, for formats without nodes.
 
 #include "base/progress.hpp"
 #include "io/codec.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill::io {
 
-/// The part's mesh in world space; a copy only when the part stands somewhere else (or elsewhere turned).
+/// The part's mesh in world space; copied only if the transform is not the identity.
 class WorldMesh {
   public:
     explicit WorldMesh(const Part& part);
@@ -23,55 +23,52 @@ class WorldMesh {
     Mesh own_;
 };
 
-/// Throws stage (E-RANGE) when a position is beyond what float32 holds, or all are so small that none would
-/// be left. what: "part 'cube'", "the scene".
+/// Throws stage (E-RANGE) if a position is beyond the range of float32, or if all positions are so small
+/// that none would remain. what: "part 'cube'", "the scene".
 void require_floats(const Mesh& mesh, const std::string& what);
 
-/// What a format cannot hold: its attribute changes.
+/// Records an attribute that the format cannot hold.
 void dropped(Written& written, const Attribute& attribute, std::string why);
 
-/// ... and what of glTF documents it leaves behind: textures and other properties of materials, skins,
-/// animations (W-ANIMATION for these two), cameras, extensions. `format` is spelled as in "STL"; kept: what
-/// it holds of these.
+/// Records the losses of glTF documents: textures and other properties of materials, cameras, extensions,
+/// skins and animations (W-ANIMATION for the last two). `format` is spelled as in "STL"; kept: the items
+/// that the format holds.
 void leave_documents(Written& written, const Scene& scene, const char* format,
                      const std::set<std::string>& kept = {});
 
-/// Warns (W-TEXTURES) of textured materials that the scene's faces have, by a format that could hold
-/// textures.
+/// Warns (W-TEXTURES) of textured materials on faces, for a format that could hold textures.
 void warn_of_textures(Written& written, const Scene& scene, const char* format);
 
-/// Warns (W-MATERIAL) of materials that the scene's faces have whose metalness, roughness or emission their
-/// document states, by a format that holds colours only.
+/// Warns (W-MATERIAL) of materials on faces with metalness, roughness or emission in their document, for a
+/// format that holds only colours.
 void warn_of_looks(Written& written, const Scene& scene, const char* format);
 
-/// Warns (W-MATERIAL) of materials with a colour that the scene's faces have, by a format without materials.
+/// Warns (W-MATERIAL) of coloured materials on faces, for a format without materials.
 void warn_of_colours(Written& written, const Scene& scene, const char* format);
 
-/// Warns (W-MATERIAL) of materials that points have, by a format that gives them none; lines, too.
+/// Warns (W-MATERIAL) of materials on points, and on lines if `lines`, for a format that cannot hold these.
 void warn_of_point_materials(Written& written, const Scene& scene, const char* format, bool lines = true);
 
-/// Warns (W-PARTS) that several parts become one mesh without their names, by a format that holds one.
+/// Warns (W-PARTS) that several parts are merged into one mesh without names, for a format of one mesh.
 void warn_of_parts(Written& written, const Scene& scene, const char* format);
 
-/// Warns (W-NAME) of names of parts and materials with control characters, by a format that has none in
-/// names.
+/// Warns (W-NAME) of control characters in names of parts and materials, for a format that replaces them.
 void warn_of_names(Written& written, const Scene& scene, const char* format, bool materials = true);
 
-/// Whether people may miss the attribute where a format has no place for it: not tangents and normals, which
-/// follow from the rest, nor skins, which W-ANIMATION tells of, nor numbers of groups that a reader or a
-/// stage made.
+/// Whether people may miss the attribute if a format cannot hold it. Tangents and normals follow from other
+/// data, W-ANIMATION covers skins, and readers or stages make group numbers, so none of these are missed.
 bool is_missed(const Attribute& attribute);
-/// Warns (W-ATTRIBUTE) of attributes by these names, when there are any.
+/// Warns (W-ATTRIBUTE) of attributes by these names, if any.
 void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format);
 
-/// A name that fits on a line: control characters are blanks.
+/// A name that fits on a line: control characters become blanks.
 std::string one_line(std::string name);
 
-/// Some of the names, and how many more there are.
+/// Some of the names, and the number of others.
 std::string some_of(const std::vector<std::string>& names);
 
-/// Numbers, text or bytes written chunk by chunk in parallel and joined in order.
-/// write(begin, end, std::string& out) appends the text of items [begin, end).
+/// Writes numbers, text or bytes chunk by chunk in parallel and joins them in order. write(begin, end,
+/// std::string& out) appends the text of items [begin, end).
 template <class Write>
 void append_text(Bytes& bytes, std::size_t n, Write&& write);
 

@@ -65,7 +65,7 @@ Material MaterialDocument::add(Json material, std::size_t documents) {
 
 namespace {
 
-/// Textures of a material, in the order in which a written document takes them over.
+/// Adds the textures of a material in the order in which a written document copies them.
 void add_textures(const Json& json, std::vector<std::size_t>& textures) {
     if (!json.is_object()) return;
     for (const auto& [key, value] : json.items()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Vertices of a file whose coordinates are not finite numbers, which no algorithm can work with.
+// Vertices with coordinates that are not finite, which no algorithm can process.
 
 #include "io/text.hpp"
 #include "mesh/scene.hpp"
@@ -12,19 +12,19 @@ namespace facetmill::io {
 inline constexpr const char* drop_not_finite_hint =
     "load: {not_finite: drop} leaves out such vertices and the faces at them";
 
-/// The next number of the text: a finite one, or any that is to be looked at later.
+/// The next coordinate of the text: finite only, or any number if the caller checks it later.
 inline double coordinate(Text& text, const char* what, bool any) {
     return any ? text.real(what) : text.coordinate(what);
 }
 
-/// Of the vertices that were left out.
+/// Counts of dropped vertices, faces and lines.
 struct NotFinite {
     std::size_t vertices = 0, faces = 0, lines = 0;
     std::size_t first = 0; ///< number of the first vertex in the part, as it was read
 };
 
-/// Leaves out the vertices of the part whose coordinates are not finite, with the faces and lines that use
-/// them. All else keeps its order and its attributes; nothing is copied when there are none.
+/// Drops the part's vertices with coordinates that are not finite, and the faces and lines that use them.
+/// Everything else keeps its order and attributes. Copies nothing if all vertices are finite.
 NotFinite drop_not_finite(Part& part);
 
 } // namespace facetmill::io

@@ -14,11 +14,11 @@ namespace {
 struct OtherFormat {
     std::vector<std::string_view> suffixes;
     std::string_view what;
-    std::string_view to_read;  ///< how it becomes something that is read
-    std::string_view to_write; ///< empty: nothing that it could be made of
+    std::string_view to_read;  ///< how to convert it to a readable format
+    std::string_view to_write; ///< empty: no conversion to it is known
 };
 
-/// Made when somebody asks, not at each start.
+/// Built on first use, not at every start.
 const std::vector<OtherFormat>& other_formats() {
     static const std::vector<OtherFormat> all{
         {{"fbx", "blend", "dae", "3ds", "abc", "max", "ma", "mb", "c4d", "lwo", "x3d", "wrl", "vrml", "x"},

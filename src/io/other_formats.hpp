@@ -1,14 +1,14 @@
 #pragma once
-// Formats that facetmill neither reads nor writes: what they are, and what to use in their place.
+// Formats that facetmill neither reads nor writes: descriptions and alternatives.
 
 #include <filesystem>
 #include <string>
 
 namespace facetmill::io {
 
-/// What to do with a file of this suffix that is to be read; empty for a suffix that is not known.
+/// How to convert a file of this suffix to a readable format; empty for an unknown suffix.
 std::string hint_for_reading(const std::filesystem::path& path);
-/// What to write in place of a file of this suffix; empty for a suffix that is not known.
+/// The format to write instead of this suffix; empty for an unknown suffix.
 std::string hint_for_writing(const std::filesystem::path& path);
 
 } // namespace facetmill::io

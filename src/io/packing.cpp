@@ -15,7 +15,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Two magic bytes, the only method there is, and no reserved flag.
+/// Two magic bytes, the only defined method, and no reserved flags.
 bool begins_as_gzip(Span bytes) {
     return bytes.size() >= 18 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b} &&
            bytes[2] == std::byte{8} && (bytes[3] & std::byte{0xe0}) == std::byte{0};
@@ -35,18 +35,18 @@ constexpr Suffix suffixes[] = {{".gz", Packing::gzip}, {".zst", Packing::zstd}};
 
 constexpr std::size_t at_once = std::size_t{1} << 30;
 
-/// Takes bytes step by step and gives others, into memory that is never beyond a limit.
+/// Unpacks step by step into limited memory.
 struct Unpacker {
-    /// What a step came to.
+    /// The outcome of a step.
     enum class State { more, end_of_member, broken };
 
     Unpacker() = default;
     Unpacker(const Unpacker&) = delete;
     Unpacker& operator=(const Unpacker&) = delete;
     virtual ~Unpacker() = default;
-    /// Moves both spans behind what was taken and given.
+    /// Advances both spans past the bytes read and written.
     virtual State step(Span& in, std::span<std::byte>& out) = 0;
-    /// Whether another member begins here; if so it is what the next step reads.
+    /// Whether another member begins here; if so, the next step reads it.
     virtual bool next_member(Span in) = 0;
     virtual const char* problem() const = 0;
     const char* id = "";
@@ -91,7 +91,7 @@ struct Unzstd final : Unpacker {
         format = "zstd";
         tool = "zstd -d";
         if (!z) throw out_of_memory("no memory to decompress a file");
-        // 128 MiB: the largest window that readers are advised to have memory for, and zstd's own default.
+        // 128 MiB: the largest window that readers should support, and zstd's default.
         ::ZSTD_DCtx_setParameter(z, ZSTD_d_windowLogMax, 27);
     }
     Unzstd(const Unzstd&) = delete;
@@ -166,7 +166,8 @@ Bytes deflated(Span bytes, bool header) {
     return out;
 }
 
-/// One frame with its size and a checksum, by one thread: what several write depends on their number.
+/// A single frame with its size and a checksum. It uses one thread, because the output of several depends on
+/// their number.
 Bytes zstd_packed(Span bytes) {
     ZSTD_CCtx* z = ::ZSTD_createCCtx();
     if (!z) throw out_of_memory("no memory to compress a file");

@@ -78,14 +78,14 @@ VertexChanges vertex_changes(const Scene& before, const Scene& after) {
 
 namespace {
 
-/// A scene in world space: the points of all parts and the points of all corners, in order. The scene has to
-/// outlive it: what is there as it is wanted, as that of a scene of one part is, is not copied.
+/// A scene in world space: the points and corners of all parts, in order. The scene must outlive it, because
+/// data of a scene of one part is referenced, not copied.
 struct Flat {
     std::span<const Vec3> points;
     std::span<const Index> corners;
     std::vector<Vec3> ends; ///< of lines, in order
 
-    /// degenerate: with the faces of fewer than three different vertices.
+    /// degenerate: include faces of fewer than three distinct vertices.
     explicit Flat(const Scene& scene, bool degenerate = true) {
         for (const auto& part : scene.parts)
             for (const Index w : part.mesh.lines)
@@ -111,7 +111,7 @@ struct Flat {
     Flat(const Flat&) = delete;
     Flat& operator=(const Flat&) = delete;
 
-    /// The points that faces use; all points when there are neither faces nor lines.
+    /// The points that faces use; all points if there are neither faces nor lines.
     std::vector<Vec3> used() const {
         if (corners.empty())
             return ends.empty() ? std::vector(points.begin(), points.end()) : std::vector<Vec3>{};
@@ -125,7 +125,7 @@ struct Flat {
     }
 
   private:
-    /// Returns the number of the first.
+    /// Returns the index of the first added point.
     Index add_points(const Part& part) {
         const Transform to_world = part.transform;
         const std::size_t first = made_points_.size();
@@ -144,7 +144,7 @@ struct Flat {
         });
     }
 
-    /// The faces of three different vertices and more, from every part.
+    /// Adds the faces of three or more distinct vertices from every part.
     void add_sound_faces(const Scene& scene) {
         for (const auto& part : scene.parts) {
             const Mesh& mesh = part.mesh;
@@ -164,7 +164,7 @@ struct Flat {
     std::vector<Index> made_corners_;
 };
 
-/// The largest distance; where it is above the tolerance, one that is.
+/// The largest distance; if it exceeds the tolerance, any distance above the tolerance.
 template <class Distance>
 double largest(std::size_t count, double tolerance, Distance&& distance) {
     return parallel_reduce(
@@ -177,9 +177,9 @@ double largest(std::size_t count, double tolerance, Distance&& distance) {
         [](double a, double b) { return std::max(a, b); });
 }
 
-/// Points in the order of the keys of their cells in a grid, with a table of where each share of the keys
-/// begins: what is in a cell is found at once, maybe with the points of others. Blocks of 8 x 8 x 8 cells
-/// have keys that differ little, so that points which are near each other are mostly side by side in memory.
+/// A hash grid: points sorted by the hash keys of their cells, with a table of the start of each share of
+/// the keys. A lookup is direct but may visit points of other cells. Blocks of 8 x 8 x 8 cells have similar
+/// keys, so that nearby points are mostly adjacent in memory.
 class Grid {
   public:
     Grid(const std::vector<Vec3>& points, double cell) : cell_(cell) {
@@ -199,16 +199,16 @@ class Grid {
     }
 
     double cell() const { return cell_; }
-    /// In the order of the grid.
+    /// The points, in grid order.
     const std::vector<Vec3>& points() const { return points_; }
 
-    /// The distance to the nearest point when it is below half a cell, else infinity or more than that; that
-    /// to any point which is no farther than `enough` will do.
+    /// The distance to the nearest point if it is below half a cell, else a larger value or infinity. The
+    /// search stops at any point no farther than `enough`.
     double nearest(const Vec3& p, double enough) const {
         const Cell centre = cell_of(p);
         double best = nearest_in(centre, p, HUGE_VAL, enough);
         if (best <= enough) return best;
-        std::array<double, 3> side{}; // to the nearer of the cells beside it, squared
+        std::array<double, 3> side{}; // to the nearer neighbouring cell, squared
         Cell beside = centre;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double within = p[axis] / cell_ - static_cast<double>(centre[axis]);
@@ -224,7 +224,8 @@ class Grid {
                     c[axis] = beside[axis];
                     gap += side[axis];
                 }
-            // The margin: a point beside the border is looked for on both sides, however that was rounded.
+            // The margin makes the search visit both sides of a border, whichever way the point's cell was
+            // rounded.
             if (gap * (1 - 1e-9) <= best * best) best = nearest_in(c, p, best, enough);
         }
         return best;
@@ -244,7 +245,7 @@ class Grid {
             c[axis] = static_cast<std::int64_t>(std::floor(p[axis] / cell_));
         return c;
     }
-    /// Of bits_ bits: the block's hash, then the cell's place in the block.
+    /// A key of bits_ bits: the block's hash, then the cell's index in the block.
     std::size_t share(const Cell& c) const {
         constexpr int side_bits = 3, place_bits = 3 * side_bits;
         std::uint64_t hash = 0, place = 0;
@@ -261,7 +262,7 @@ class Grid {
     std::vector<Vec3> points_;
 };
 
-/// A cell that holds few of the points of a surface, and whose number fits an integer wherever they are.
+/// A cell size with few surface points per cell, large enough that cell indices fit an integer.
 double cell_of_few(const std::vector<Vec3>& points) {
     Box box;
     for (const Vec3& p : points) box.add(p);
@@ -269,8 +270,8 @@ double cell_of_few(const std::vector<Vec3>& points) {
     return std::max(share, 1e-15 * std::max(length(box.min), length(box.max)));
 }
 
-/// Adds to `most` the largest distance from one of the points to the nearest in the grid, as far as it is
-/// found there, and returns the points of which it is not; none where this is the last grid.
+/// Raises `most` to the largest distance from the points to their nearest neighbours in the grid. Returns
+/// the points without a neighbour in reach; none for the last grid.
 std::vector<Vec3> farther(std::span<const Vec3> points, const Grid& grid, bool is_last, double& most) {
     std::vector<std::uint8_t> is_open(points.size());
     most = parallel_reduce(
@@ -291,9 +292,9 @@ std::vector<Vec3> farther(std::span<const Vec3> points, const Grid& grid, bool i
     return open;
 }
 
-/// The largest distance from a point of either to the nearest of the other; more than tolerance, or infinity,
-/// when it is more. What is not found in small cells is looked for in larger ones: where coordinates are
-/// large, cells of the tolerance might hold all points.
+/// The Hausdorff distance of two point sets; a value above the tolerance, or infinity, if it is larger.
+/// Small cells come first and larger cells later, because cells of the tolerance's size might hold all
+/// points at large coordinates.
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double tolerance) {
     if (a.empty() && b.empty()) return 0;
     const double largest_cell = std::max(2.5 * tolerance, 1e-300);
@@ -304,16 +305,16 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double t
     for (bool is_first = true;; is_first = false, cell = std::min(8 * cell, largest_cell)) {
         const Grid grid_a(a, cell), grid_b(b, cell);
         const bool is_last = cell >= largest_cell;
-        // At first all, in the order of the grid, in which those of the other grid are, too.
+        // The first pass takes all points in grid order, which suits the memory order of the other grid.
         open_a = farther(is_first ? grid_a.points() : open_a, grid_b, is_last, most);
         open_b = farther(is_first ? grid_b.points() : open_b, grid_a, is_last, most);
         if (open_a.empty() && open_b.empty()) return most;
     }
 }
 
-/// How far files may move a point, and up to which distance the order tells which point is which: beyond, the
-/// file may have another order. The first allows for nodes far from the origin, where it may be more than the
-/// whole mesh.
+/// most: the largest allowed displacement of a point. in_order: the limit up to which equal indices mean the
+/// same point; beyond it, the file may have another order. `most` allows for nodes far from the origin,
+/// where it may exceed the size of the mesh.
 struct Tolerances {
     double most = 0, in_order = 0;
 };
@@ -329,7 +330,7 @@ double error_of_lines(const Flat& wanted, const Flat& found, const Tolerances& t
     return farthest(wanted.ends, found.ends, tolerances.most);
 }
 
-/// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
+/// The largest displacement of a corner or, if the format reorders faces, of a point in either direction.
 double position_error(const Flat& wanted, const Flat& found, const Tolerances& tolerances) {
     if (wanted.corners.size() == found.corners.size() && !wanted.corners.empty()) {
         const double in_order = largest(wanted.corners.size(), tolerances.in_order, [&](std::size_t c) {
@@ -340,10 +341,9 @@ double position_error(const Flat& wanted, const Flat& found, const Tolerances& t
     return farthest(wanted.used(), found.used(), tolerances.most);
 }
 
-/// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
-/// transform between), half a step of the grid of Draco or of quantized positions in every direction, and the
-/// rounding of the place of an instance.
-/// transforms: the file has the parts' own coordinates.
+/// The largest displacement that the format allows. It adds float32 rounding of the largest coordinate
+/// (twice, because of a node's transform), half a grid step in every direction (Draco or quantized
+/// positions), and the rounding of instance transforms. transforms: the file has the parts' own coordinates.
 Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
     double largest = 0;
@@ -356,7 +356,7 @@ Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings
             world.add(to_world.point(p));
         }
         if (own.empty()) continue;
-        double scale = 0; // the longest column is at most this times a unit of the part
+        double scale = 0; // an upper bound of the longest column for a unit of the part
         for (const auto& row : to_world.m)
             for (int c = 0; c < 3; ++c) scale += row[c] * row[c];
         const double reach = std::max(length(own.min), length(own.max)) * std::sqrt(scale);
@@ -381,15 +381,15 @@ Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings
     for (const double error : errors_of_instances(scene, settings.meshopt.on && settings.meshopt.filters))
         of_places = std::max(of_places, error);
     back.tolerance = 2 * largest * float_step + back.grid_step + of_places;
-    // A float's rounding along three axes, with a margin, and that of the doubles in which the world is.
+    // Float rounding along three axes with a margin, and double rounding in world space.
     const double in_order = 4 * back.float_step + 0x1p-50 * largest + back.grid_step + of_places;
     return {back.tolerance, std::min(in_order, back.tolerance)};
 }
 
-/// What a file should not lose; truths, or counts of what is wrong.
+/// A property that a file should keep: a truth, or a count of defects.
 bool should_stay(const Property& property) { return property.soundness != Soundness::none; }
 
-/// Whether nothing can have been lost: every truth holds, and nothing wrong is counted.
+/// Whether every truth holds and no defects are counted, so that no loss is possible.
 bool is_sound(const Properties& properties) {
     const auto all = property_table();
     return std::all_of(all.begin(), all.end(), [&](const Property& p) {
@@ -408,7 +408,7 @@ std::vector<std::string> losses(const Properties& before, const Properties& afte
     return lost;
 }
 
-/// The scene as files of triangles have it, when faces that cross themselves are filled there (triangles_of).
+/// The scene for triangle formats, which fill faces that cross themselves (triangles_of).
 std::optional<Scene> with_filled_faces(const Scene& scene) {
     std::optional<Scene> filled;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
@@ -423,7 +423,8 @@ std::optional<Scene> with_filled_faces(const Scene& scene) {
 
 bool ReadBack::too_far_for_floats() const {
     constexpr double tolerable = 1e-6; // of the diagonal
-    // An error within the grid's is the grid's: a grid that stands in the node has no float32 between.
+    // An error within the grid step comes from the grid, because a grid in the node's transform avoids
+    // float32.
     return position_error > tolerable * diagonal && position_error > grid_step && float_step > grid_step;
 }
 

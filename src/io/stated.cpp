@@ -30,7 +30,7 @@ std::string stated_comments(const Scene& scene, std::string_view before, std::st
 
 namespace {
 
-/// As people spell units that are a word of their own: "Millimeters".
+/// Spelled-out unit names: "Millimeters".
 std::optional<Unit> unit_spelled(std::string_view text) {
     const std::string word = lower_case(std::string(text));
     if (const auto known = unit_named(word)) return known;
@@ -49,7 +49,7 @@ std::optional<Unit> unit_spelled(std::string_view text) {
     return {};
 }
 
-/// What stands behind the word and a colon (or =) in a comment; none where it begins otherwise.
+/// The text after `word` and a colon (or =); none if the comment begins otherwise.
 std::optional<std::string_view> value_of(std::string_view comment, std::string_view word) {
     const auto sign = comment.find_first_of(":=");
     if (sign == comment.npos || !same_word(trimmed(comment.substr(0, sign)), word)) return {};

@@ -12,7 +12,7 @@ namespace facetmill::io {
 
 void malformed(const std::string& name, std::int64_t line, const char* id, std::string message,
                std::string hint) {
-    if (line > INT_MAX) { // more than a mark holds
+    if (line > INT_MAX) { // more than a mark can hold
         message += fmt::format(", in line {}", line);
         line = 0;
     }
@@ -34,14 +34,14 @@ constexpr std::uint64_t integer_powers_of_ten[] = {1,      10,      100,      10
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whatever the quick way does not read: many digits, large exponents, nan, inf, and "3.1+e2".
+/// The cases that the fast path does not handle: many digits, large exponents, nan, inf, and "3.1+e2".
 bool scan_real_slowly(const char*& at, const char* end, double& value) {
     const char* p = at;
     if (p < end && *p == '+') ++p;
     auto [stop, error] = std::from_chars(p, end, value);
     if (error == std::errc::invalid_argument) return false;
     if (error == std::errc::result_out_of_range) {
-        // Too small is zero, as with any reader; too large is infinite, which positions refuse.
+        // Underflow gives zero, as in other readers; overflow gives infinity, which positions refuse.
         const std::string_view text(p, static_cast<std::size_t>(stop - p));
         const auto e = text.find_first_of("eE");
         const bool tiny = e == std::string_view::npos
@@ -68,8 +68,8 @@ bool scan_real_slowly(const char*& at, const char* end, double& value) {
 } // namespace
 
 bool scan_real(const char*& at, const char* end, double& value) {
-    // The quick way: up to 19 digits whose value is below 2^53, and a power of ten that a double holds
-    // exactly. Then one multiplication or division rounds once, so the result is the nearest double.
+    // The fast path: up to 19 digits with a value below 2^53, and a power of ten that is exact in a double.
+    // A single multiplication or division then rounds once, so the result is the nearest double.
     const char* p = at;
     const bool minus = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) ++p;

@@ -1,5 +1,5 @@
 #pragma once
-// Reading mesh files that are text: words, numbers, and the line for a message. Fast, and the same in any
+// Reading text mesh files: words, numbers, and line numbers for messages. Fast, and independent of the
 // locale.
 
 #include "io/bytes.hpp"
@@ -18,11 +18,11 @@ namespace facetmill::io {
 /// Throws limit with the file.
 [[noreturn]] void beyond_limit(const std::string& name, std::string message);
 
-/// Reads a number at `at` and moves behind it; false, without moving, when there is none. Decimal with
-/// optional sign, point and exponent, correctly rounded; nan and inf too. What follows the number is not
-/// looked at.
+/// Reads a number at `at` and moves past it; false, without moving, if there is no number. Decimal with
+/// optional sign, point and exponent, correctly rounded; nan and inf too. Does not check the following
+/// character.
 bool scan_real(const char*& at, const char* end, double& value);
-/// Reads up to eight digits at `at`, moves behind them, and returns how many there were.
+/// Reads up to eight digits at `at`, moves past them, and returns their count.
 inline int take_digits(const char*& at, const char* end, std::uint64_t& value) {
     constexpr std::uint64_t ones = 0x0101010101010101;
     if (std::endian::native != std::endian::little || end - at < 8) {
@@ -33,15 +33,15 @@ inline int take_digits(const char*& at, const char* end, std::uint64_t& value) {
     }
     std::uint64_t bytes;
     std::memcpy(&bytes, at, 8);
-    bytes ^= ones * '0'; // a digit is its value now; with 0x76 it stays below 0x80, others do not
+    bytes ^= ones * '0'; // digits become their values; adding 0x76 keeps these below 0x80, but no other byte
     const std::uint64_t others = ((bytes + ones * 0x76) | bytes) & (ones * 0x80);
     const int many = std::countr_zero(others) / 8;
     if (many == 0) {
         value = 0;
         return 0;
     }
-    bytes <<= 64 - 8 * many; // zeros in front of the first, which is the lowest byte
-    bytes = (bytes * 10 + (bytes >> 8)) & 0x00ff00ff00ff00ff; // of each two
+    bytes <<= 64 - 8 * many; // zeros before the first digit, which is the lowest byte
+    bytes = (bytes * 10 + (bytes >> 8)) & 0x00ff00ff00ff00ff; // joins pairs of digits
     bytes = (bytes * 100 + (bytes >> 16)) & 0x0000ffff0000ffff;
     value = (bytes * 10000 + (bytes >> 32)) & 0xffffffff;
     at += many;
@@ -62,8 +62,8 @@ inline bool scan_integer(const char*& at, const char* end, std::int64_t& value) 
 /// A text file, read word by word. Lines end in LF, CR LF or CR.
 class Text {
   public:
-    /// id: of the errors it throws, "E-PLY". comment: the character that starts a comment, or 0. line: the
-    /// number of the first line.
+    /// id: error id, "E-PLY". comment: the character that starts a comment, or 0. line: the number of the
+    /// first line.
     Text(std::string_view text, const std::string& name, const char* id, char comment = 0,
          std::int64_t line = 1)
         : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(&name), id_(id),
@@ -73,14 +73,14 @@ class Text {
         skip_space();
         return at_ == end_;
     }
-    /// Whether nothing is left on this line.
+    /// Whether the rest of this line is blank.
     bool at_line_end() {
         skip_blanks();
         return at_ == end_ || is_line_end(*at_);
     }
-    /// Goes to the next line, whatever is left on this one; false at the end of the text.
+    /// Moves to the next line and drops the rest of this line; false at the end of the text.
     bool next_line();
-    /// The next word, lines crossed; empty at the end.
+    /// The next word, on this or a later line; empty at the end.
     std::string_view word() {
         skip_space();
         return take_word();
@@ -90,18 +90,18 @@ class Text {
         skip_blanks();
         return take_word();
     }
-    /// What is left of this line without blanks at both ends.
+    /// The rest of this line without blanks at both ends.
     std::string_view rest_of_line();
 
-    /// The next number, lines crossed; what names it in the message.
+    /// The next number, on this or a later line; `what` names it in the message.
     double real(const char* what);
-    /// A finite number: E-NAN otherwise.
+    /// A finite number; throws E-NAN otherwise.
     double coordinate(const char* what);
     std::int64_t integer(const char* what);
 
-    /// Parts of a word, read where the text stands: an integer, or one character; false when it is not there.
+    /// Reads a part of a word in place: an integer, or a single character; false if it is not next.
     bool take(std::int64_t& value) { return scan_integer(at_, end_, value); }
-    /// A number from 1 to 9999999 that is a word by itself; false, without moving, when there is none.
+    /// A number from 1 to 9999999 that is a whole word; false, without moving, if it is not next.
     bool take_natural(std::int32_t& value) {
         const char* p = at_;
         std::uint64_t digits = 0;
@@ -131,7 +131,8 @@ class Text {
   private:
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-    /// False for all that is or begins something else than a word, and for some that a word has.
+    /// False for every character that cannot be in a word, and for some that can, so false needs a closer
+    /// look.
     bool is_in_word(char c) const { return c > ' ' && c != '\\' && c != comment_; }
     void skip_blanks() {
         if (at_ < end_ && *at_ == ' ') ++at_;

@@ -17,9 +17,9 @@ struct DrawnPart {
     std::vector<polygon::Segment> hatch; ///< in the section's frame
 };
 
-/// What one plane cuts.
+/// The section of a single plane.
 struct Sheet {
-    double height = 0; ///< along the normal from the plane given
+    double height = 0; ///< along the normal, from the given plane
     SectionFrame frame;
     std::vector<DrawnPart> parts;
 };
@@ -30,14 +30,14 @@ struct Drawing {
     std::vector<Sheet> sheets;
 };
 
-/// One group a sheet, side by side in rows, each in its plane's frame with v upwards. Sizes are in the
-/// scene's unit (mm where SVG has no such unit), so that a print is to scale. Outlines and holes are one path
-/// with fill-rule nonzero.
+/// One group per sheet, arranged in rows, each in its plane's frame with v up. Sizes are in the scene's unit
+/// (mm if SVG lacks that unit), so that prints are to scale. Outlines and holes form a path with fill-rule
+/// nonzero.
 std::string to_svg(const Drawing& drawing);
 
-/// DXF release 12: closed polylines, one layer a sheet (SECTION_1, ... with HATCH_1, ...), elevated to the
-/// plane's height above the origin; coordinates of the plane's frame in the scene's unit, which $INSUNITS
-/// names.
+/// DXF release 12: closed polylines, one layer per sheet (SECTION_1, ... with HATCH_1, ...), elevated to the
+/// plane's height above the origin. Coordinates are in the plane's frame and the scene's unit, which
+/// $INSUNITS names.
 std::string to_dxf(const Drawing& drawing);
 
 /// All points and measures: {unit, sections: [{height, frame, parts: [{name, contours, hatch}]}]}.

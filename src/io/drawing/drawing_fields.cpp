@@ -7,7 +7,7 @@ namespace {
 using Flat = std::array<double, 2>;
 Flat flat(const Vec2& p) { return {p.x, p.y}; }
 
-/// Moments with the section that they are of.
+/// Moments and their section.
 struct SectionMoments {
     const Section* section = nullptr;
     const polygon::Moments* moments = nullptr;
@@ -26,14 +26,14 @@ struct SectionContour {
     }
 };
 
-/// Second moments about a point: in the plane those of P. Bourke, "Calculating the area and centroid of a
-/// polygon" (1988), in the world the integrals of products of coordinates.
+/// Second moments about a point: in the plane by P. Bourke, "Calculating the area and centroid of a polygon"
+/// (1988), in world space as integrals of products of coordinates.
 struct MomentsAbout {
     polygon::SecondMoments plane;
     std::array<double, 6> world{}; ///< xx, yy, zz, xy, xz, yz
 };
 
-/// `point`: in the world, from the point that they are about to the centroid.
+/// `point`: in world space, from the reference point to the centroid.
 MomentsAbout moments_about(const SectionMoments& of, const polygon::SecondMoments& plane, const Vec3& point) {
     const Vec3 &u = of.section->frame.u, &v = of.section->frame.v;
     const polygon::Moments& m = *of.moments;
@@ -110,7 +110,7 @@ void declare_principal_axes(DeclareFields<SectionMoments>& d) {
     d.object("world", self, "The axes in the world.", declare_world_axes);
 }
 
-/// What both a section and a contour have when they have moments.
+/// The fields of sections and contours with moments.
 template <class R, class Get>
 void declare_moments(DeclareFields<R>& d, Get moments) {
     constexpr const char* has = "there is a centroid";

@@ -10,7 +10,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// The scene's unit as SVG spells it, and how many of it make one of the scene's.
+/// The SVG unit, and its number per unit of the scene.
 struct Scale {
     const char* unit;
     double factor;
@@ -25,7 +25,7 @@ Scale scale_of(Unit unit) {
     case Unit::inch:
         return {"in", 1};
     case Unit::unknown:
-        return {"mm", 1}; // a drawing has a size: one unit is shown as one millimetre
+        return {"mm", 1}; // a drawing needs a size: an unknown unit is drawn as a millimetre
     case Unit::um:
     case Unit::m:
     case Unit::km:

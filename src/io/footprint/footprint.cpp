@@ -14,7 +14,8 @@ namespace facetmill::io {
 
 namespace {
 
-/// A corner and how the segment after it bulges: the tangent of a quarter of its arc's angle, 0 for straight.
+/// A corner and the bulge of the segment after it: the tangent of a quarter of the arc's angle, 0 for
+/// straight.
 struct Corner {
     Vec2 at;
     double bulge = 0;
@@ -22,7 +23,7 @@ struct Corner {
 
 constexpr double step = pi / 36;
 
-/// Points of the arc from a to b, b left out.
+/// Appends points of the arc from a to b, without b.
 void append_arc(const Corner& a, const Vec2& b, std::vector<Vec2>& out) {
     out.push_back(a.at);
     if (a.bulge == 0 || a.at == b) return;
@@ -57,7 +58,7 @@ class Dxf {
   private:
     enum class Entity { other, section, lwpolyline, polyline, vertex, circle };
 
-    /// The next group: a code and a value, a line each.
+    /// Reads the next group: a code and a value on separate lines.
     bool next() {
         if (text_.at_end()) return false;
         code_ = text_.integer("a group code");
@@ -121,7 +122,7 @@ class Dxf {
         auto& ring = rings_.emplace_back();
         for (std::size_t i = 0; i < corners_.size(); ++i)
             append_arc(corners_[i], corners_[(i + 1) % corners_.size()].at, ring);
-        if (looks_.z < 0) // drawn from behind: x runs the other way
+        if (looks_.z < 0) // drawn from the back: x is reversed
             for (Vec2& p : ring) p.x = -p.x;
     }
 
@@ -133,7 +134,7 @@ class Dxf {
     bool closed_ = false;
     double radius_ = 0;
     Vec3 looks_{0, 0, 1};      ///< the direction that the entity is drawn from
-    bool in_entities_ = false; ///< not in a block, which is drawn only where it is inserted
+    bool in_entities_ = false; ///< not in a block, which only counts where it is inserted
     FootprintRings rings_;
 };
 
@@ -303,7 +304,7 @@ class Wkt {
 
     const char *at_, *end_, *begin_;
     const std::string& name_;
-    int numbers_ = 0; ///< of a position; 0: none was read
+    int numbers_ = 0; ///< in the position; 0: none read
     FootprintRings rings_;
 };
 
@@ -321,7 +322,7 @@ bool is_wkt(std::string_view text) {
         return text.size() > word.size() && same_word(text.substr(0, word.size()), word);
     };
     if (begins("POLYGON") || begins("MULTIPOLYGON") || begins("SRID=")) return true;
-    // What is WKT but no polygon is known by its bracket, so that it is not taken for the name of a file.
+    // Recognises other WKT types by their bracket, so that they are not taken for file names.
     for (const std::string_view other :
          {"POINT", "MULTIPOINT", "LINESTRING", "MULTILINESTRING", "GEOMETRYCOLLECTION", "CURVEPOLYGON",
           "MULTISURFACE", "TRIANGLE", "TIN", "POLYHEDRALSURFACE"})

@@ -34,7 +34,7 @@ Colour colour(const JsonCursor& owner, const char* key, const Colour& otherwise)
     return {value->at(std::size_t{0}).real(), value->at(1).real(), value->at(2).real()};
 }
 
-/// Phong's exponent that is read as the roughness, of as few digits as that takes.
+/// The Phong exponent that a reader turns into this roughness, with as few digits as possible.
 double exponent_of(double roughness) {
     const double squared = roughness * roughness, exponent = 2 / (squared * squared) - 2;
     for (int digits = 1; digits < 17; ++digits) {
@@ -49,7 +49,7 @@ double exponent_of(double roughness) {
     return roughness_of(near) == roughness ? near : exponent;
 }
 
-/// One material.
+/// Describes a single material.
 class Describer {
   public:
     Describer(const Material& material, LibraryImages& images, LibraryLosses& losses)
@@ -77,7 +77,7 @@ class Describer {
     }
     void lose(const std::string& what, const std::string& why) { losses_.add(what, why, material_.name); }
 
-    /// Of the images of a texture (that of WebP or KTX2 is in an extension), the first that is read.
+    /// The first readable image of a texture; WebP and KTX2 sources are in extensions.
     const LibraryImages::Image* image_of(const std::string& key, const JsonCursor& texture) {
         std::vector<JsonCursor> sources;
         if (const auto source = texture.find("source")) sources.push_back(*source);
@@ -98,7 +98,7 @@ class Describer {
         return nullptr;
     }
 
-    /// MTL repeats an image in both directions or in none, and does not say how pixels are mixed.
+    /// MTL repeats an image in both directions or in none, and has no words for filters.
     bool is_clamped(const std::string& key, const JsonCursor& texture) {
         constexpr std::uint64_t nearest = 9728, repeat = 10497, clamp = 33071;
         const auto reference = texture.find("sampler");
@@ -113,8 +113,8 @@ class Describer {
         return s == clamp && t == clamp;
     }
 
-    /// The statement that is read as owner[key]; none where there is no such texture, or MTL has no words for
-    /// where it lies.
+    /// The statement that a reader turns into owner[key]. None if the texture is missing, or if MTL cannot
+    /// express its coordinates.
     std::optional<Map> map(const JsonCursor& owner, const std::string& key) {
         const auto info = owner.find(key.c_str());
         if (!info) return {};
@@ -137,7 +137,7 @@ class Describer {
         return map;
     }
 
-    /// The inverse of what a reader does: 1 - t = s v + (1 - s - o).
+    /// The inverse of the reader's conversion: 1 - t = s v + (1 - s - o).
     bool take_transform(const std::string& key, const JsonCursor& moved, Map& map) {
         if (number(moved, "rotation", 0) != 0) {
             lose_texture(key, "it is rotated by KHR_texture_transform");
@@ -152,7 +152,7 @@ class Describer {
         return true;
     }
 
-    /// Black beside a map would be read as white, and so the map is left out where the factor is black.
+    /// Omits the map if the factor is black, because readers take black with a map for white.
     std::optional<Map> map_with(const Colour& factor, const JsonCursor& owner, const std::string& key) {
         if (owner.find(key.c_str()) && std::max({factor[0], factor[1], factor[2]}) == 0) {
             lose_texture(key, "its factor is black");
@@ -178,7 +178,7 @@ class Describer {
         }
     }
 
-    /// glTF says when alpha counts; in MTL it always does.
+    /// glTF states whether alpha counts; in MTL it always does.
     void add_opacity(const JsonCursor& material) {
         const std::string mode = material.text_or("alphaMode", "OPAQUE");
         if (mode == "OPAQUE") return;
@@ -212,8 +212,8 @@ class Describer {
         put("norm", std::move(normals));
     }
 
-    /// An image for both map_Pr and map_Pm is read as glTF's, roughness in green and metalness in blue; for
-    /// map_Pr alone, too, where there is no metal.
+    /// Readers take the same image in map_Pr and map_Pm for glTF's texture: roughness in green and metalness
+    /// in blue. Without metal this also holds for map_Pr alone.
     void add_surface(const JsonCursor& material, const JsonCursor& pbr) {
         const bool older = extension(material, "KHR_materials_pbrSpecularGlossiness").has_value();
         if (older && material.find("occlusionTexture")) lose_texture("occlusionTexture", no_map);
@@ -229,7 +229,7 @@ class Describer {
         put("pr", both);
         if (metal != 0) put("pm", both);
         if (!material.find("occlusionTexture")) return;
-        // One image for all three is that of map_ORM.
+        // If all three use the same image, it becomes map_ORM.
         const bool whole = number(*material.find("occlusionTexture"), "strength", 1) == 1;
         const auto occlusion = both && metal != 0 && whole && is_same_texture(material, pbr)
                                    ? map(material, "occlusionTexture")
@@ -250,8 +250,7 @@ class Describer {
         return !out_.metalness && !out_.maps.contains("pr") && !out_.maps.contains("orm");
     }
 
-    /// A colour of highlights is read only where there is neither Pr nor Pm; the roughness is Phong's
-    /// exponent then.
+    /// Readers use the colour of highlights only without Pr and Pm; the roughness then is Phong's exponent.
     void add_highlights(const JsonCursor& material, const JsonCursor& pbr) {
         const auto specular = extension(material, "KHR_materials_specular");
         if (!specular) return;
@@ -273,7 +272,7 @@ class Describer {
         put("ks", map(*specular, "specularColorTexture"));
     }
 
-    /// Extensions that nothing above reads, and their textures.
+    /// Records extensions that no other function reads, and their textures.
     void note_extensions(const JsonCursor& material) {
         const auto all = material.find("extensions");
         if (!all) return;
@@ -293,8 +292,8 @@ class Describer {
         }
     }
 
-    /// Images are files beside the library whether it has words for their textures or not, since a plan does
-    /// not tell them apart.
+    /// Marks all planned images as used, even if the library cannot express their textures, because a plan
+    /// does not distinguish these.
     void keep_images(const Json& material) {
         for (const std::size_t i : images_of_material(json_, material))
             if (const auto* image = images_.find(material_.document, i); image && image->planned)
@@ -328,7 +327,7 @@ const std::set<std::string>& kept_by_library() {
 Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses) {
     try {
         if (material.document >= 0 && material.index >= 0) return Describer(material, images, losses).run();
-    } catch (const Error& error) { // reading a document looks no further than meshes
+    } catch (const Error& error) { // readers check nothing beyond the meshes of a document
         losses.add("all but its colour", error.diagnostics().front().message, material.name);
     }
     Description colour;

@@ -1,5 +1,5 @@
 #pragma once
-// Materials of glTF in the words of MTL.
+// Materials of glTF as MTL statements.
 
 #include "io/obj/library_images.hpp"
 #include "io/obj/materials.hpp"
@@ -8,10 +8,10 @@
 
 namespace facetmill::io::obj {
 
-/// What MTL has no words for, and which materials have it.
+/// The features that MTL cannot express, with the materials that have them.
 class LibraryLosses {
   public:
-    /// what: "occlusionTexture", "KHR_materials_clearcoat"; why: what is in the way, for people.
+    /// what: "occlusionTexture", "KHR_materials_clearcoat"; why: the reason, for people.
     void add_texture(const std::string& what, const std::string& why, const std::string& material) {
         note(textures_, what, why, material);
     }
@@ -28,13 +28,13 @@ class LibraryLosses {
     Losses textures_, others_;
 };
 
-/// Extensions of materials that MTL has words for, wholly or in part; of others all is noted as lost.
+/// Extensions of materials that MTL can express at least in part; other extensions are recorded as lost.
 const std::set<std::string>& extensions_of_library();
-/// Those, and what else of a document a library has words for.
+/// extensions_of_library(), and the other parts of a document that a library can express.
 const std::set<std::string>& kept_by_library();
 
-/// The words that are read as the material of the scene: what they cannot say is noted, and images that they
-/// name are marked as used. Of a material that no document has, the colour.
+/// The MTL statements that a reader turns into the scene's material. Records losses and marks the images
+/// that the statements name as used. A material without a document has only its colour.
 Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses);
 
 } // namespace facetmill::io::obj

@@ -1,5 +1,6 @@
-// The statements of .mtl files. Wavefront Technologies, "MTL material format", 1995; the words of physically
-// based materials (Pr, Pm, norm, map_RMA ...) after Exocortex, "Extending the MTL format for PBR", 2016.
+// The statements of .mtl files. Wavefront Technologies, "MTL material format", 1995. The statements of
+// physically based materials (Pr, Pm, norm, map_RMA ...) follow Exocortex, "Extending the MTL format for
+// PBR", 2016.
 
 #include "base/hash.hpp"
 #include "base/text/spelling.hpp"
@@ -26,7 +27,7 @@ void warn(ReadLog& log, const std::string& name, std::string message, std::strin
 
 double fraction(double x) { return std::clamp(x, 0.0, 1.0); }
 
-/// The numbers that follow, `most` at most; none of what follows them is taken.
+/// Reads at most `most` numbers, and does not read past them.
 std::vector<double> take_numbers(Text& text, std::size_t most) {
     std::vector<double> numbers;
     while (numbers.size() < most) {
@@ -43,7 +44,7 @@ std::vector<double> take_numbers(Text& text, std::size_t most) {
     return numbers;
 }
 
-/// The word of a texture statement without "map_", in lower case.
+/// The keyword of a texture statement without "map_", in lower case.
 std::string map_key(std::string_view word) {
     const std::string key = lower_case(std::string(word.starts_with("map_") ? word.substr(4) : word));
     return key == "opacity" ? "d" : key;
@@ -56,7 +57,7 @@ bool is_map(std::string_view word) {
 
 class LibraryReader {
   public:
-    /// folder: of the library, relative to the OBJ file.
+    /// folder: the library's folder, relative to the OBJ file.
     LibraryReader(const Input& library, fs::path folder, std::map<std::string, Description>& out)
         : all_(as_text(library.bytes())), text_(all_, library.name(), "E-MTL", '#'),
           folder_(std::move(folder)), out_(out) {}
@@ -69,7 +70,7 @@ class LibraryReader {
     }
 
   private:
-    /// What the line that begins here says where others read nothing.
+    /// Reads facetmill's own statements from a comment, which other programs ignore.
     void take_comment() {
         std::string_view line = all_.substr(text_.offset());
         line = line.substr(0, line.find_first_of("\r\n"));
@@ -111,7 +112,7 @@ class LibraryReader {
         }
     }
 
-    /// One number is grey; colours of other kinds (spectral, xyz) are not read.
+    /// A single number is grey. Other kinds of colours (spectral, xyz) are not read.
     void colour(std::string_view word, std::optional<Colour>& to) {
         const auto n = take_numbers(text_, 3);
         if (n.empty()) {
@@ -130,7 +131,7 @@ class LibraryReader {
         Text ahead = text_;
         if (ahead.word_on_line() == "-halo") return;
         const auto n = take_numbers(text_, 1);
-        // MeshLab wrote Tr 1 for what is opaque, and nobody means a material that is never seen.
+        // MeshLab wrote Tr 1 for opaque materials, and no author wants an invisible material.
         if (inverted && !n.empty() && n[0] >= 1) return;
         if (!n.empty()) current_->opacity = inverted ? 1 - fraction(n[0]) : fraction(n[0]);
     }
@@ -159,7 +160,7 @@ class LibraryReader {
         current_->maps[map_key(word)] = std::move(map);
     }
 
-    /// False when the word is no option, and so the beginning of a name.
+    /// False if the word is not an option, and so starts a file name.
     bool take_option(std::string_view option, Map& map) {
         if (option == "-s" || option == "-o") {
             const auto n = take_numbers(text_, 3);
@@ -177,7 +178,7 @@ class LibraryReader {
             current_->left_out.emplace_back(option);
         } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-type" ||
                    option == "-imfchan") {
-            text_.word_on_line(); // about filters and channels: glTF's own are the usual ones
+            text_.word_on_line(); // filters and channels: glTF's defaults match the usual values
         } else {
             return false;
         }
@@ -202,7 +203,7 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
         const auto path = input.path().empty() ? std::nullopt : relative_path_of(e.text);
         const auto file = path ? path_below(input, *path) : std::nullopt;
         if (!file) {
-            log.unrepeatable |= path.has_value(); // a link may lead elsewhere the next time
+            log.unrepeatable |= path.has_value(); // a link may point elsewhere in the next run
             warn(
                 log, input.name(),
                 fmt::format("the material file {} is not beside the mesh and is not read", in_quotes(e.text)),
@@ -217,7 +218,7 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
         } catch (const Error& error) {
             std::error_code ignored;
             if (fs::exists(*file, ignored))
-                log.unrepeatable = true; // it is refused, and may be readable the next time
+                log.unrepeatable = true; // it is refused now, and may be readable in the next run
             else
                 log.absent.push_back(*file);
             warn(log, input.name(),

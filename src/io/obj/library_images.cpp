@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As a plan has them: where a document was made of materials alone, those that they name; else all.
+/// The order of a plan: if a document has only materials, the images that they name; else all.
 std::vector<ImageFile> in_order(std::vector<ImageFile> files, const Json& document) {
     if (document.contains("meshes") || !document.contains("materials")) return files;
     std::vector<std::size_t> order;
     try {
         order = images_of_materials(document);
-    } catch (const Json::exception&) { // a document of points, in which other textures stand
+    } catch (const Json::exception&) { // a document of points, where texture references may be invalid
         return files;
     }
     std::vector<ImageFile> all;
@@ -29,7 +29,8 @@ std::vector<ImageFile> in_order(std::vector<ImageFile> files, const Json& docume
     return all;
 }
 
-/// Whether a reader takes the end of a line for the path: it begins no option, and no blank or quote is lost.
+/// Whether a reader takes the end of a line for the path. It must not begin like an option, and no blank or
+/// quote may be lost.
 bool can_end_a_line(const std::string& path) {
     const auto is_control = [](unsigned char c) { return c < ' '; };
     return !path.empty() && !path.starts_with('-') && !path.starts_with('"') && !path.starts_with(' ') &&

@@ -1,6 +1,6 @@
 #pragma once
-// The images that an OBJ's library names: those of a scene's documents, as files beside the OBJ or where they
-// lie.
+// The images that an OBJ's library names. They come from the scene's documents and are copied next to the
+// OBJ or referenced in place.
 
 #include "base/json.hpp"
 #include "io/codec.hpp"
@@ -8,33 +8,34 @@
 
 namespace facetmill::io::obj {
 
-/// The images of all documents of a scene. Every one has a name, in the order of the documents, so that those
-/// which are used have the names that a plan has told.
+/// The images of all documents of a scene. Every image gets a name in the order of the documents, used or
+/// not, so that names agree with the plan.
 class LibraryImages {
   public:
     LibraryImages(const Scene& scene, const WriteSettings& settings);
 
     struct Image {
-        std::string name; ///< as the library spells it: a path, with slashes
+        std::string name; ///< as the library spells it: a path with slashes
         Bytes bytes;
         std::string type; ///< image/png ...
         bool alpha = false;
-        bool copied = false;  ///< to that name, else it lies there
-        bool planned = false; ///< a plan tells of it: a file, or of a kind that a library names
-        bool spelled = true;  ///< a line of a library can name it
+        bool copied = false;  ///< written under that name; else it exists there
+        bool planned = false; ///< listed by a plan: a file, or a kind that a library names
+        bool spelled = true;  ///< a line of a library can hold the name
         bool used = false;
     };
-    /// The document's JSON, parsed. document: an index into the scene's.
+    /// The document's parsed JSON. document: an index into the scene's documents.
     const Json& json(int document);
-    /// Null when its bytes are not there. document: an index into the scene's; index: of its images.
+    /// Null if the image's bytes are missing. document: an index into the scene's documents; index: into its
+    /// images.
     const Image* find(int document, std::size_t index) const;
-    /// The one of that name, or null.
+    /// The image of that name, or null.
     const Image* named(const std::string& name) const;
     void use(const Image& image);
 
-    /// The files of those that are used and copied. They have no bytes afterwards.
+    /// The files of images that are used and copied; moves their bytes out.
     std::vector<OutputFile> take_files();
-    /// About those that are used, where viewers cannot show them.
+    /// Warnings about used images that viewers cannot show.
     std::vector<Diagnostic> warnings() const;
 
   private:
@@ -43,7 +44,7 @@ class LibraryImages {
     const Scene& scene_;
     const WriteSettings& settings_;
     std::vector<Json> documents_;
-    std::vector<Image> images_; ///< different ones
+    std::vector<Image> images_; ///< distinct images
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> places_;
 };
 

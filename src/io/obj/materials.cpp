@@ -1,4 +1,4 @@
-// What an MTL material means in glTF: metallic-roughness, a dielectric unless Pm says otherwise.
+// The glTF equivalents of MTL materials: metallic-roughness, a dielectric unless Pm says otherwise.
 
 #include "io/obj/materials.hpp"
 
@@ -18,13 +18,13 @@ double greatest(const Colour& c) { return std::max({c[0], c[1], c[2]}); }
 
 bool has_map(const Description& d, const char* word) { return d.maps.count(word) > 0; }
 
-/// Whether the author thought in roughness and metalness.
+/// Whether the author used roughness or metalness.
 bool is_physical(const Description& d) {
     return d.roughness || d.metalness || has_map(d, "pr") || has_map(d, "pm") || has_map(d, "rma") ||
            has_map(d, "orm");
 }
 
-/// Whether there are highlights: illumination models 0 and 1 have none, nor has a black Ks.
+/// Whether the material has highlights: illumination models 0 and 1, and a black Ks, have none.
 bool is_glossy(const Description& d) {
     return d.specular && greatest(*d.specular) > 0 && d.illumination.value_or(2) >= 2;
 }
@@ -33,7 +33,7 @@ Json colour_json(const Colour& c, double factor = 1) {
     return {std::min(c[0] * factor, 1.0), std::min(c[1] * factor, 1.0), std::min(c[2] * factor, 1.0)};
 }
 
-/// Black beside a texture: exporters write it where the texture is meant to count alone.
+/// White instead of black with a texture, because exporters write black if only the texture should count.
 Colour tint(const std::optional<Colour>& colour, bool textured) {
     return colour && !(textured && greatest(*colour) == 0) ? *colour : Colour{1, 1, 1};
 }
@@ -47,7 +47,7 @@ void add_emission(Json& json, const Description& d, bool textured) {
     if (most > 1) json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", most}};
 }
 
-/// The name of an image that is made of one or two others: "wood-mask.png".
+/// The name of an image made of another or of two others: "wood-mask.png".
 std::filesystem::path derived_name(const Map* first, const Map& second) {
     const std::string stem = second.relative.stem().string();
     if (!first || first->relative == second.relative)
@@ -57,10 +57,10 @@ std::filesystem::path derived_name(const Map* first, const Map& second) {
 
 } // namespace
 
-/// The roughness of a highlight with Phong's exponent Ns: the microfacet distributions of equal width have
-/// alpha^2 = 2 / (Ns + 2), and glTF's alpha is the square of the roughness. B. Walter, S. R. Marschner, H. Li
-/// and K. E. Torrance, "Microfacet models for refraction through rough surfaces" (2007), section 5.2; the
-/// exponent is that of B. T. Phong, "Illumination for computer generated pictures" (1975).
+/// The roughness of a highlight with Phong's exponent Ns. Microfacet distributions of equal width have
+/// alpha^2 = 2 / (Ns + 2), and glTF's alpha is the square of the roughness. B. Walter, S. R. Marschner, H.
+/// Li and K. E. Torrance, "Microfacet models for refraction through rough surfaces" (2007), section 5.2;
+/// Phong's exponent is from B. T. Phong, "Illumination for computer generated pictures" (1975).
 double roughness_of(double exponent) { return std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))); }
 
 MaterialMaker::MaterialMaker(const Input& input, std::map<std::string, Description> descriptions,
@@ -68,7 +68,8 @@ MaterialMaker::MaterialMaker(const Input& input, std::map<std::string, Descripti
     : input_(input), descriptions_(std::move(descriptions)), log_(log), names_only_(names_only),
       document_(input.name()) {}
 
-/// Equal images made in one way make equal ones, so where only names are wanted, their digests do.
+/// The same operation on equal images gives equal images. If only names are needed, digests of the sources
+/// therefore replace the result.
 template <class Make>
 Bytes MaterialMaker::made(const char* how, const Map* first, const Map* second, Make&& make) {
     if (!names_only_) return make();
@@ -114,8 +115,8 @@ const Pixels* MaterialMaker::pixels_of(const std::string& material, const std::s
     return image->pixels ? &*image->pixels : nullptr;
 }
 
-/// glTF's reference to the texture. Texture points of OBJ count from the bottom: t = s (1 - v) + o there is
-/// 1 - t = s v + (1 - s - o) here.
+/// glTF's reference to the texture. OBJ's v counts from the bottom, so OBJ's t = s (1 - v) + o becomes
+/// glTF's 1 - t = s v + (1 - s - o).
 Json MaterialMaker::reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map,
                               bool is_file) {
     Json out = {{"index", document_.texture(image, bytes, map.clamp, is_file)}};
@@ -146,8 +147,8 @@ void MaterialMaker::add_colour_maps(Json& json, const std::string& name, const D
             json["extensions"]["KHR_materials_specular"]["specularColorTexture"] = *std::move(reference);
 }
 
-/// glTF's opacity is the alpha of the colour's texture: the image of map_d is put there, by its own alpha
-/// where it has one, else by its brightness.
+/// glTF's opacity is the alpha of the colour texture. The image of map_d goes there: its alpha if it has
+/// any, else its brightness.
 void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const Description& d) {
     const auto map = d.maps.find("d"), colour = d.maps.find("kd");
     if (map == d.maps.end()) return;
@@ -179,7 +180,7 @@ void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const D
     json["alphaMode"] = "BLEND";
 }
 
-/// The image whose green and blue channels are glTF's roughness and metalness; none when there is none.
+/// The image with glTF's roughness in green and metalness in blue; none if no map gives them.
 std::optional<Json> MaterialMaker::surface_texture(const std::string& name, const Description& d) {
     const auto orm = d.maps.find("orm"), rma = d.maps.find("rma"), pr = d.maps.find("pr"),
                pm = d.maps.find("pm"), none = d.maps.end();
@@ -215,7 +216,7 @@ std::optional<Json> MaterialMaker::surface_texture(const std::string& name, cons
                      map);
 }
 
-/// A texture counts as it is where the library gives no factor, or 0.
+/// If the library gives no factor, or 0, the texture counts alone (factor 1).
 void MaterialMaker::add_surface_maps(Json& json, const std::string& name, const Description& d) {
     auto texture = surface_texture(name, d);
     if (!texture) return;
@@ -227,7 +228,7 @@ void MaterialMaker::add_surface_maps(Json& json, const std::string& name, const 
     if (all) json["occlusionTexture"] = *std::move(texture);
 }
 
-/// A grey image is a relief, whose normals are computed; others hold normals.
+/// A grey image is a bump map, from which normals are computed; other images hold normals.
 void MaterialMaker::add_relief_map(Json& json, const std::string& name, const Description& d) {
     if (const auto norm = d.maps.find("norm"); norm != d.maps.end())
         if (auto normals = texture(name, "norm", norm->second)) {

@@ -1,5 +1,5 @@
 #pragma once
-// The materials of an OBJ file: its .mtl libraries, and what their words mean in glTF.
+// The materials of an OBJ file: its .mtl libraries, and their conversion to glTF.
 
 #include "io/images/pixels.hpp"
 #include "io/material_document.hpp"
@@ -10,16 +10,16 @@
 
 namespace facetmill::io::obj {
 
-/// A texture statement: an image, and how it is laid on. Texture points count from the bottom.
+/// A texture statement: an image and its mapping. Texture coordinates count from the bottom.
 struct Map {
-    std::string file;                 ///< as spelled
+    std::string file;                 ///< as written in the file
     std::filesystem::path relative{}; ///< to the OBJ file; empty when it is absolute
     std::array<double, 2> scale{1, 1}, offset{0, 0};
     bool clamp = false;
     double strength = 1; ///< -bm
 
-    bool operator==(const Map&) const = default; ///< also the same strength
-    /// Whether the image of another statement lies where this one's does.
+    bool operator==(const Map&) const = default; ///< compares the strength too
+    /// Whether another statement has the same mapping.
     bool lies_as(const Map& other) const {
         return scale == other.scale && offset == other.offset && clamp == other.clamp;
     }
@@ -27,43 +27,44 @@ struct Map {
 
 using Colour = std::array<double, 3>;
 
-/// A material as a library has it. Words that are not in the file are none.
+/// A material as in the library. Statements missing from the file are empty.
 struct Description {
-    std::optional<std::string> name{};                     ///< as a comment, where newmtl has another
+    std::optional<std::string> name{};                     ///< from a comment, if newmtl has another name
     std::optional<Colour> diffuse, specular, emission;     ///< Kd, Ks, Ke
     std::optional<double> shininess, roughness, metalness; ///< Ns, Pr, Pm
     std::optional<int> illumination;                       ///< illum
     double opacity = 1;                                    ///< d, or 1 - Tr
-    bool double_sided = false;                             ///< as a comment: MTL has no word for it
-    std::map<std::string, Map> maps;                       ///< by their word, "map_Kd" as "kd"
-    std::vector<std::string> left_out;                     ///< words and options that glTF cannot represent
+    bool double_sided = false;         ///< from a comment, because MTL has no statement for it
+    std::map<std::string, Map> maps;   ///< by keyword: "map_Kd" is "kd"
+    std::vector<std::string> left_out; ///< statements and options that glTF cannot represent
 
     bool operator==(const Description&) const = default;
 };
 
-/// The materials of all libraries that the events name, by name. What cannot be read is a warning (W-MTL):
-/// the mesh is whole without it.
+/// The materials of all libraries that the events name, by name. A library that cannot be read is a warning
+/// (W-MTL), because the mesh is complete without it.
 std::map<std::string, Description> read_libraries(const Input& input, const std::vector<Event>& events,
                                                   ReadLog& log);
 
-/// Makes materials of a scene from descriptions, and the document that tells them.
+/// Makes the scene's materials and their document from descriptions.
 class MaterialMaker {
   public:
-    /// names_only: for images(), without the work of making images of others.
+    /// names_only: only images() is needed, so derived images are not computed.
     MaterialMaker(const Input& input, std::map<std::string, Description> descriptions, ReadLog& log,
                   bool names_only = false);
-    /// The index in the materials of the one with that name; textured: for faces with texture points. What
-    /// glTF cannot say is a warning (W-MTL), as are textures that cannot be read (W-IMAGE).
+    /// The index of the material with that name in `materials`. textured: for faces with texture
+    /// coordinates. Warns of statements that glTF cannot represent (W-MTL) and of unreadable textures
+    /// (W-IMAGE).
     Index index_of(const std::string& name, bool textured, std::vector<Material>& materials);
     /// The images of the materials so far.
     std::vector<NamedImage> images() const { return document_.images(); }
-    /// Gives the scene the document, when there is anything in it.
+    /// Adds the document to the scene if it is not empty.
     void finish(Scene& scene);
 
   private:
     struct Image {
         Bytes bytes;
-        std::optional<Pixels> pixels; ///< once they were asked for
+        std::optional<Pixels> pixels; ///< decoded on demand
     };
     Image* image_of(const std::string& material, const std::string& word, const Map& map);
     const Pixels* pixels_of(const std::string& material, const std::string& word, const Map& map);
@@ -77,7 +78,7 @@ class MaterialMaker {
     void add_surface_maps(Json& json, const std::string& name, const Description& d);
     void add_relief_map(Json& json, const std::string& name, const Description& d);
     void warn(const std::string& material, std::string message);
-    /// What make gives, an image made of these in the way that how names.
+    /// The result of `make`, an image made of these maps; `how` names the operation.
     template <class Make>
     Bytes made(const char* how, const Map* first, const Map* second, Make&& make);
 
@@ -90,15 +91,15 @@ class MaterialMaker {
     std::map<std::pair<std::string, bool>, Index> known_;
 };
 
-/// What facetmill writes and reads behind # for a material whose both sides are seen.
+/// The comment after # for a material whose both sides are visible.
 inline constexpr std::string_view double_sided_comment = "doubleSided: true";
-/// ... and before a name that newmtl does not spell, or that another material has, too.
+/// The comment for a name that newmtl cannot hold, or that another material has too.
 inline constexpr std::string_view name_comment = "glTF name:";
 
 /// The roughness of a highlight with Phong's exponent (Ns).
 double roughness_of(double exponent);
 
-/// The .mtl file of materials: their names, which are those of an OBJ, and what they are.
+/// The .mtl text of materials: their usemtl names and descriptions.
 std::string material_library(const std::vector<std::pair<std::string, Description>>& materials);
 
 } // namespace facetmill::io::obj

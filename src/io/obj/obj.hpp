@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ, in pieces: the statements of the file, the scene that they make, and the way back.
+// Wavefront OBJ in steps: the statements of the file, the conversion to a scene, and the writer.
 
 #include "io/codec.hpp"
 
@@ -7,19 +7,19 @@
 
 namespace facetmill::io::obj {
 
-/// A statement that holds from a face (and a vertex) on.
+/// A statement that applies to the following faces (and vertices).
 struct Event {
     enum class Kind { object, group, material, smoothing, library };
     Kind kind;
-    std::size_t face = 0, vertex = 0, line = 0; ///< the first ones behind it
+    std::size_t face = 0, vertex = 0, line = 0; ///< the first ones after it
     std::string text;
 };
 
-/// All statements of a file, indices resolved: from 0, in range, `none` where a corner has no such index.
+/// All statements of a file with resolved indices: from 0, in range, `none` if a corner lacks that index.
 struct Statements {
     std::vector<Vec3> positions;
-    std::vector<float> colours;             ///< three a position, or empty; nan where the file gives none
-    std::vector<float> uvs;                 ///< two each, as in the file: from the bottom
+    std::vector<float> colours;             ///< three per position, or empty; NaN if the file gives none
+    std::vector<float> uvs;                 ///< two each, as in the file: v from the bottom
     std::vector<float> normals;             ///< three each
     std::vector<Index> corners;             ///< -> position
     std::vector<std::uint64_t> corner_keys; ///< uv << 32 | normal; empty when no corner has either
@@ -27,22 +27,23 @@ struct Statements {
     std::vector<Index> line_points;             ///< -> position
     std::vector<Index> line_offsets;            ///< [lines + 1] into line_points
     std::vector<Event> events;                  ///< in the order of the file
-    std::map<std::string, std::size_t> skipped; ///< how often each statement that cannot be kept was met
+    std::map<std::string, std::size_t> skipped; ///< the count of each statement that cannot be kept
     std::size_t short_faces = 0;                ///< faces of fewer than three corners, left out
-    std::size_t dangling = 0; ///< corners whose texture point or normal is not in the file: left without
+    std::size_t dangling =
+        0; ///< corners whose texture coordinate or normal is missing from the file; they get none
 
     std::size_t faces() const { return face_offsets.size() - 1; }
     std::size_t lines() const { return line_offsets.size() - 1; }
 };
 
-/// Parses the text, in parallel over chunks of lines. Malformed (E-OBJ, E-NAN) with the line.
+/// Parses the text, in parallel over chunks of lines. Throws malformed (E-OBJ, E-NAN) with the line.
 Statements parse(const Input& input, const ReadSettings& settings);
 
-/// `o` makes parts, unless objects share vertices: then they stay one part, so that the surface stays whole,
-/// with the face attribute "object". So does `g` in a file without `o`. Other groups lose their names
-/// (W-GROUPS, a note): face attributes "group" and "smoothing_group" number them where there are several.
-/// `usemtl` makes materials and primitives. Texture points and normals make wedges. Lines
-/// (`l`) make parts of their own, one for each object, with the colours of their vertices.
+/// `o` makes parts. Objects that share vertices stay a single part, so that the surface stays connected,
+/// with the face attribute "object". In a file without `o`, `g` works the same. Other groups lose their
+/// names (W-GROUPS, a note); the face attributes "group" and "smoothing_group" number them if there are
+/// several. `usemtl` makes materials and primitives. Texture coordinates and normals make wedges. Lines
+/// (`l`) make a separate part per object, with the colours of their vertices.
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 Written write(const Scene& scene, const WriteSettings& settings);
 

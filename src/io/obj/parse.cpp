@@ -20,17 +20,17 @@ constexpr std::int32_t absent = std::numeric_limits<std::int32_t>::min();
 constexpr float not_given = std::numeric_limits<float>::quiet_NaN(); ///< a colour
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
-/// A corner as written: an index from 0, or one relative to the first element of the chunk.
+/// A corner as written: an index from 0, or an index relative to the first element of the chunk.
 struct Corner {
     std::int32_t index[3] = {absent, absent, absent}; ///< position, uv, normal
 };
 
-/// The corners of faces, as most files have them: nothing but positions, or all three.
+/// The corners of faces in the usual forms: positions alone, or all three indices.
 struct Corners {
     std::vector<std::int32_t> index[3]; ///< as in Corner; empty when all are absent, for uv and normal
-    /// A bit for each index of each corner; empty when all count from the start.
+    /// A bit for each index of each corner; empty if all indices count from the start of the file.
     std::vector<std::uint8_t> relative;
-    bool has_more = false; ///< than positions
+    bool has_more = false; ///< more indices than positions
 
     std::size_t size() const { return index[0].size(); }
     void push_back(const Corner& corner, std::uint8_t bits) {
@@ -57,12 +57,12 @@ struct Corners {
     std::uint8_t bits(std::size_t corner) const { return relative.empty() ? 0 : relative[corner]; }
 };
 
-/// What one chunk of lines holds; counts and relative indices are the chunk's own.
+/// The contents of a chunk of lines; counts and relative indices are local to the chunk.
 struct Chunk {
     Statements own; ///< without corners
     Corners corners;
     std::vector<std::int32_t> line_corners;
-    std::vector<std::uint8_t> line_relative; ///< whether the position's index counts from the chunk
+    std::vector<std::uint8_t> line_relative; ///< whether the position's index is relative to the chunk
     std::int64_t lines = 0;
     std::optional<Error> error;
 };
@@ -97,7 +97,7 @@ class ChunkParser {
         if (word == "mtllib") return event(Event::Kind::library);
         ++out_.skipped[std::string(word.substr(0, 20))];
         while (!text_.word_on_line().empty()) {
-        } // with the lines that it goes on for
+        } // including continuation lines
     }
 
     void vertex() {
@@ -160,10 +160,10 @@ class ChunkParser {
         }
     }
 
-    /// v, v/vt, v//vn, v/vt/vn; a slash with nothing behind it is let pass.
+    /// v, v/vt, v//vn, v/vt/vn; a trailing slash is accepted.
     void corner() {
         Corner corner;
-        if (text_.take_natural(corner.index[0])) { // as most files have them
+        if (text_.take_natural(corner.index[0])) { // the usual form
             --corner.index[0];
             return chunk_.corners.push_back(corner, 0);
         }
@@ -194,10 +194,10 @@ class ChunkParser {
     Text text_;
     Chunk& chunk_;
     Statements& out_;
-    bool any_; ///< coordinates that are not finite are left out later
+    bool any_; ///< coordinates that are not finite are dropped later
 };
 
-/// Pieces of about chunk_bytes that end where a line does (and does not go on).
+/// Splits the text into pieces of about chunk_bytes at line ends that are not continued.
 std::vector<std::string_view> pieces(std::string_view text) {
     std::vector<std::string_view> all;
     while (text.size() > chunk_bytes) {
@@ -229,8 +229,7 @@ void rethrow_first(const std::vector<Chunk>& chunks, const std::string& name) {
     }
 }
 
-/// The line of the file with the statement of that number among those of these words with so many corners or
-/// more.
+/// The line of statement `number` (from 0), counting only these words with at least `least` corners.
 std::int64_t line_of(const Input& input, std::initializer_list<std::string_view> words, int least,
                      std::size_t number) {
     Text text(as_text(input.bytes()), input.name(), "E-OBJ", '#');
@@ -251,7 +250,7 @@ struct Counts {
     std::size_t corners = 0, faces = 0, line_points = 0, lines = 0;
 };
 
-/// Joins the chunks; relative indices become absolute.
+/// Joins the chunks and makes relative indices absolute.
 class Joiner {
   public:
     Joiner(const Input& input, std::vector<Chunk>& chunks)
@@ -300,7 +299,7 @@ class Joiner {
     }
 
   private:
-    /// Copies what the chunk has; the first corner (of the file) that names what is not there, or SIZE_MAX.
+    /// Copies a chunk. Returns the first corner (of the file) with an invalid position index, or SIZE_MAX.
     std::size_t join_chunk(std::size_t c) {
         Statements& own = chunks_[c].own;
         const Counts& base = before_[c];
@@ -325,7 +324,7 @@ class Joiner {
         return i < corners ? base.corners + i : SIZE_MAX;
     }
 
-    /// The same as resolve, of a chunk that has nothing but positions, counted from the file's first.
+    /// Like resolve, for a chunk with positions only, counted from the start of the file.
     bool resolve_position(std::size_t c, std::size_t i) {
         const auto vertex = static_cast<Index>(chunks_[c].corners.index[0][i]);
         out_.corners[before_[c].corners + i] = vertex;
@@ -347,7 +346,7 @@ class Joiner {
             else if (k == 0)
                 return false;
             else
-                ++dangling_[c]; // the surface is whole without it
+                ++dangling_[c]; // the surface is complete without it
         }
         const std::size_t at = before_[c].corners + i;
         out_.corners[at] = found[0];

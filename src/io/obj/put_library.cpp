@@ -1,4 +1,4 @@
-// The words of an .mtl file.
+// Writes the text of an .mtl file.
 
 #include "io/flatten.hpp"
 #include "io/obj/materials.hpp"
@@ -31,7 +31,7 @@ void put_value(std::string& text, const char* word, const std::optional<double>&
     text += '\n';
 }
 
-/// Three numbers for -s and -o, as some readers take no fewer.
+/// Three numbers for -s and -o, because some readers require three.
 void put_map(std::string& text, const char* word, const Map& map) {
     text += word;
     if (map.strength != 1) {

@@ -18,15 +18,15 @@ namespace facetmill::io::obj {
 
 namespace {
 
-/// Names in the order of their first face (or line), and the name's number for every face.
+/// Names in the order of their first face (or line), and the index of the name for every face.
 struct Naming {
     std::vector<std::string> names;
     std::vector<Index> of_face;
     std::map<std::string, Index> known;
 };
 
-/// What holds at each of so many elements of the events of a kind; those before the first have the name
-/// `before`.
+/// The name in force at each of `count` elements, from the events of a kind; `before` applies before the
+/// first.
 Naming naming(const Statements& s, Event::Kind kind, const std::string& before, std::size_t count,
               std::size_t Event::*first) {
     Naming n;
@@ -50,7 +50,7 @@ Naming naming(const Statements& s, Event::Kind kind, const std::string& before, 
     return n;
 }
 
-/// Of the faces.
+/// The names of the faces.
 Naming naming(const Statements& s, Event::Kind kind, const std::string& before) {
     return naming(s, kind, before, s.faces(), &Event::face);
 }
@@ -59,7 +59,7 @@ Attribute numbers(const char* name, std::vector<Index> values) {
     return {name, Domain::face, Role::index, 1, false, std::move(values)};
 }
 
-/// Vertex normals for the wedges that the file gives none: the sum of the faces around, weighted by area.
+/// Vertex normals for wedges without a normal in the file: the area-weighted sum over adjacent faces.
 void fill_normals(const Mesh& mesh, std::vector<float>& normals, const std::vector<bool>& given) {
     std::vector<Vec3> sums(given.size());
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -109,7 +109,7 @@ void add_wedges(Mesh& mesh, Statements& s) {
     add_attribute(mesh, std::move(colour));
 }
 
-/// Whether each face has texture points, when some have and some have not; else empty.
+/// Whether each face has texture coordinates; empty if all faces agree.
 std::vector<bool> faces_with_uvs(const Statements& s) {
     std::vector<bool> with(s.faces());
     std::size_t count = 0;
@@ -121,7 +121,7 @@ std::vector<bool> faces_with_uvs(const Statements& s) {
     return count == 0 || count == with.size() ? std::vector<bool>{} : with;
 }
 
-/// The names of the wedge attributes that a primitive with or without texture points has.
+/// The wedge attributes of a primitive with or without texture coordinates.
 std::vector<std::string> attributes_of(const Mesh& mesh, bool with_uvs) {
     std::vector<std::string> names{"POSITION"}; // an empty list would mean all
     for (const Attribute& a : mesh.attributes)
@@ -135,21 +135,21 @@ bool has_names(const Naming& materials) {
     return !materials.names.empty() && materials.names != std::vector{no_material};
 }
 
-/// Of the libraries that the file names, when a face or a line has a material.
+/// Reads the libraries only if a face or a line has a material.
 MaterialMaker maker_of_materials(const Statements& s, const Input& input, ReadLog& log) {
     const bool named = has_names(naming(s, Event::Kind::material, no_material)) ||
                        has_names(naming(s, Event::Kind::material, no_material, s.lines(), &Event::line));
     return {input, named ? read_libraries(input, s.events, log) : std::map<std::string, Description>{}, log};
 }
 
-/// Materials of the scene and the primitives of the mesh, from usemtl. Faces without texture points are
-/// primitives of their own, with no texture coordinates and no textures.
+/// Makes the scene's materials and the mesh's primitives from usemtl. Faces without texture coordinates get
+/// separate primitives without TEXCOORD_0 and without textures.
 void add_materials(Scene& scene, Mesh& mesh, const Statements& s, MaterialMaker& maker) {
     const Naming used = naming(s, Event::Kind::material, no_material);
     const std::vector<bool> with_uvs = faces_with_uvs(s);
     const bool uvs = mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
     if (!has_names(used) && with_uvs.empty()) return;
-    std::vector<Index> primitive_of(2 * used.names.size(), none); // without and with texture points
+    std::vector<Index> primitive_of(2 * used.names.size(), none); // without and with texture coordinates
     std::vector<Index> of_face(s.faces());
     for (std::size_t f = 0; f < of_face.size(); ++f) {
         const bool with = with_uvs.empty() ? uvs : with_uvs[f];
@@ -168,7 +168,7 @@ void add_materials(Scene& scene, Mesh& mesh, const Statements& s, MaterialMaker&
         mesh.attributes.push_back(numbers(std::string(primitive_attribute).c_str(), std::move(of_face)));
 }
 
-/// numbered: the groups are no parts.
+/// numbered: number the groups, because they do not become parts.
 void add_groups(Mesh& mesh, const Statements& s, bool numbered, const std::string& file, ReadLog& log) {
     Naming groups = naming(s, Event::Kind::group, "");
     if (numbered && groups.names.size() > 1) {
@@ -192,8 +192,8 @@ void add_groups(Mesh& mesh, const Statements& s, bool numbered, const std::strin
     mesh.attributes.push_back(numbers("smoothing_group", std::move(of_face)));
 }
 
-/// The object (or group) of each vertex: that of its faces, or where it was declared when it has none. Empty
-/// when a vertex belongs to two.
+/// The object (or group) of each vertex: the object of its faces, or the object at its declaration if it has
+/// no faces. Empty if two objects share a vertex.
 std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, Event::Kind kind,
                                       const Statements& s) {
     std::vector<Index> object(mesh.vertex_count(), none);
@@ -216,7 +216,7 @@ std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, E
     return object;
 }
 
-/// The elements of each object, ascending, and where each element goes among those of its object.
+/// The elements of each object, ascending, and the index of each element within its object.
 struct Shares {
     std::vector<Index> offsets, items, place;
     Shares(const std::vector<Index>& object_of, std::size_t objects)
@@ -258,7 +258,7 @@ Mesh extract(const Mesh& mesh, const Shares& vertices, const Shares& wedges, con
     return own;
 }
 
-/// Texture coordinates that no primitive has go; lists of attributes that say nothing, too.
+/// Removes texture coordinates that no primitive has, and attribute lists without information.
 void drop_unlisted(Mesh& mesh) {
     const auto with = std::count_if(mesh.primitives.begin(), mesh.primitives.end(),
                                     [](const Primitive& p) { return p.has("TEXCOORD_0"); });
@@ -267,7 +267,7 @@ void drop_unlisted(Mesh& mesh) {
         for (Primitive& p : mesh.primitives) p.attributes.clear();
 }
 
-/// Primitives that no face uses go; one that is left needs no attribute.
+/// Removes unused primitives; a single remaining primitive needs no face attribute.
 void compact_primitives(Mesh& mesh) {
     Attribute* a = mesh.find(primitive_attribute, Domain::face);
     if (!a) return;
@@ -286,10 +286,10 @@ void compact_primitives(Mesh& mesh) {
     if (mesh.primitives.size() < 2) mesh.drop(primitive_attribute, Domain::face);
 }
 
-/// What the parts are, where there are several: objects, or the groups of a file without objects.
+/// The division into parts: by objects, or by groups in a file without objects.
 struct Division {
     Naming names;
-    std::vector<Index> of_vertex; ///< empty: they share vertices, so that the surface stays one part
+    std::vector<Index> of_vertex; ///< empty: objects share vertices, so the surface stays a single part
     Event::Kind kind = Event::Kind::object;
     bool divides() const { return !of_vertex.empty(); }
 };
@@ -334,7 +334,7 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
     };
     std::vector<std::string> words;
     for (const auto& [word, count] : s.skipped) {
-        if (word == "p" && s.faces() == 0) continue; // of a cloud all vertices are kept
+        if (word == "p" && s.faces() == 0) continue; // all vertices of a cloud are kept
         words.push_back(fmt::format("{} ({})", in_quotes(word), count));
     }
     if (!words.empty())
@@ -347,10 +347,10 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
         warn("W-FACES", counted(s.short_faces, "face") + " of fewer than three corners skipped");
 }
 
-/// One line after the other of an object, with the vertices that they use.
+/// Collects the lines of an object, and the vertices that they use.
 class LinesOfObject {
   public:
-    /// place: by vertex, none; left as it was.
+    /// place: a scratch array by vertex, all `none` before and after.
     LinesOfObject(const Mesh& all, std::vector<Index>& place) : all_(all), place_(place) {}
 
     void add(std::span<const Index> points, Index material) {
@@ -363,7 +363,7 @@ class LinesOfObject {
 
     Mesh finish() {
         if (const Attribute* colours =
-                all_.find("COLOR_0", Domain::wedge)) // that of a vertex is its first wedge's
+                all_.find("COLOR_0", Domain::wedge)) // a vertex takes the colour of its first wedge
             mesh_.attributes.push_back(selected(*colours, taken_));
         for (const Index v : taken_) place_[v] = none;
         if (mesh_.primitives.size() == 1) mesh_.line_primitive.clear();
@@ -418,7 +418,8 @@ std::vector<Part> parts_of_lines(Scene& scene, const Statements& s, const Mesh& 
     return parts;
 }
 
-/// White for the vertices of a coloured part that the file gives no colour; a part of nothing else has none.
+/// Vertices without a colour become white in a part with other colours; a part without any colours gets
+/// none.
 void settle_colours(Mesh& mesh) {
     Attribute* const colours = mesh.find("COLOR_0", Domain::wedge);
     if (!colours) return;
@@ -433,7 +434,7 @@ void settle_colours(Mesh& mesh) {
     for (Primitive& primitive : mesh.primitives) std::erase(primitive.attributes, "COLOR_0");
 }
 
-constexpr std::string_view ends_of_lines = "line"; ///< an attribute of vertices, while parts are made
+constexpr std::string_view ends_of_lines = "line"; ///< a temporary vertex attribute
 
 Attribute marked_ends(const Statements& s) {
     std::vector<std::uint8_t> marked(s.positions.size());
@@ -444,8 +445,8 @@ Attribute marked_ends(const Statements& s) {
     return {std::string(ends_of_lines), Domain::vertex, Role::generic, 1, false, std::move(marked)};
 }
 
-/// How many groups the lines are in, where an object has lines of several; else 0: parts are those of
-/// objects.
+/// The number of groups of lines that are lost: nonzero if an object has lines in several groups, because
+/// parts of lines follow objects only.
 std::size_t lost_groups_of_lines(const Statements& s) {
     const Naming objects = naming(s, Event::Kind::object, "", s.lines(), &Event::line);
     const Naming groups = naming(s, Event::Kind::group, "", s.lines(), &Event::line);
@@ -461,7 +462,7 @@ std::size_t lost_groups_of_lines(const Statements& s) {
     return any ? groups.names.size() - static_cast<std::size_t>(unnamed) : 0;
 }
 
-/// Vertices that only lines use are no vertices of the surface, nor is a part of them a part.
+/// Removes vertices that only lines use from the surface parts, and parts that become empty.
 void drop_ends(Scene& scene) {
     for (Part& part : scene.parts) {
         const auto marked =
@@ -504,7 +505,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
 
 namespace {
 
-/// Perhaps: OBJ has no magic. The first statement decides.
+/// Perhaps: OBJ has no magic number. The first statement decides.
 int sniff(Span bytes) {
     static const std::string nameless;
     Text text(as_text(bytes.first(std::min<std::size_t>(bytes.size(), 65536))), nameless, "E-OBJ", '#');
@@ -514,9 +515,9 @@ int sniff(Span bytes) {
     return 0;
 }
 
-/// The images that libraries name, there or not, used or not.
+/// Adds all images that libraries name, existing or not, used or not.
 void add_images(const Input& input, const std::vector<Event>& libraries, FileHeader& header) {
-    ReadLog ignored; // reading the file will tell
+    ReadLog ignored; // reading the file repeats these warnings
     OrderedSet<std::filesystem::path> images;
     for (const auto& [name, description] : read_libraries(input, libraries, ignored))
         for (const auto& [word, map] : description.maps)
@@ -525,7 +526,7 @@ void add_images(const Input& input, const std::vector<Event>& libraries, FileHea
     header.files.insert(header.files.end(), images.all().begin(), images.all().end());
 }
 
-/// Materials that faces have, each with or without texture points.
+/// Materials that faces use, each with or without texture coordinates.
 using UsedMaterials = std::vector<std::pair<std::string, bool>>;
 
 bool has_texture_point(std::string_view corner) {
@@ -533,7 +534,7 @@ bool has_texture_point(std::string_view corner) {
     return slash != corner.npos && slash + 1 < corner.size() && corner[slash + 1] != '/';
 }
 
-/// Calls take(statement, rest of the line) for the lines that begin materials and faces, while it gives true.
+/// Calls take(statement, rest of the line) for usemtl and face lines while it returns true.
 template <class Take>
 void for_each_use(std::string_view text, Take&& take) {
     constexpr std::string_view blanks = " \t\r";
@@ -580,14 +581,14 @@ std::vector<NamedImage> images_of(const std::filesystem::path& path,
                                   const std::vector<std::filesystem::path>& asset_roots,
                                   const std::vector<Event>& libraries) {
     const Input input = in_utf8(Input::open(path).with_asset_roots(asset_roots));
-    ReadLog ignored; // reading the file will tell
+    ReadLog ignored; // reading the file repeats these warnings
     MaterialMaker maker(input, read_libraries(input, libraries, ignored), ignored, true);
     std::vector<Material> materials;
     for (const auto& [name, textured] : used_materials(input)) maker.index_of(name, textured, materials);
     return maker.images();
 }
 
-/// Libraries are named near the beginning. The parts are known only when all is read.
+/// Files name their libraries near the beginning. The parts need the whole file.
 void peek(const Input& input, FileHeader& header) {
     take_stated(header, stated_in_lines(as_text(input.bytes())));
     std::vector<Event> libraries;

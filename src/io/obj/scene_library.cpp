@@ -9,7 +9,7 @@ namespace facetmill::io::obj {
 
 namespace {
 
-/// Names for usemtl: on one line, never empty, each once.
+/// Names for usemtl: single-line, nonempty, unique.
 std::vector<std::string> material_names(const std::vector<Material>& materials) {
     std::vector<std::string> names;
     UniqueNames taken;
@@ -22,8 +22,8 @@ std::vector<std::string> material_names(const std::vector<Material>& materials) 
     return names;
 }
 
-/// Whether the material is the other one without its textures, so that a reader makes the same of both where
-/// there are no texture points. Without Pr a surface is as rough as with Pr 1.
+/// Whether the material equals the other without its textures, so that a reader makes the same of both for
+/// faces without texture coordinates. A missing Pr means the same roughness as Pr 1.
 bool is_without_textures(const Description& plain, Description textured) {
     textured.maps.clear();
     if (!plain.roughness && textured.roughness == 1.0) textured.roughness.reset();
@@ -61,8 +61,8 @@ void SceneLibrary::describe_used(const Scene& scene) {
     }
 }
 
-/// A reader makes two materials of one with textures, where some of its faces have no texture points: they
-/// are one again.
+/// A reader splits a textured material into two if some of its faces lack texture coordinates. This merges
+/// the two again.
 void SceneLibrary::join_untextured(const Scene& scene) {
     std::multimap<std::string, Index> with_maps;
     for (const auto& [m, description] : described_)
@@ -81,7 +81,7 @@ void SceneLibrary::join_untextured(const Scene& scene) {
     }
 }
 
-/// Names that are spelled otherwise here, or that several materials have.
+/// Keeps names that are spelled differently here, or that several materials have.
 void SceneLibrary::keep_names(const Scene& scene) {
     const auto is_control = [](unsigned char c) { return c < ' '; };
     for (auto& [m, description] : described_) {

@@ -1,5 +1,5 @@
 #pragma once
-// The materials of a scene as the library of an OBJ file: under which names, and what they are.
+// The scene's materials as the library of an OBJ file: their usemtl names and descriptions.
 
 #include "io/obj/describe.hpp"
 
@@ -9,11 +9,11 @@ class SceneLibrary {
   public:
     SceneLibrary(const Scene& scene, const WriteSettings& settings);
 
-    /// The name of its file; none where the scene has no materials, and so there is no library.
+    /// The library's file name; none if the scene has no materials and so no library.
     std::optional<std::string> file_name() const;
-    /// For usemtl, by the materials of the scene.
+    /// The usemtl names, by the scene's material index.
     const std::vector<std::string>& names() const { return names_; }
-    /// Adds the library, its images, and what it cannot hold. Once.
+    /// Adds the library, its images, and the warnings about losses. Call it once.
     void add_to(Written& written);
 
   private:
@@ -25,8 +25,8 @@ class SceneLibrary {
     LibraryImages images_;
     LibraryLosses losses_;
     std::vector<std::string> names_;
-    std::map<Index, Description> described_; ///< of the materials that faces or lines use
-    std::vector<bool> textured_;             ///< by the materials: faces with texture points use it
+    std::map<Index, Description> described_; ///< by the index of materials that faces or lines use
+    std::vector<bool> textured_;             ///< by material: whether faces with texture coordinates use it
 };
 
 } // namespace facetmill::io::obj

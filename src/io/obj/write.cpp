@@ -14,8 +14,8 @@ namespace facetmill::io::obj {
 
 namespace {
 
-/// The distinct values of an attribute in the order of their first wedge, and the value of each wedge: so
-/// that a texture point or normal is written once, however many vertices share it.
+/// The distinct values of an attribute in the order of their first wedge, and the value of each wedge.
+/// Vertices that share a texture coordinate or normal thus share a statement.
 struct Pool {
     std::vector<float> values;
     std::vector<Index> of_wedge;
@@ -36,7 +36,7 @@ Pool pool_of(const Attribute& a, bool from_bottom) {
             return h ^ (h >> 32);
         }
     };
-    std::unordered_map<Key, Index, Hash> known; // looked up only
+    std::unordered_map<Key, Index, Hash> known; // lookup only; its order never matters
     known.reserve(a.size());
     for (std::size_t w = 0; w < a.size(); ++w) {
         Key key{{0, 0, 0}};
@@ -96,10 +96,10 @@ void put_vertices(Bytes& bytes, const Mesh& mesh, bool all_digits) {
 }
 
 struct Offsets {
-    std::int64_t vertex = 1, uv = 1, normal = 1; ///< OBJ counts from 1, over the whole file
+    std::int64_t vertex = 1, uv = 1, normal = 1; ///< OBJ counts from 1 over the whole file
 };
 
-/// Faces [begin, end) of a run that has one material, group and smoothing group.
+/// Writes faces [begin, end) of a run with the same material, group and smoothing group.
 void put_faces(Bytes& bytes, const Mesh& mesh, Index begin, Index end, const Pool& uv, const Pool& normal,
                const Offsets& o) {
     append_text(bytes, end - begin, [&](std::size_t first, std::size_t last, std::string& out) {
@@ -121,7 +121,7 @@ void put_faces(Bytes& bytes, const Mesh& mesh, Index begin, Index end, const Poo
     });
 }
 
-/// A statement before the faces whose number in an attribute differs from that of the face before.
+/// Writes a statement before a face whose attribute value differs from the previous face.
 struct Switch {
     const Attribute* attribute = nullptr;
     double current = -1;
@@ -130,7 +130,7 @@ struct Switch {
 
 class PartWriter {
   public:
-    /// current: the material that holds in the file so far.
+    /// current: the material in force in the file so far.
     PartWriter(Bytes& bytes, const Mesh& mesh, const std::vector<std::string>& materials, Index& current)
         : bytes_(bytes), mesh_(mesh),
           materials_(materials), group_{number("group")}, smoothing_{number("smoothing_group")},
@@ -148,7 +148,7 @@ class PartWriter {
         }
     }
 
-    /// A line that goes on where the one before ends is of the same statement.
+    /// A line that starts at the end of the previous line extends the same statement.
     void lines(const Offsets& offsets) {
         std::string out;
         const auto put = [&](Index wedge) {
@@ -171,7 +171,7 @@ class PartWriter {
     }
 
   private:
-    /// The statement for the material, where it is not the current one.
+    /// The usemtl statement, if the material is not already in force.
     std::string use(Index material) {
         if (material == material_) return {};
         material_ = material;
@@ -184,7 +184,7 @@ class PartWriter {
     Index material(Index f) const {
         return mesh_.primitives.empty() ? none : mesh_.primitives[mesh_.primitive_of(f)].material;
     }
-    /// Whether the face's primitive has the texture points that the mesh has.
+    /// Whether the face's primitive has texture coordinates.
     bool has_uvs(Index f) const {
         return mesh_.primitives.empty() || mesh_.primitives[mesh_.primitive_of(f)].has("TEXCOORD_0");
     }
@@ -214,7 +214,7 @@ class PartWriter {
     bool uvs_ = true;
 };
 
-/// Whether OBJ has a place for it.
+/// Whether OBJ can hold the attribute.
 bool has_place(const Attribute& a) {
     return a.domain == Domain::wedge && (a.name == "TEXCOORD_0" || a.name == "COLOR_0");
 }
@@ -225,7 +225,7 @@ bool has_alpha(const Attribute& colour) {
     return false;
 }
 
-/// Whether the wedges of a vertex differ in it.
+/// Whether wedges of a vertex have different values.
 bool has_seams(const Mesh& mesh, const Attribute& a) {
     if (!mesh.has_seams()) return false;
     std::vector<Index> first(mesh.vertex_count(), none);
@@ -288,7 +288,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             return a && a->components == components ? pool_of(*a, components == 2) : Pool{};
         };
         const Pool uv = pool("TEXCOORD_0", 2), normal = pool("NORMAL", 3);
-        // Without an object, groups would be parts.
+        // Without an object, a reader would make parts of the groups.
         const bool grouped = world->find("group", Domain::face) != nullptr;
         if (!part.name.empty() || grouped)
             append(bytes, fmt::format("o {}\n", one_line(part.name.empty() ? settings.title : part.name)));
@@ -298,7 +298,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         steps.next();
         put_values(bytes, "vn", normal);
         steps.next();
-        const ProgressScope silent(nullptr); // it writes in pieces, by materials
+        const ProgressScope silent(nullptr); // it writes in pieces, by material
         PartWriter writer(bytes, *world, library.names(), material);
         writer.faces(uv, normal, offsets);
         writer.lines(offsets);

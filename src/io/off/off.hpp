@@ -6,13 +6,13 @@
 
 namespace facetmill::io::off {
 
-/// What the header's keyword says.
+/// The flags of the header's keyword.
 struct Kind {
     bool uvs = false, colours = false, normals = false, binary = false;
 };
 
-/// Reads the keyword, which may be missing, and the word BINARY behind it; then come the counts. Throws
-/// malformed (E-OFF) for kinds that are not read.
+/// Reads the optional keyword and the word BINARY after it, up to the counts. Throws malformed (E-OFF) for
+/// unsupported kinds.
 Kind read_kind(Text& text);
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);

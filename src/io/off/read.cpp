@@ -16,7 +16,7 @@ namespace facetmill::io::off {
 
 namespace {
 
-/// The prefixes before OFF, in the order that Geomview fixes; none when this is no such keyword.
+/// The prefixes before OFF, in the order that Geomview fixes; none if the word is not such a keyword.
 std::optional<Kind> kind_named(std::string_view word) {
     if (!word.ends_with("OFF")) return {};
     word.remove_suffix(3);
@@ -36,15 +36,16 @@ std::optional<Kind> kind_named(std::string_view word) {
     return word.empty() ? std::optional(kind) : std::nullopt;
 }
 
-/// Colours of a file are bytes or fractions: all numbers together decide, for "1 0 0" alone may be either.
+/// Colours are bytes or fractions. All numbers decide together, because "1 0 0" alone may be either.
 struct Colours {
-    std::vector<float> values; ///< four each; negative: not given
+    std::vector<float> values; ///< four each; negative: missing
     std::size_t most = 0;      ///< numbers of the longest colour
-    bool points = false;       ///< a number was written with a point
+    bool points = false;       ///< a number has a decimal point
     double largest = 0;
 
     void add(std::span<const double> given, bool whole) {
-        const bool known = given.size() == 3 || given.size() == 4; // one number is an index into a colour map
+        const bool known =
+            given.size() == 3 || given.size() == 4; // a single number is an index into a colour map
         points |= known && !whole;
         for (std::size_t c = 0; c < 4; ++c) {
             const bool there = known && c < given.size();
@@ -73,7 +74,7 @@ struct Colours {
     }
 };
 
-/// What both encodings fill.
+/// The output of both readers.
 struct Builder {
     const Input& input;
     const ReadSettings& settings;
@@ -81,7 +82,7 @@ struct Builder {
     std::vector<float> normals, uvs;
     Colours vertex_colours, face_colours;
 
-    /// Refuses counts that the bytes left cannot fill. line: 0 for a binary file.
+    /// Refuses counts that the remaining bytes cannot fill. line: 0 for a binary file.
     void check(std::int64_t vertices, std::int64_t faces, std::int64_t line, std::size_t left,
                std::size_t per_vertex, std::size_t per_face) const {
         if (vertices < 0 || faces < 0)
@@ -90,7 +91,7 @@ struct Builder {
         if (static_cast<std::uint64_t>(vertices) > settings.max_vertices || vertices >= none || faces >= none)
             beyond_limit(input.name(),
                          fmt::format("{} vertices and {} faces are more than can be held", vertices, faces));
-        const std::size_t spare = line > 0 ? 1 : 0; // the last line of a text may have no end
+        const std::size_t spare = line > 0 ? 1 : 0; // the last line of a text may lack its end
         if (static_cast<std::size_t>(vertices) * per_vertex + static_cast<std::size_t>(faces) * per_face >
             left + spare)
             malformed(
@@ -122,7 +123,7 @@ class TextReader {
         const std::int64_t vertices = text_.integer("the number of vertices"),
                            faces = text_.integer("the number of faces");
         out_.check(vertices, faces, text_.line(), text_.left(), 6, 2);
-        text_.rest_of_line(); // the number of edges, where there is one: it is not used
+        text_.rest_of_line(); // the number of edges, if given, is unused
         out_.mesh.positions.reserve(static_cast<std::size_t>(vertices));
         const std::size_t all = text_.left();
         std::vector<Index> corners;
@@ -137,7 +138,7 @@ class TextReader {
     }
 
     void vertex() {
-        const bool any = out_.settings.drop_not_finite; // those that are not finite are left out later
+        const bool any = out_.settings.drop_not_finite; // vertices that are not finite are dropped later
         const double x = coordinate(text_, "x", any), y = coordinate(text_, "y", any),
                      z = coordinate(text_, "z", any);
         out_.mesh.positions.push_back({x, y, z});
@@ -150,7 +151,7 @@ class TextReader {
         }
     }
 
-    /// The numbers left on the line but for the last `more`: a colour of one to four.
+    /// The numbers left on the line except the last `more`: a colour of one to four numbers.
     void colour(Colours& colours, int more) {
         int left = 0;
         for (Text ahead = text_; !ahead.word_on_line().empty();) ++left;
@@ -185,7 +186,7 @@ class TextReader {
     Kind kind_;
 };
 
-/// Binary: 32-bit integers and floats in one byte order, which the counts give away.
+/// Binary: 32-bit integers and floats in a byte order that the counts reveal.
 class BinaryReader {
   public:
     BinaryReader(Builder& out, Kind kind, std::size_t at)
@@ -222,7 +223,8 @@ class BinaryReader {
     std::int32_t integer() { return static_cast<std::int32_t>(word((at_ += 4) - 4)); }
     float real() { return std::bit_cast<float>(word((at_ += 4) - 4)); }
 
-    /// Geomview says big-endian; others write what their machine has. Counts read the wrong way are huge.
+    /// Geomview specifies big-endian, but other programs write their native order. In the wrong order the
+    /// counts are huge.
     void choose_order() {
         const auto too_many = [&] {
             return word(at_) > bytes_.size() / 12 || word(at_ + 4) > bytes_.size() / 4;
@@ -251,8 +253,8 @@ class BinaryReader {
         }
     }
 
-    /// Geomview puts a count of colour numbers behind each face, others do not: the one that ends with the
-    /// file is it.
+    /// Geomview writes a count of colour numbers after each face; other programs do not. The reading that
+    /// ends exactly at the end of the file wins.
     bool faces_have_colours(std::int64_t faces) const {
         std::size_t at = at_;
         for (std::int64_t f = 0; f < faces; ++f) {
@@ -301,7 +303,7 @@ Kind read_kind(Text& text) {
     std::string_view word = text.word();
     auto kind = kind_named(word);
     if (!kind && word.starts_with("OFF") && word.size() > 3) {
-        // "OFF8 6 12": the keyword and the count have grown together.
+        // "OFF8 6 12": no space between the keyword and the count.
         text = start;
         text.at_end();
         for (const char c : {'O', 'F', 'F'}) text.take(c);

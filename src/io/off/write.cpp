@@ -16,8 +16,8 @@ const Attribute* colours_of(const Mesh& mesh, Domain domain) {
     return a && (a->components == 3 || a->components == 4) ? a : nullptr;
 }
 
-/// " 255 0 0 255" for bytes, " 1.0 0.0 0.0" for others: fractions keep a point, so that they are read as
-/// such.
+/// " 255 0 0 255" for bytes, " 1.0 0.0 0.0" for others. Fractions keep a decimal point, so that readers
+/// recognise them.
 void put_colour(std::string& out, const Attribute& a, std::size_t i) {
     const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&a.data);
     const auto n = static_cast<std::size_t>(a.components);
@@ -35,7 +35,7 @@ void put_colour(std::string& out, const Attribute& a, std::size_t i) {
 
 struct Rows {
     const Mesh& mesh;
-    bool split; ///< a row per wedge, since the format has one colour at a vertex
+    bool split; ///< a row per wedge, because OFF has a single colour per vertex
     std::size_t count() const { return split ? mesh.wedge_count() : mesh.vertex_count(); }
     Index vertex(std::size_t row) const {
         return split ? mesh.vertex_of_wedge(static_cast<Index>(row)) : static_cast<Index>(row);
@@ -51,7 +51,7 @@ std::vector<Index> row_wedges(const Rows& rows) {
     return wedges;
 }
 
-/// Whether wedges of one vertex have different colours: only then is it worth splitting it.
+/// Whether wedges of a vertex have different colours: only then is a split needed.
 bool colours_differ(const Mesh& mesh, const Attribute& a) {
     const std::vector<Index> first = row_wedges({mesh, false});
     for (Index w = 0; w < mesh.wedge_count(); ++w)

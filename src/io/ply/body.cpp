@@ -36,7 +36,7 @@ std::int64_t load_count(const std::byte* at, Type type, bool swap) {
     case Type::uint32:
         return load<std::uint32_t>(at, swap);
     case Type::int32:
-    case Type::float32: // no count is of these: the header says so
+    case Type::float32: // the header refuses counts of these types
     case Type::float64:
         break;
     }
@@ -77,7 +77,7 @@ struct Body::Reader {
         std::size_t least = 0;
         for (const auto& p : e.properties)
             least += encoding == Encoding::ascii ? 2 : size_of(p.list ? p.count_type : p.type);
-        // The last word of a text needs no space behind it.
+        // The last word of a text needs no space after it.
         if (least > 0 && e.count > (left() + 1) / least)
             malformed(input.name(), e.line, "E-PLY",
                       fmt::format("element '{}' is to have {} items, the {} bytes left hold at most {}",
@@ -124,8 +124,7 @@ std::vector<Column> Body::Reader::read_ascii(const Element& e) {
     return columns;
 }
 
-/// Elements whose records all have the length of the first: a stride, read in parallel. False when they do
-/// not.
+/// Reads elements whose records all have the same length as the first, in parallel. False if they differ.
 bool Body::Reader::read_equal(const Element& e, std::vector<Column>& columns) {
     const std::byte* const base = input.bytes().data() + at;
     const std::size_t room = input.bytes().size() - at;

@@ -13,7 +13,7 @@ namespace facetmill::io::ply {
 
 namespace {
 
-/// Texture coordinates, without which images mean nothing; and what says which face has which image.
+/// Texture coordinates, which images need, and texture numbers of faces.
 bool has_property(const Header& header, std::string_view element, std::string_view name) {
     for (const auto& e : header.elements)
         if (e.name == element)
@@ -33,12 +33,12 @@ bool has_texture_points(const Header& header) {
     return has_property(header, "face", "texcoord");
 }
 
-/// Where faces are numbered, all images: which numbers there are is known only when all is read.
+/// If faces are numbered, all images: only reading the whole file finds the used numbers.
 std::vector<NamedImage> images_of(const std::filesystem::path& path,
                                   const std::vector<std::filesystem::path>& asset_roots) {
     const Input input = Input::open(path).with_asset_roots(asset_roots);
     const Header header = read_header(input);
-    ReadLog ignored; // reading the file will tell
+    ReadLog ignored; // reading the file repeats these warnings
     MaterialDocument document(input.name());
     const bool numbered = has_property(header, "face", "texnumber");
     const std::size_t n =

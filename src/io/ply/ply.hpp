@@ -1,5 +1,5 @@
 #pragma once
-// PLY, in pieces: the header, the elements as typed columns, and the mesh that they make.
+// PLY in steps: the header, the elements as typed columns, and the conversion to a mesh.
 
 #include "io/codec.hpp"
 #include "io/stated.hpp"
@@ -26,7 +26,7 @@ struct Element {
     std::string name;
     std::size_t count = 0;
     std::vector<Property> properties;
-    std::int64_t line = 0; ///< where the header declares it
+    std::int64_t line = 0; ///< of the declaration in the header
 };
 
 enum class Encoding { ascii, little_endian, big_endian };
@@ -34,27 +34,28 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
-    std::size_t size = 0;              ///< bytes up to the first element
-    std::int64_t lines = 0;            ///< lines it takes
-    std::vector<std::string> textures; ///< what comments 'TextureFile' name, as some programs write them
-    Stated stated{};                   ///< what comments state of the unit and of what is up
+    std::size_t size = 0;   ///< the offset of the first element in bytes
+    std::int64_t lines = 0; ///< the number of header lines
+    std::vector<std::string>
+        textures;    ///< files that 'TextureFile' comments name, a convention of some programs
+    Stated stated{}; ///< the unit and up axis that comments state
 };
 
-/// Reads the header; malformed (E-PLY) at its line.
+/// Reads the header; throws malformed (E-PLY) with the line.
 Header read_header(const Input& input);
 
-/// The values of one property over all of its element.
+/// The values of a property for all items of its element.
 struct Column {
     AttributeData values;
     std::vector<std::size_t>
-        offsets; ///< of a list: [count + 1] into values; empty when all have `each` values
+        offsets; ///< for a list: [count + 1] into values; empty if all items have `each` values
     std::size_t each = 1;
 
     std::size_t begin(std::size_t i) const { return offsets.empty() ? i * each : offsets[i]; }
     std::size_t size(std::size_t i) const { return offsets.empty() ? each : offsets[i + 1] - offsets[i]; }
 };
 
-/// Reads elements one after another. Nothing is allocated that the bytes left could not fill.
+/// Reads elements in order. Allocates no more than the remaining bytes could fill.
 class Body {
   public:
     Body(const Input& input, const Header& header);
@@ -67,7 +68,7 @@ class Body {
     std::unique_ptr<Reader> reader_;
 };
 
-/// The name of the part of a file's lines, where it has faces or points beside them.
+/// The name of the part with the file's lines, if the file also has faces or points.
 inline constexpr const char* part_of_lines = "lines";
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);

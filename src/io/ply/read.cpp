@@ -47,7 +47,7 @@ class Builder {
     ReadLog& log_;
     Table vertices_, faces_, strips_, edges_;
     Mesh mesh_;
-    bool corner_uvs_ = false; ///< texture coordinates are of corners of faces
+    bool corner_uvs_ = false; ///< texture coordinates belong to corners of faces
 };
 
 void Builder::set_positions() {
@@ -111,7 +111,7 @@ void Builder::set_faces() {
         mesh_.face_offsets[f] = static_cast<Index>(f == faces ? corners : column.begin(f));
 }
 
-/// Edges are lines between two vertices.
+/// Edges become lines between two vertices.
 void Builder::set_lines() {
     if (edges_.count() == 0) return;
     const auto columns = edges_.take({"vertex1", "vertex2"});
@@ -136,8 +136,9 @@ void Builder::set_lines() {
             skipped(fmt::format("the property '{}' of element 'edge'", edges_.property(p).name));
 }
 
-/// Triangle strips: every index after the second makes a triangle with the two before it, every other one
-/// turned over; a negative index starts anew; triangles with a repeated vertex only link strips.
+/// Triangle strips: every index after the second makes a triangle with the two before it, and every second
+/// triangle is reversed. A negative index starts a new strip; triangles with a repeated vertex only link
+/// strips.
 void Builder::add_strips() {
     if (strips_.count() == 0) return;
     std::vector<std::size_t> found = strips_.take({"vertex_indices"}, true);
@@ -202,8 +203,8 @@ void Builder::add_corner_uvs() {
     corner_uvs_ = true;
 }
 
-/// The number of each face's texture (MeshLab's texnumber), `textures` for those of none; 0 where faces do
-/// not tell.
+/// The texture number of each face (MeshLab's texnumber), with `textures` for faces without a texture. All 0
+/// if the faces have no numbers.
 std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
     std::vector<Index> numbers(mesh_.face_count(), 0);
     if (faces_.count() != numbers.size()) return numbers; // faces of strips
@@ -221,8 +222,8 @@ std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
     return numbers;
 }
 
-/// Materials from the images that comments name, a primitive for each that faces use. Without texture
-/// coordinates they mean nothing.
+/// Makes materials of the images that comments name, and a primitive for each that faces use. Images need
+/// texture coordinates.
 void Builder::add_textures(Scene& scene, const Header& header) {
     if (header.textures.empty()) return;
     const std::vector<Index> numbers = texture_of_faces(header.textures.size());
@@ -314,7 +315,7 @@ Scene Builder::read() {
     return scene;
 }
 
-/// Points that no line uses are points, as they are without the lines.
+/// Vertices that no line uses would be a point cloud without the lines.
 bool is_lines_alone(const Mesh& mesh) {
     if (mesh.face_count() > 0) return false;
     const std::vector<std::uint8_t> used = marked_ends_of_lines(mesh);

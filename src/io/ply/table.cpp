@@ -13,7 +13,7 @@ namespace facetmill::io::ply {
 
 namespace {
 
-/// A number of a file as T: what is beyond T's range becomes its nearest end.
+/// A number of a file as T; values beyond T's range are clamped.
 template <class T, class S>
 T fitted(S value) {
     if constexpr (std::is_same_v<T, S> || std::is_floating_point_v<T>) {
@@ -23,11 +23,11 @@ T fitted(S value) {
         constexpr auto low = static_cast<double>(std::numeric_limits<T>::min());
         constexpr auto high = static_cast<double>(std::numeric_limits<T>::max());
         return x >= low ? static_cast<T>(std::min(x, high))
-                        : std::numeric_limits<T>::min(); // not a number: the lowest
+                        : std::numeric_limits<T>::min(); // NaN becomes the lowest value
     }
 }
 
-/// Columns side by side, as T.
+/// Interleaves columns as T.
 template <class T>
 std::vector<T> interleaved(const Table& table, const std::vector<std::size_t>& columns) {
     std::vector<T> all(table.count() * columns.size());

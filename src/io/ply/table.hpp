@@ -10,7 +10,7 @@
 
 namespace facetmill::io::ply {
 
-/// An element with its values; properties are taken out of it one after another.
+/// An element with its values; readers take properties out of it one by one.
 struct Table {
     const Element* element = nullptr;
     std::vector<Column> columns;
@@ -19,23 +19,23 @@ struct Table {
     std::size_t count() const { return element ? element->count : 0; }
     const Property& property(std::size_t p) const { return element->properties[p]; }
 
-    /// The columns of these names, when all are there; they are taken then.
+    /// Takes the columns of these names if all exist.
     std::vector<std::size_t> take(std::initializer_list<std::string_view> names, bool list = false);
 };
 
-/// Names of texture coordinates of vertices.
+/// The names of texture coordinates of vertices.
 inline constexpr std::pair<const char*, const char*> texture_points[] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
 
-/// Colours as COLOR_0 (of 3 or 4 components): integers as fractions of their type's largest value, of 16 bits
-/// where all are, else of 8; floats as they are.
+/// Adds colours as COLOR_0 (3 or 4 components). Integers are fractions of their type's largest value, with
+/// 16 bits if all are 16-bit, else 8. Floats stay unchanged.
 void add_colours(Table& table, Mesh& mesh, Domain domain);
-/// nx, ny and nz as NORMAL.
+/// Adds nx, ny and nz as NORMAL.
 void add_normals(Table& table, Mesh& mesh);
-/// The first pair of `texture_points` that is there as TEXCOORD_0, v from the top as in glTF.
+/// Adds the first existing pair of `texture_points` as TEXCOORD_0, with v from the top as in glTF.
 void add_uvs(Table& table, Mesh& mesh);
-/// Each property that is left, but lists, as an attribute of its own name and type; NAME_0, NAME_1 and so on,
-/// of one type, as the components of NAME.
+/// Adds each remaining property, except lists, as an attribute of the same name and type. NAME_0, NAME_1 and
+/// so on of the same type become the components of NAME.
 void add_others(Table& table, Mesh& mesh, Domain domain);
 
 } // namespace facetmill::io::ply

@@ -1,5 +1,5 @@
 #pragma once
-// Images that the comments `TextureFile` of a PLY name, as some programs write them.
+// Images that the `TextureFile` comments of a PLY name, a convention of some programs.
 
 #include "io/codec.hpp"
 #include "io/material_document.hpp"
@@ -9,8 +9,8 @@
 
 namespace facetmill::io::ply {
 
-/// A material of `texture`, a path relative to the file, added to the document. None, with a warning, when
-/// the image cannot be read or is of no kind that glTF has.
+/// Adds a material with `texture`, a path relative to the file, to the document. None, with a warning, if
+/// the image cannot be read or glTF does not support its type.
 std::optional<Material> material_of(MaterialDocument& document, const Input& input,
                                     const std::string& texture, ReadLog& log);
 

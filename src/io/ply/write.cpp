@@ -49,7 +49,7 @@ std::vector<std::string> names_of(const Attribute& a) {
     return names;
 }
 
-/// The attribute's values, one element per row; texture coordinates count from the bottom again.
+/// The attribute's values, one element per row; texture coordinates count from the bottom in PLY.
 std::shared_ptr<const AttributeData> rows_of(const Attribute& a, const Mesh& mesh, bool by_wedge) {
     AttributeData data = a.data;
     const auto n = static_cast<std::size_t>(a.components);
@@ -79,7 +79,7 @@ void add(std::vector<Out>& columns, std::vector<std::string> names,
     for (std::size_t c = 0; c < n; ++c) columns.push_back({std::move(names[c]), values, n, c});
 }
 
-/// The wedge whose attributes stand for each vertex: its first.
+/// The first wedge of each vertex, which gives the vertex its attributes.
 std::vector<Index> first_wedges(const Mesh& mesh) {
     std::vector<Index> first(mesh.vertex_count(), none);
     for (Index w = 0; w < mesh.wedge_count(); ++w)
@@ -87,8 +87,8 @@ std::vector<Index> first_wedges(const Mesh& mesh) {
     return first;
 }
 
-/// Whether the wedges of a vertex differ in their texture coordinates only: then those can be written per
-/// corner (as MeshLab does) and no vertex need be split.
+/// Whether the wedges of a vertex differ only in texture coordinates. Then PLY can hold these per corner (as
+/// MeshLab writes them) without splitting vertices.
 bool only_uv_seams(const Mesh& mesh, const std::vector<Index>& first) {
     const Attribute* uv = mesh.find("TEXCOORD_0", Domain::wedge);
     if (!uv || uv->components != 2) return false;
@@ -308,7 +308,7 @@ void write_binary(Bytes& bytes, const Layout& l) {
               static_cast<std::int32_t>(l.row(l.mesh.lines[i])), swap);
 }
 
-/// The fewest and the most corners of a face; 0 and 0 where there are no faces.
+/// The fewest and the most corners of a face; 0 and 0 without faces.
 std::pair<Index, Index> face_sizes(const Mesh& mesh) {
     if (mesh.face_count() == 0) return {};
     std::pair<Index, Index> sizes(none, 0);
@@ -319,8 +319,8 @@ std::pair<Index, Index> face_sizes(const Mesh& mesh) {
     return sizes;
 }
 
-/// Notes faces of several sizes in a binary file: readers that take it for a table of rows of one length
-/// cannot read it. It is no loss: MeshLab and Blender read them.
+/// Notes faces of different sizes in a binary file, because readers that expect rows of equal length fail.
+/// It is not a loss: MeshLab and Blender read them.
 void note_polygons(Written& written, Index smallest, Index largest) {
     if (smallest == largest) return;
     written.warnings.push_back({Severity::note,

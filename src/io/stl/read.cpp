@@ -26,7 +26,8 @@ bool has_binary_size(Span bytes) {
     return bytes.size() >= head && bytes.size() == head + record * std::size_t{promised_triangles(bytes)};
 }
 
-/// The triangles lie three corners a face: one vertex per place, and no attributes to keep wedges apart for.
+/// Indexes three corners per face: one vertex per position. Wedges are dropped, because there are no
+/// attributes.
 void index_by_position(Mesh& mesh, const ReadSettings& settings) {
     mesh.corners.resize(mesh.positions.size());
     std::iota(mesh.corners.begin(), mesh.corners.end(), Index{0});
@@ -43,27 +44,27 @@ void check_count(const Input& input, const ReadSettings& settings, std::size_t v
         beyond_limit(input.name(), fmt::format("{} triangles are more than can be held", vertices / 3));
 }
 
-/// The triangles of a binary file as they lie in it.
+/// The triangle records of a binary file.
 class Records {
   public:
     Records(const Input& input, Span bytes) : input_(input), bytes_(bytes) {}
 
     std::size_t size() const { return bytes_.size() / record; }
-    /// Corner c of all; the normal in front of a triangle's is passed by.
+    /// The position of corner c; skips the normal before each triangle.
     std::array<float, 3> corner(std::size_t c) const {
         return at<std::array<float, 3>>(c / 3 * record + 12 * (c % 3 + 1));
     }
-    /// The same as number_places() compares it.
+    /// The same bits as number_places() compares.
     FloatBits operator()(std::size_t c) const {
         auto bits = std::bit_cast<FloatBits>(corner(c));
         for (std::uint32_t& b : bits)
             if (b == 0x80000000) b = 0;
         return bits;
     }
-    /// The two bytes behind triangle t.
+    /// The two attribute bytes after triangle t.
     std::uint16_t extra(std::size_t t) const { return at<std::uint16_t>(t * record + record - 2); }
 
-    /// These corners have been read.
+    /// Marks these corners as read.
     void done(std::size_t begin, std::size_t end) const {
         const std::size_t first = begin / 3, last = (end + 2) / 3;
         std::uint16_t all = 0;
@@ -71,7 +72,7 @@ class Records {
         if (all != 0) has_extra_.store(true, std::memory_order_relaxed);
         input_.release(bytes_.subspan(first * record, (last - first) * record));
     }
-    /// Whether some triangle has more than zeros behind it, of the corners that are done.
+    /// Whether a triangle read so far has nonzero attribute bytes.
     bool has_extra() const { return has_extra_; }
 
   private:
@@ -87,7 +88,7 @@ class Records {
     mutable std::atomic<bool> has_extra_ = false;
 };
 
-/// One vertex for each place, without a list of all corners in doubles before.
+/// One vertex per position, without an intermediate list of all corners in doubles.
 void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& settings) {
     const std::size_t corners = 3 * records.size();
     mesh.corners.resize(corners);
@@ -103,7 +104,7 @@ void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& setti
         });
         return;
     }
-    const std::size_t expected = records.size() / 2; // of a closed surface
+    const std::size_t expected = records.size() / 2; // for a closed surface
     number_places(
         mesh.corners, expected, records,
         [&](std::size_t places) {
@@ -111,13 +112,13 @@ void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& setti
             return true;
         },
         [&](std::size_t place, std::size_t c, const FloatBits& key) {
-            const bool zero = key[0] == 0 || key[1] == 0 || key[2] == 0; // which may be -0 at this corner
+            const bool zero = key[0] == 0 || key[1] == 0 || key[2] == 0; // may be -0 at this corner
             put(place, zero ? records.corner(c) : std::bit_cast<std::array<float, 3>>(key));
         });
 }
 
 void refuse_not_finite(const Mesh& mesh, const std::string& name) {
-    const std::size_t bad = first_not_finite(mesh.positions); // places are in the order of the corners
+    const std::size_t bad = first_not_finite(mesh.positions); // positions are in the order of the corners
     if (bad == mesh.positions.size()) return;
     const auto c = static_cast<std::size_t>(std::find(mesh.corners.begin(), mesh.corners.end(), bad) -
                                             mesh.corners.begin());
@@ -128,7 +129,7 @@ void refuse_not_finite(const Mesh& mesh, const std::string& name) {
               drop_not_finite_hint);
 }
 
-/// What files with colours have behind their triangles; most have zeros.
+/// Keeps attribute bytes, which some programs use for colours; most files have zeros.
 void add_attribute_bytes(Mesh& mesh, const Records& records) {
     if (!records.has_extra()) return;
     std::vector<std::uint16_t> extra(records.size());
@@ -168,7 +169,7 @@ class TextReader {
             text_.next_line();
             read_solid(part.mesh);
             check_count(input, settings, part.mesh.positions.size());
-            const ProgressScope silent(nullptr); // where the text ends tells how far all is
+            const ProgressScope silent(nullptr); // progress follows the position in the text
             index_by_position(part.mesh, settings);
             scene.parts.push_back(std::move(part));
         }
@@ -188,7 +189,7 @@ class TextReader {
             if (same_word(word, "facet")) {
                 read_facet(mesh);
             } else if (same_word(word, "endsolid")) {
-                text_.next_line(); // the name again, or another, or none
+                text_.next_line(); // the same name, another, or none
                 return;
             } else {
                 ahead.expected("'facet' or 'endsolid'");
@@ -215,7 +216,7 @@ class TextReader {
     }
 
     std::size_t all_;
-    bool any_ = false; ///< coordinates that are not finite are left out later
+    bool any_ = false; ///< coordinates that are not finite are dropped later
     Text text_;
 };
 
@@ -255,7 +256,7 @@ bool is_text(Span bytes) {
 
 namespace {
 
-/// What the words between semicolons state, of the bytes before the count.
+/// The unit and axis stated between semicolons in the bytes before the count.
 Stated stated_in_head(Span bytes) {
     std::string_view words = as_text(bytes.first(std::min(bytes.size(), head - sizeof(std::uint32_t))));
     words = words.substr(0, words.find('\0'));

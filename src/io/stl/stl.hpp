@@ -5,23 +5,23 @@
 
 namespace facetmill::io::stl {
 
-/// Whether these bytes are STL text rather than binary: headers of binary files may begin with "solid" too,
-/// so the size that a binary file's count asks for decides first.
+/// Whether these bytes are STL text. Binary headers may also begin with "solid", so the size expected from a
+/// binary file's count decides first.
 bool is_text(Span bytes);
 
-/// Of binary files: bytes before the triangles, and of each.
+/// Binary files: bytes before the triangles, and per triangle.
 inline constexpr std::size_t head = 84, record = 50;
 
-/// How many triangles the head of a binary file says there are. It must be there.
+/// The number of triangles in the head of a binary file. The head must be complete.
 std::uint32_t promised_triangles(Span bytes);
-/// As many; malformed (E-STL) where the file does not hold its head, or fewer.
+/// The same number, checked. Throws malformed (E-STL) if the file lacks its head or has fewer triangles.
 std::uint32_t held_triangles(const Input& input);
 
-/// One part per solid, welded exactly. Normals in the file are not looked at: the order of the corners
-/// counts. Attribute bytes, where a file has any that are not zero, become the face attribute "attribute".
+/// One part per solid, welded exactly. The reader ignores the file's normals, because the order of the
+/// corners counts. Nonzero attribute bytes become the face attribute "attribute".
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 
-/// Triangles as float32, their normals computed from what is written. Text has one solid per part.
+/// Writes triangles as float32, with normals computed from the rounded corners. Text has one solid per part.
 Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::stl

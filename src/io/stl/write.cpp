@@ -21,7 +21,7 @@ Point rounded(const Vec3& p) {
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
-/// The three corners of a triangle as written, and the normal that they have then (zero when they have none).
+/// The three corners of a triangle as written, and their normal (zero if degenerate).
 struct Triangle {
     Point normal;
     std::array<Point, 3> corners;
@@ -39,7 +39,7 @@ Triangle triangle(const Mesh& mesh, Index f) {
     return t;
 }
 
-/// The mesh itself when it is all triangles, else its triangulation.
+/// The mesh itself if all faces are triangles, else its triangulation.
 class Triangles {
   public:
     explicit Triangles(const Mesh& mesh) : given_(&mesh) {

@@ -97,7 +97,7 @@ class ModelReader {
         return text ? natural(e, attribute, *text) : otherwise;
     }
 
-    /// Twelve numbers by columns of the usual matrix: 3MF multiplies rows from the left.
+    /// Twelve numbers, by columns of the usual matrix, because 3MF multiplies row vectors from the left.
     Transform transform(const Element& e) const {
         Transform t;
         const auto given = e.find("transform");
@@ -141,7 +141,7 @@ class ModelReader {
             open_.pop_back();
     }
 
-    /// Whether the element is one that is read, where it stands.
+    /// Whether the reader supports the element inside this parent.
     bool is_known(const Element& e, std::string_view parent) const {
         static constexpr std::pair<std::string_view, std::string_view> core[] = {
             {"", "model"},
@@ -199,7 +199,7 @@ class ModelReader {
     void vertex(const Element& e) {
         if (++vertices_ > max_vertices_ || object_->positions.size() >= none - 1)
             beyond_limit(name_, "too many vertices");
-        // What is not a number is found with all others.
+        // A later check finds all coordinates that are not finite.
         object_->positions.push_back({real(e, "x"), real(e, "y"), real(e, "z")});
     }
 
@@ -231,7 +231,7 @@ class ModelReader {
         group_->colours.push_back(colour(e, "displaycolor"));
     }
 
-    /// The vertices and properties that triangles name are there.
+    /// Checks that the vertices and properties that triangles name exist.
     void check(std::uint32_t id, const Object& object) const {
         for (std::size_t c = 0; c < object.corners.size(); ++c)
             if (object.corners[c] >= object.positions.size())
@@ -243,7 +243,7 @@ class ModelReader {
     }
     void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise) const {
         const auto group = model_.groups.find(p.group == none ? otherwise : p.group);
-        if (group == model_.groups.end()) return; // of a kind that is not read, or none
+        if (group == model_.groups.end()) return; // of an unsupported kind, or missing
         for (const std::uint32_t index : p.index)
             if (index != none && index >= group->second.colours.size())
                 malformed(name_, 0, "E-3MF",
@@ -256,8 +256,8 @@ class ModelReader {
     std::size_t max_vertices_, vertices_ = 0;
     Model model_;
     bool is_model_ = false;
-    std::vector<std::string> open_; ///< the elements around, those that are read
-    int skipping_ = 0;              ///< how deep in one that is not
+    std::vector<std::string> open_; ///< the enclosing elements that are read
+    int skipping_ = 0;              ///< the depth inside an unsupported element
     std::map<std::string, std::string> spaces_;
     Object* object_ = nullptr;
     Group* group_ = nullptr;
@@ -279,7 +279,7 @@ Unit unit_of_model(Span xml, const std::string& archive, const std::string& path
     };
     try {
         read_xml(xml, archive + path, handler);
-    } catch (const Found&) { // the first element has it
+    } catch (const Found&) { // the first element has the unit
     }
     return reader.unit();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a 3MF archive say, before it becomes a scene. Private to threemf.
+// The contents of the model parts of a 3MF archive before conversion to a scene. Private to threemf.
 
 #include "io/threemf/xml.hpp"
 #include "mesh/scene.hpp"
@@ -27,9 +27,9 @@ inline constexpr UnitName unit_names[] = {{"micron", Unit::um},     {"millimeter
 
 using Colour = std::array<std::uint8_t, 4>; ///< sRGB and alpha
 
-/// Where properties of a triangle come from: a group of resources and three indices into it.
+/// The source of a triangle's properties: a group of resources and three indices into it.
 struct Properties {
-    std::uint32_t group = none; ///< none: those of the object
+    std::uint32_t group = none; ///< none: the object's properties
     std::array<std::uint32_t, 3> index{none, none, none};
 };
 
@@ -54,7 +54,7 @@ struct Object {
 };
 
 struct Group {
-    bool materials = false;         ///< named ones; else colours
+    bool materials = false;         ///< named materials; else colours
     std::vector<std::string> names; ///< of materials
     std::vector<Colour> colours;
 };
@@ -65,14 +65,14 @@ struct Model {
     std::map<std::uint32_t, Object> objects;
     std::map<std::uint32_t, Group> groups;
     std::vector<Use> items;
-    std::map<std::string, std::size_t> skipped; ///< elements that are not read, and how many
+    std::map<std::string, std::size_t> skipped; ///< unsupported elements and their counts
 };
 
-/// path: of the part in the archive. Throws as read_xml, E-EXTENSION for a required extension that is not
-/// read, limit (E-SIZE) beyond max_vertices.
+/// path: of the part in the archive. Throws as read_xml, E-EXTENSION for an unsupported required extension,
+/// limit (E-SIZE) beyond max_vertices.
 Model read_model(Span xml, const std::string& archive, const std::string& path, std::size_t max_vertices);
 
-/// The unit of the part; the rest is not looked at. Throws as read_model.
+/// The unit of the model part; reads only its first element. Throws as read_model.
 Unit unit_of_model(Span xml, const std::string& archive, const std::string& path);
 
 } // namespace facetmill::io::threemf

@@ -16,7 +16,7 @@ namespace facetmill::io::threemf {
 
 namespace {
 
-/// The path of the main model: the relation of the archive that names it, else where all writers put it.
+/// The path of the main model: from the archive's relationships, else the path that all writers use.
 std::string main_model(Archive& archive, const std::string& name) {
     std::string path = "/3D/3dmodel.model";
     if (const auto relations = archive.file("/_rels/.rels"))
@@ -56,13 +56,13 @@ class SceneMaker {
         if (const auto known = models_.find(path); known != models_.end()) return known->second;
         const auto xml = archive_.file(path);
         if (!xml) malformed(name_, 0, "E-3MF", fmt::format("the archive has no model '{}'", path));
-        constexpr double memory_per_byte = 2; // of positions and corners beside their text
+        constexpr double memory_per_byte = 2; // for positions and corners, per byte of their text
         require_memory(memory_per_byte * static_cast<double>(xml->size()), fmt::format("reading '{}'", name_),
                        "use a machine with more memory");
         return models_.emplace(path, read_model(*xml, name_, path, settings_.max_vertices)).first->second;
     }
 
-    /// Objects of a model without items to build that are not components of others.
+    /// The objects of a model without build items, except components of others.
     static std::vector<Use> unused(const Model& model, const std::string& path) {
         std::set<std::uint32_t> components;
         for (const auto& [id, object] : model.objects)
@@ -74,8 +74,8 @@ class SceneMaker {
         return items;
     }
 
-    /// Adds the parts of an object: its own mesh or those of its components. name: of the object around; of
-    /// an instance where that has but this component.
+    /// Adds the parts of an object: its own mesh and its components. name: the enclosing object's; it
+    /// replaces the object's own name if the enclosing object is an instance with only this component.
     void place(const Use& use, const Transform& above, const std::string& name,
                bool is_name_of_instance = false) {
         constexpr std::size_t most_uses = 1'000'000, deepest = 32;
@@ -147,7 +147,7 @@ class SceneMaker {
         return mesh;
     }
 
-    /// The entry of the mesh's table for the material.
+    /// The index of the material's primitive in the mesh, added if new.
     static std::uint32_t primitive(Mesh& mesh, Index material) {
         for (std::size_t p = mesh.primitives.size(); p-- > 0;)
             if (mesh.primitives[p].material == material) return static_cast<std::uint32_t>(p);
@@ -161,7 +161,7 @@ class SceneMaker {
                 {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
     }
 
-    /// Corners of different colours at a vertex are wedges of their own. Triangles without a colour are
+    /// Corners with different colours at a vertex become separate wedges. Triangles without a colour become
     /// white.
     static void add_colours(Mesh& mesh, std::vector<std::uint64_t> colours) {
         constexpr std::uint64_t white = 0xffffffff;
@@ -218,14 +218,13 @@ class SceneMaker {
     MaterialDocument document_;
     Scene scene_;
     std::map<std::string, Model> models_;
-    std::map<ObjectId, std::size_t> first_part_; ///< of each object: items copy it
+    std::map<ObjectId, std::size_t> first_part_; ///< of each object, because repeated items copy it
     std::map<MaterialId, Index> materials_;
     std::vector<ObjectId> open_;
     std::size_t uses_ = 0, vertices_ = 0;
 };
 
-/// A zip archive; whether it holds a model its content types tell, near the beginning as all writers put
-/// them.
+/// A zip archive. Its content types show whether it holds a model, and all writers put them near the start.
 int sniff(Span bytes) {
     const std::string_view text = as_text(bytes);
     if (!text.starts_with("PK\3\4")) return 0;
@@ -234,7 +233,7 @@ int sniff(Span bytes) {
     return tail.find(".model") != std::string_view::npos ? 2 : 1;
 }
 
-/// The unit stands at the beginning of the model.
+/// The unit is at the start of the model.
 void peek(const Input& input, FileHeader& header) {
     Archive archive(input.bytes(), input.name());
     const std::string path = main_model(archive, input.name());

@@ -1,6 +1,6 @@
 #pragma once
-// XML, element by element, by Expat: without document types, so without entities of their own, and nested to
-// a bounded depth.
+// XML element by element, by Expat. Document types, and so custom entities, are refused, and the depth is
+// bounded.
 
 #include "io/bytes.hpp"
 
@@ -8,13 +8,13 @@
 
 namespace facetmill::io::threemf {
 
-/// The start of an element. Valid until the next one.
+/// The start of an element. Valid until the next element.
 struct Element {
     std::string_view space; ///< the namespace's name: "http://..."
     std::string_view name;  ///< without prefix
     std::size_t line = 0;
 
-    /// The value of an attribute, which is named without namespace or as "namespace|name"; none when absent.
+    /// The value of an attribute, named without a namespace or as "namespace|name"; none if absent.
     std::optional<std::string_view> find(std::string_view attribute) const;
 
     const char** attributes = nullptr; ///< Expat's: names and values in turn, up to a null
@@ -23,15 +23,15 @@ struct Element {
 struct XmlHandler {
     std::function<void(const Element&)> start;
     std::function<void()> end;
-    /// A prefix stands for a namespace from here on.
+    /// Called when a prefix is bound to a namespace.
     std::function<void(std::string_view prefix, std::string_view space)> space;
 };
 
-/// Reads a document. name: for messages. Throws malformed (E-3MF) with the line, and whatever the handler
-/// throws.
+/// Reads a document. name: for messages. Throws malformed (E-3MF) with the line, and all errors of the
+/// handler.
 void read_xml(Span text, const std::string& name, const XmlHandler& handler);
 
-/// The text with what XML needs escaped in an attribute; characters that it cannot hold become U+FFFD.
+/// The text escaped for an XML attribute; characters that XML cannot hold become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
 } // namespace facetmill::io::threemf

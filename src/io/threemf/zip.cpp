@@ -47,7 +47,7 @@ std::uint64_t Archive::number(std::uint64_t at, int bytes) const {
     return value;
 }
 
-/// The record behind the directory; a comment of at most 64 KiB may follow it.
+/// The record after the directory; a comment of at most 64 KiB may follow it.
 std::uint64_t Archive::find_end() const {
     if (bytes_.size() >= end_size) {
         const std::uint64_t last = bytes_.size() - end_size, first = last > most16 ? last - most16 : 0;
@@ -73,7 +73,7 @@ void Archive::read_directory(std::uint64_t end) {
     for (std::uint64_t i = 0; i < count; ++i) at = read_entry(at);
 }
 
-/// Returns where the next entry begins.
+/// Returns the offset of the next entry.
 std::uint64_t Archive::read_entry(std::uint64_t at) {
     if (number(at, 4) != entry_magic) fail(at, "expected an entry of the directory");
     Entry entry;
@@ -93,7 +93,7 @@ std::uint64_t Archive::read_entry(std::uint64_t at) {
     return next;
 }
 
-/// What does not fit in 32 bits stands in the extra field 1, in this order.
+/// Values that do not fit 32 bits are in extra field 1, in this order.
 void Archive::take_zip64(Entry& entry, std::uint64_t at, std::uint64_t end) const {
     for (std::uint64_t size = 0; end - at >= 4; at += 4 + size) {
         size = number(at + 2, 2);
@@ -139,8 +139,8 @@ void put(Bytes& out, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i) & 255));
 }
 
-/// From the version that is needed to the lengths of the name and the extra field: the same in an entry and
-/// in the directory. The time is the first one that there is: 1 January 1980.
+/// The fields from the required version to the lengths of the name and the extra field. They are the same in
+/// an entry and in the directory. The time is the earliest that zip can hold: 1 January 1980.
 void put_description(Bytes& out, const ArchiveFile& file, const Bytes& packed) {
     put(out, 20, 2); // version 2.0
     put(out, 0, 2);  // flags

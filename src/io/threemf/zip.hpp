@@ -1,6 +1,6 @@
 #pragma once
-// Zip archives in memory (PKWARE's APPNOTE 6.3): stored and deflated entries, also with the sizes of Zip64.
-// The library libzip would load TLS with every start of the program, for encryption that a 3MF may not have.
+// Zip archives in memory (PKWARE's APPNOTE 6.3): stored and deflated entries, also with Zip64 sizes. The
+// library libzip would load TLS at every start of the program, for encryption that 3MF forbids.
 
 #include "io/bytes.hpp"
 
@@ -8,14 +8,15 @@
 
 namespace facetmill::io::threemf {
 
-/// An archive that is read. It keeps no copy of the bytes.
+/// A reader of an archive. It does not copy the bytes.
 class Archive {
   public:
     /// Reads the directory. Throws malformed (E-ZIP) with the offset.
     Archive(Span bytes, std::string name);
-    /// The contents of an entry, whose path is absolute ("/3D/3dmodel.model") and compared without case; none
-    /// when there is no such entry. Throws malformed (E-ZIP) for what is damaged, encrypted or compressed in
-    /// another way, limit (E-SIZE) when all that was asked for is more than a mesh comes to (see unpacked()).
+    /// The contents of an entry, or none if it does not exist. The path is absolute ("/3D/3dmodel.model")
+    /// and compared without case. Throws malformed (E-ZIP) for damaged or encrypted entries and other
+    /// compression methods. Throws limit (E-SIZE) if the total unpacked size is implausible for a mesh (see
+    /// unpacked()).
     std::optional<Bytes> file(const std::string& path);
 
   private:
@@ -34,7 +35,7 @@ class Archive {
     Span bytes_;
     std::string name_;
     std::map<std::string, Entry> entries_;
-    std::size_t unpacked_ = 0; ///< bytes so far
+    std::size_t unpacked_ = 0; ///< total bytes so far
 };
 
 struct ArchiveFile {
@@ -42,7 +43,7 @@ struct ArchiveFile {
     Bytes bytes;
 };
 
-/// An archive of deflated files without their times, so that the same files give the same bytes.
+/// An archive of deflated files without their times, so that equal files give equal bytes.
 Bytes make_archive(const std::vector<ArchiveFile>& files);
 
 } // namespace facetmill::io::threemf

@@ -6,7 +6,7 @@ namespace facetmill::io::tileset {
 
 namespace {
 
-/// An object with what a tileset needs and no glTF has, near its beginning.
+/// Detects an object with the keys that a tileset requires and a glTF lacks, near the start.
 int sniff(Span bytes) {
     constexpr std::size_t near = 65536;
     const std::string_view text = as_text(bytes).substr(0, near);
@@ -16,7 +16,7 @@ int sniff(Span bytes) {
     return has("\"geometricError\"") && has("\"root\"") && !has("\"bufferViews\"") ? 2 : 0;
 }
 
-/// The tiles beside it.
+/// Lists the neighbouring tiles.
 void peek(const Input& input, FileHeader& header) {
     gltf::in_file(input, [&] {
         const NamedFiles named = named_files(input);

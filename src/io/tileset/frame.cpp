@@ -11,13 +11,13 @@ namespace facetmill::io {
 
 namespace {
 
-/// The largest power of two that is at most x; the smallest of all where x is 0.
+/// The largest power of two that is at most x; a tiny power of two if x is 0.
 double power_below(double x) { return std::ldexp(1.0, x > 0 ? std::max(std::ilogb(x), -1000) : -1000); }
 
-/// The centre in multiples of a sixteenth of the diagonal or less, and of at least `least`, a power of two;
-/// as it is where that is finer than doubles.
+/// The centre, rounded to multiples of a power of two. This is at most an eighth of the diagonal, but at
+/// least `least`. Coordinates too large for such multiples in doubles stay unchanged.
 Vec3 near_centre(const Box& box, double least) {
-    constexpr double whole = 1LL << 52; // doubles beyond it have no fractions
+    constexpr double whole = 1LL << 52; // larger doubles have no fractions
     const double step = std::max(least, power_below(box.diagonal() / 8));
     Vec3 p = box.centre();
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -14,13 +14,13 @@ namespace {
 constexpr std::size_t children_of_tile = 4;
 constexpr std::string_view subtree_magic = "subt";
 
-/// Tiles of a full quadtree of so many levels.
+/// The number of tiles of a full quadtree of `levels` levels.
 constexpr std::size_t places_of(std::size_t levels) {
     return ((std::size_t{1} << (2 * levels)) - 1) / (children_of_tile - 1);
 }
 
-/// Levels of the whole tree, and those that each subtree file has of them: as even as can be, and of at most
-/// six, 1,365 tiles, which take 140 kB.
+/// The levels of the whole tree, and of each subtree file: as even as possible, and at most six, because
+/// 1,365 tiles take 140 kB.
 struct Levels {
     std::size_t all = 0, of_subtree = 1;
 
@@ -32,7 +32,7 @@ struct Levels {
     }
 };
 
-/// Where a way of digits ends among the places of its level, in Morton order.
+/// The Morton index, within its level, of the tile reached by a path of child digits.
 std::size_t morton_of(std::string_view way) {
     std::size_t place = 0;
     for (const char digit : way) place = place * children_of_tile + static_cast<std::size_t>(digit - '0');
@@ -49,7 +49,7 @@ void pad(Bytes& out, std::byte with) {
     while (out.size() % 8 != 0) out.push_back(with);
 }
 
-/// What a subtree file holds beside its JSON: columns that begin at multiples of 8 bytes.
+/// The binary data of a subtree file: columns that begin at multiples of 8 bytes.
 class Columns {
   public:
     std::size_t add(const Bytes& column) {
@@ -58,14 +58,14 @@ class Columns {
         pad(bytes_, std::byte{0});
         return views_.size() - 1;
     }
-    /// The places that are taken, as an availability.
+    /// The availability with bits set for these tiles.
     Json availability(const std::vector<std::size_t>& places, std::size_t count) {
         if (places.empty()) return {{"constant", 0}};
         Bytes bits((count + 7) / 8);
         for (const std::size_t p : places) bits[p / 8] |= static_cast<std::byte>(1U << (p % 8));
         return {{"bitstream", add(bits)}, {"availableCount", places.size()}};
     }
-    /// The whole file around a JSON, which gets the columns.
+    /// The whole file: the JSON, extended by the buffer views, and the columns.
     Bytes file(Json json) const {
         json["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
         json["bufferViews"] = views_;
@@ -86,8 +86,8 @@ class Columns {
 };
 
 struct TilesOfSubtree {
-    std::map<std::size_t, const TreeTile*> tiles; ///< by their places in it
-    std::vector<std::size_t> below;               ///< places of the subtrees below it
+    std::map<std::size_t, const TreeTile*> tiles; ///< by their index in the subtree
+    std::vector<std::size_t> below;               ///< indices of the child subtrees
 };
 
 Bytes subtree_file(const TilesOfSubtree& subtree, std::size_t levels) {

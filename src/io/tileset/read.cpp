@@ -35,13 +35,13 @@ Transform transform_of(const JsonCursor& tile) {
     return t;
 }
 
-/// A file that a tile shows, and where it stands in the tileset.
+/// A content file of a tile, and its place in the tileset.
 struct Content {
     std::string uri, place;
     Transform transform;
 };
 
-/// What is shown when every tile is refined.
+/// The contents shown when every tile is refined.
 class Contents {
   public:
     explicit Contents(const Input& input)
@@ -52,10 +52,10 @@ class Contents {
         visit(tileset.at("root"), {}, true);
     }
     std::vector<Content> all;
-    std::vector<Input> subtrees; ///< files that say which implicit tiles there are
+    std::vector<Input> subtrees; ///< files that list the existing implicit tiles
 
   private:
-    /// Nesting is as deep as that of the JSON, which is limited.
+    /// The JSON parser limits the nesting.
     void visit(const JsonCursor& tile, const Transform& above, bool replaces) {
         const Transform here = above * transform_of(tile);
         const std::string refine = tile.text_or("refine", replaces ? "REPLACE" : "ADD");
@@ -87,12 +87,12 @@ class Contents {
     Json json_;
 };
 
-/// Materials of several files that are the same in what they look like are one.
+/// Merges materials of several files that look the same.
 class MaterialsOfTiles {
   public:
     explicit MaterialsOfTiles(Scene& all) : all_(all) {}
 
-    /// Adds those of a tile that are new; its primitives name those of all.
+    /// Adds the new materials of a tile, and renumbers its primitives.
     void take(Scene& tile) {
         std::vector<Index> number;
         std::optional<int> document;
@@ -158,8 +158,8 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         scene.up = settings.up.value_or(UpAxis::z);
         MaterialsOfTiles materials(scene);
         Part all;
-        double bytes = 0;                     // of all files, some perhaps more than once
-        constexpr double memory_per_byte = 4; // as of other meshes
+        double bytes = 0;                     // of all files; a file may count more than once
+        constexpr double memory_per_byte = 4; // as for other meshes
         ProgressSteps steps(std::vector<double>(contents.size() + 1, 1));
         for (const Content& content : contents) {
             Scene tile = read_tile(input, content, settings, log);

@@ -11,7 +11,7 @@ namespace {
 
 using gltf::JsonCursor;
 
-constexpr std::size_t most_places = std::size_t{1} << 22; // of a subtree
+constexpr std::size_t most_places = std::size_t{1} << 22; // per subtree
 constexpr std::size_t most_contents = std::size_t{1} << 22;
 
 [[noreturn]] void too_many(const JsonCursor& place) {
@@ -23,7 +23,7 @@ struct Coordinates {
     std::uint64_t level = 0, x = 0, y = 0, z = 0;
 };
 
-/// A template with the coordinates in the places of their names.
+/// The template with the coordinates filled in.
 std::string expanded(std::string text, const Coordinates& at) {
     for (const auto& [name, value] :
          {std::pair{"{level}", at.level}, {"{x}", at.x}, {"{y}", at.y}, {"{z}", at.z}})
@@ -32,7 +32,7 @@ std::string expanded(std::string text, const Coordinates& at) {
     return text;
 }
 
-/// What an implicit tile says of the tree.
+/// The tree's parameters from an implicit tile.
 struct Scheme {
     std::size_t dimensions = 2, subtree_levels = 1, levels = 1;
     std::vector<std::string> contents; ///< templates
@@ -44,7 +44,7 @@ struct Scheme {
         if (scheme != "QUADTREE" && scheme != "OCTREE")
             implicit.at("subdivisionScheme").fail("expected QUADTREE or OCTREE", "E-TILESET");
         dimensions = scheme == "OCTREE" ? 3 : 2;
-        constexpr std::uint64_t deepest = 63; // coordinates are numbers of 64 bits
+        constexpr std::uint64_t deepest = 63; // coordinates have 64 bits
         levels = implicit.at("availableLevels").natural(deepest);
         subtree_levels = implicit.at("subtreeLevels").natural(deepest);
         if (levels == 0 || subtree_levels == 0) implicit.fail("expected at least one level", "E-TILESET");
@@ -57,13 +57,13 @@ struct Scheme {
             contents.push_back(text_of(several->at(i).at("uri")));
     }
     std::size_t places_in_level(std::size_t level) const { return std::size_t{1} << (dimensions * level); }
-    /// Places of the levels above this one.
+    /// The number of tiles above this level.
     std::size_t places_above(std::size_t level) const {
         return (places_in_level(level) - 1) / (places_in_level(1) - 1);
     }
 
   private:
-    /// Without all names, tiles would have files in common.
+    /// Requires all variables in the template; otherwise tiles would share files.
     std::string text_of(const JsonCursor& uri) const {
         const std::string text = uri.text();
         for (const char* name : {"{level}", "{x}", "{y}", "{z}"})
@@ -84,7 +84,7 @@ Coordinates child_of(const Coordinates& at, std::size_t levels, std::size_t mort
     return child;
 }
 
-/// One bit for each of some places.
+/// One bit per tile.
 class Availability {
   public:
     Availability(const JsonCursor& place, std::size_t count, const std::vector<Span>& views) {
@@ -109,7 +109,7 @@ class Availability {
     Span bits_;
 };
 
-/// A subtree file, in its binary form or as JSON.
+/// A subtree file, in binary form or as JSON.
 struct Subtree {
     Json json;
     Span binary;

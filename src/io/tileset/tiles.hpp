@@ -9,34 +9,34 @@ namespace facetmill::io::tileset {
 
 /// A tile in the tree: boxes are in the tileset's frame.
 struct TreeTile {
-    std::string name;                  ///< the way from the root, a digit for each child
-    std::vector<std::size_t> children; ///< among the tiles
+    std::string name;                  ///< the path from the root, a digit for each child
+    std::vector<std::size_t> children; ///< indices of tiles
     double error = 0;
-    Box own, all; ///< around its content; and around that of the tiles below it, too
+    Box own, all; ///< around its content; and including its descendants
     std::size_t faces = 0, dropped_faces = 0;
     VertexCacheUse cache;
 };
 
-/// The settings for a tile of a tileset with these: whole steps where there are grids, images that all tiles
-/// share unless they are embedded or named.
+/// The settings for a tile of a tileset with these settings: whole positions if there is a grid, and shared
+/// images unless these are embedded or referenced.
 WriteSettings settings_of_tiles(const WriteSettings& settings);
 
 /// The path of a tile's file, relative to the tileset's. settings: settings_of_tiles.
 std::string uri_of_tile(const WriteSettings& settings, const std::string& name);
 
-/// The twelve numbers of a bounding volume: the centre and the half sides, which lie along the axes.
+/// The twelve numbers of a bounding volume: the centre and the half sides along the axes.
 std::array<double, 12> numbers_of_box(const Box& box);
 
-/// The tile as a GLB, the first of the files, and the images of materials beside it. mesh: in the frame.
-/// settings: settings_of_tiles. outline: materials and documents of all tiles, and no parts. Sets what of
-/// the tile depends on its mesh, `all` as if it were a leaf. Any thread.
+/// The tile as a GLB, the first of the files, and the images of its materials. mesh: in the frame. settings:
+/// settings_of_tiles. outline: a scene with the materials and documents of all tiles, without parts. Sets
+/// the tile's fields that depend on its mesh, and `all` as for a leaf. Safe on any thread.
 Written encode_tile(Mesh mesh, TreeTile& tile, const Scene& outline, const WriteSettings& settings,
                     const TilesetFrame& frame);
 
-/// A tileset, and what it came to. tiles: each before its children, the root first; `all` of those that have
-/// children is set.
+/// A written tileset and its statistics. tiles: each before its children, the root first, with `all` set for
+/// tiles with children.
 struct TilesetSummary {
-    std::vector<OutputFile> files; ///< the tileset, then what it names beside tiles
+    std::vector<OutputFile> files; ///< the tileset, then the other files that it names except tiles
     TilesWritten told;
     VertexCacheUse cache;
     std::size_t dropped_faces = 0;
