@@ -99,13 +99,11 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places
 std::vector<fs::path> asset_roots_of(const Steps& steps, const Folders& places) {
     OrderedSet<fs::path> folders;
     for (const auto& folder : places.asset_roots) folders.add(folder);
-    for (const auto& step : steps) {
-        if (step.stage)
-            for (const auto& folder : step.stage->files().asset_roots)
-                if (!folder.text.empty()) folders.add(places.input(folder.text));
-        for (const auto& arm : step.arms)
-            for (const auto& folder : asset_roots_of(*arm.steps, places)) folders.add(folder);
-    }
+    for_each_step(steps, [&](const Step& step) {
+        if (!step.stage) return;
+        for (const auto& folder : step.stage->files().asset_roots)
+            if (!folder.text.empty()) folders.add(places.input(folder.text));
+    });
     return folders.all();
 }
 
@@ -208,6 +206,20 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
                      hint_of_duplicate(same, file));
     }
     return good;
+}
+
+void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& problems) {
+    auto files = planned_files(plan.steps, plan.places);
+    files.insert(files.end(), plan.others.begin(), plan.others.end());
+    for (const auto& arm : arms) {
+        auto inner = planned_files(*arm.steps, plan.places);
+        for (auto& file : inner) {
+            const bool is_known = std::any_of(
+                files.begin(), files.end(), [&](const auto& f) { return !f.written && f.path == file.path; });
+            if (file.written || !is_known) files.push_back(std::move(file));
+        }
+    }
+    check_collisions(files, problems);
 }
 
 namespace {

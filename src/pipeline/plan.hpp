@@ -50,6 +50,9 @@ struct Step {
     Mark where;
 };
 
+/// Calls visit for each step, and for those of its arms after it.
+void for_each_step(const Steps& steps, const std::function<void(const Step&)>& visit);
+
 /// A file that a plan reads or writes.
 struct PlannedFile {
     std::filesystem::path path;
@@ -127,6 +130,8 @@ std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Fold
 /// that is an input, and E-DUPLICATE-INPUT: two readings of standard input.
 /// Whether there is none.
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
+/// The same, with the files of a foreach over parts, now that the parts have names.
+void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& problems);
 /// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
 std::vector<Diagnostic> missing_inputs(const Plan& plan);
 

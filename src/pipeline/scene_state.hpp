@@ -39,6 +39,7 @@ struct SceneState {
     /// What a load told, by its key, as long as nobody has asked for the key of the scene that it gave.
     std::optional<std::pair<std::string, cache::Memory>> loaded;
     bool without_cache = false;
+    bool in_cells = false;        ///< there is no scene yet: what was loaded is larger than memory
     SceneState* origin = nullptr; ///< the flow that it branched off, which outlives it
     std::size_t inherited = 0;    ///< how many of the recalled steps are the origin's
 

@@ -157,13 +157,6 @@ std::string StageCache::key_of(const Step& step, const SceneState& flow, double 
 }
 
 bool StageCache::recall(const Step& step, SceneState& flow, RunState& run, report::StageRecord& stage) {
-    TracedStep traced;
-    traced.name = step.name;
-    traced.stage = step.info->name;
-    traced.options = stage.options;
-    if (!step.only.patterns.empty()) traced.options["only"] = step.only.patterns;
-    traced.way = TracedStep::Way::always;
-    trace_.push_back(std::move(traced));
     if (!store_ || flow.without_cache || !may_recall(step)) return false;
     trace_.back().way = TracedStep::Way::ran;
     try {

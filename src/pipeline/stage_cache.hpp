@@ -24,7 +24,7 @@ std::string key_after(const std::string& key, const Step& step);
 
 class StageCache {
   public:
-    /// store: none, and nothing is recalled or stored.
+    /// store: none, and nothing is recalled or stored. trace: its last entry is that of the present step.
     StageCache(cache::Store* store, const Folders& places, Trace& trace)
         : store_(store), places_(places), trace_(trace) {}
 

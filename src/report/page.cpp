@@ -1,19 +1,18 @@
-#include "pipeline/page.hpp"
+#include "report/page.hpp"
 
-#include "cache/state.hpp"
 #include "geometry/deviation/signed_deviation.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/read/skinned_pose.hpp"
-#include "pipeline/page_failures.hpp"
 #include "report/check_text.hpp"
 #include "report/deviation_view.hpp"
+#include "report/page_failures.hpp"
 #include "report/scene_picture.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace facetmill::pipeline {
+namespace facetmill::report {
 
 namespace {
 
@@ -28,11 +27,7 @@ std::size_t vertices_in(const Scene& scene) {
     return count;
 }
 
-bool is_mesh(const report::FileRecord& file) { return !file.read_back.is_null(); }
-
-bool measures(const Step& step) {
-    return step.info->measures_deviation || (step.ensure && step.ensure->deviation);
-}
+bool is_mesh(const FileRecord& file) { return !file.read_back.is_null(); }
 
 } // namespace
 
@@ -51,7 +46,7 @@ const Box& Page::Shown::bounds() {
 }
 
 const FaceTree& Page::Shown::tree() {
-    if (!tree_) tree_ = report::tree_of_earlier(surface_, bounds());
+    if (!tree_) tree_ = tree_of_earlier(surface_, bounds());
     return *tree_;
 }
 
@@ -64,7 +59,7 @@ bool Page::is_full() const { return bytes_ > most_bytes; }
 
 /// part: of the size of the largest pictures.
 PictureSettings Page::sized_for_page(double part) const {
-    PictureSettings settings = report::page_settings();
+    PictureSettings settings = page_settings();
     if (bytes_ > bytes_of_large) {
         part /= 2;
         record_.pictures_shrunk = true;
@@ -93,7 +88,7 @@ const Camera& Page::camera_for(const Scene& scene) {
     return camera_;
 }
 
-void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
+void Page::add_picture(const Scene& scene, StageRecord& stage) {
     if (is_full()) {
         ++record_.pictures_left_out;
         return;
@@ -101,13 +96,13 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
     // A digest takes a good part of the time of a picture, so it is made where the numbers of vertices and
     // faces leave room for doubt alone: the first scene that is as the one before is drawn once in vain.
     const std::pair size{vertices_in(scene), scene.face_count()};
-    std::string digest = size == pictured_size_ ? cache::digest_of(scene) : std::string();
+    std::string digest = size == pictured_size_ ? digest_(scene) : std::string();
     if (!digest.empty() && digest == pictured_) return;
     materials_.materials(scene, record_.not_drawn); // each texture is told once, and then read already
     PictureSettings settings = sized_for_page(1);
     const auto posed = io::posed(scene);
     settings.camera = camera_for(posed ? *posed : scene);
-    std::string shown = report::scene_picture(scene, settings, materials_);
+    std::string shown = scene_picture(scene, settings, materials_);
     pictured_size_ = size;
     pictured_ = std::move(digest);
     if (shown == last_picture_) return;
@@ -116,7 +111,7 @@ void Page::add_picture(const Scene& scene, report::StageRecord& stage) {
     last_picture_ = stage.picture = std::move(shown);
 }
 
-report::DeviationView Page::distances(const Scene& scene, Reference& from) {
+DeviationView Page::distances(const Scene& scene, Reference& from) {
     const auto posed = io::posed(scene);
     const Scene& seen = posed ? *posed : scene;
     std::optional<PictureSettings> settings; // none: numbers alone
@@ -126,25 +121,25 @@ report::DeviationView Page::distances(const Scene& scene, Reference& from) {
         settings->camera = camera_for(seen);
     }
     Shown& earlier = *from.shown;
-    auto view = report::deviation_view(
-        seen, {from.name, earlier.bounds().diagonal(), earlier.tree(), from.last_cap}, settings);
+    auto view = deviation_view(seen, {from.name, earlier.bounds().diagonal(), earlier.tree(), from.last_cap},
+                               settings);
     view.posed = posed.has_value();
     bytes_ += view.picture.size() + view.behind.size() + view.close.size();
     return view;
 }
 
-void Page::before(const Step& step, const Scene& scene) {
+void Page::before(const PageStep& step, const Scene& scene) {
     entering_.reset();
-    if (step.info->loads || !measures(step) || measured_stages_ >= most_measured) return;
+    if (step.loads || !step.measures || measured_stages_ >= most_measured) return;
     if (scene.face_count() > most_faces_of_a_stage) return;
     entering_ = reference_to(scene, fmt::format("the scene before '{}'", step.name));
     if (loaded_ && loaded_->shown->is_same(*entering_->shown)) entering_->shown = loaded_->shown; // one tree
 }
 
-void Page::after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output) {
+void Page::after(const PageStep& step, const Scene& scene, StageRecord& stage, std::size_t first_output) {
     const bool only_looks =
-        step.info->checks || std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
-                                         record_.outputs.end(), is_mesh);
+        step.checks || std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
+                                   record_.outputs.end(), is_mesh);
     if (!only_looks) add_picture(scene, stage);
     set_loaded(step, scene);
     if (entering_) {
@@ -163,10 +158,10 @@ void Page::after(const Step& step, const Scene& scene, report::StageRecord& stag
     add_results(first_output, scene);
 }
 
-void Page::set_loaded(const Step& step, const Scene& scene) {
-    if (!step.info->loads && !step.info->moves) return;
-    loaded_ = reference_to(scene, step.info->loads ? std::string("the scene as loaded")
-                                                   : fmt::format("the scene after '{}'", step.name));
+void Page::set_loaded(const PageStep& step, const Scene& scene) {
+    if (!step.loads && !step.moves) return;
+    loaded_ = reference_to(scene, step.loads ? std::string("the scene as loaded")
+                                             : fmt::format("the scene after '{}'", step.name));
     if (with_pictures_) loaded_->shape = shape_histograms(scene);
 }
 
@@ -175,20 +170,20 @@ void Page::add_results(std::size_t first_output, const Scene& scene) {
         if (is_mesh(record_.outputs[i])) add_result(record_.outputs[i].path, scene);
 }
 
-bool Page::is_measured(const Step& step, std::size_t first_output) const {
-    return step.info->loads || step.info->moves ||
+bool Page::is_measured(const PageStep& step, std::size_t first_output) const {
+    return step.loads || step.moves ||
            std::any_of(record_.outputs.begin() + static_cast<std::ptrdiff_t>(first_output),
                        record_.outputs.end(), is_mesh);
 }
 
-void Page::measure(const Step& step, const Scene& scene, std::size_t first_output) {
+void Page::measure(const PageStep& step, const Scene& scene, std::size_t first_output) {
     set_loaded(step, scene);
     add_results(first_output, scene);
 }
 
 void Page::add_result(const std::string& name, const Scene& scene) {
     if (record_.views.size() >= most_results) return;
-    report::OutputView view;
+    OutputView view;
     view.name = name;
     view.unit = scene.unit == Unit::unknown ? "" : to_string(scene.unit);
     view.faces = scene.face_count();
@@ -217,10 +212,10 @@ void Page::add_result(const std::string& name, const Scene& scene) {
     record_.views.push_back(std::move(view));
 }
 
-std::string Page::picture_of_failure(const Scene& scene, const report::Check& check) {
-    const std::vector<Vec3> locations = report::failing_locations(check);
+std::string Page::picture_of_failure(const Scene& scene, const Check& check) {
+    const std::vector<Vec3> locations = failing_locations(check);
     const Scene marked = with_failing_faces(scene, check);
-    PictureSettings whole = report::page_settings();
+    PictureSettings whole = page_settings();
     if (!io::posed(scene)) whole.camera = camera_for(scene);
     whole.attribute = failing_attribute;
     whole.range = {ColourRange::Kind::given, -1, 1, true};
@@ -230,16 +225,15 @@ std::string Page::picture_of_failure(const Scene& scene, const report::Check& ch
     close.settings.at = locations.front();
     close.settings.camera = camera_of(marked, close.settings);
     close.settings.edges = EdgeLines::all;
-    return report::page_text(
-        sheet_of({picture_of(marked, whole), picture_of(close.scene, close.settings)}, 2));
+    return page_text(sheet_of({picture_of(marked, whole), picture_of(close.scene, close.settings)}, 2));
 }
 
-bool Page::failures(const std::string& step, const Scene& scene, std::size_t first_check) {
+void Page::failures(const std::string& step, const Scene& scene, std::size_t first_check) {
     bool fails = false;
     for (std::size_t i = first_check; i < record_.checks.size(); ++i) {
-        report::Check& check = record_.checks[i];
+        Check& check = record_.checks[i];
         fails |= !check.passed && check.severity == Severity::error;
-        if (!with_pictures_ || report::failing_locations(check).empty()) continue;
+        if (!with_pictures_ || failing_locations(check).empty()) continue;
         if (is_full() || failures_shown_ >= most_failures) {
             ++record_.pictures_left_out;
             continue;
@@ -249,16 +243,15 @@ bool Page::failures(const std::string& step, const Scene& scene, std::size_t fir
         bytes_ += check.picture.size();
     }
     if (fails) add_result(fmt::format("the scene at '{}'", step), scene);
-    return fails;
 }
 
 bool Page::differs(const std::string& name) const {
     return std::any_of(record_.views.begin(), record_.views.end(),
-                       [&](const report::OutputView& view) { return view.name == name && view.differs; });
+                       [&](const OutputView& view) { return view.name == name && view.differs; });
 }
 
 void Page::at_end(const Scene& scene) {
     if (record_.views.empty()) add_result("the scene at the end", scene);
 }
 
-} // namespace facetmill::pipeline
+} // namespace facetmill::report

@@ -1,36 +1,23 @@
-#include "pipeline/page_view.hpp"
+#include "report/page_view.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill::pipeline {
+namespace facetmill::report {
 
 namespace {
 
 /// A surface of more triangles is not kept to be compared with: some 150 bytes each, with its tree.
 constexpr std::size_t most_to_compare = 8000000;
 
-/// How many outputs there will be, about: files that stages name.
-std::size_t count_outputs(const Steps& steps) {
-    std::size_t count = 0;
-    for (const Step& step : steps) {
-        if (step.kind == Step::Kind::stage) count += step.info->tells && !step.info->checks;
-        for (const Arm& arm : step.arms) count += count_outputs(*arm.steps);
-    }
-    return count;
-}
-
 } // namespace
-
-PageView::PageView(const Steps& steps, Page& page) : viewed_(1 + count_outputs(steps)), page_(page) {}
 
 std::shared_ptr<const ResolvedMaterials> PageView::materials(const Scene& scene) {
     std::vector<Diagnostic> ignored; // a texture that cannot be drawn is no fault of the run
     return page_.materials().materials(scene, ignored);
 }
 
-void PageView::before(const Step& step, const Scene& scene) {
-    if (step.info->loads || has_before_) return;
+void PageView::before(const Scene& scene) {
+    if (has_before_) return;
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     if (page_.camera()) viewed_.stand_as(*page_.camera(), page_.camera_up());
@@ -40,17 +27,10 @@ void PageView::before(const Step& step, const Scene& scene) {
 void PageView::add(const Scene& scene, const std::string& name) {
     const auto from = page_.reference();
     const bool compared = from && page_.differs(name) && from->faces > 0 && from->faces <= most_to_compare;
-    report::ViewedFrom seen_from;
+    ViewedFrom seen_from;
     if (compared) seen_from = {&from->shown->tree(), from->name, from->last_cap};
     viewed_.add_after(scene, name, materials(scene), seen_from);
     any_after_ = true;
-}
-
-void PageView::after(const Step& step, const Scene& scene, const report::RunRecord& record,
-                     std::size_t first_output) {
-    if (step.info->loads) return;
-    for (std::size_t i = first_output; i < record.outputs.size(); ++i)
-        if (io::codec_for(record.outputs[i].path)) add(scene, record.outputs[i].path);
 }
 
 void PageView::failed(const std::string& name, const Scene& scene) {
@@ -61,4 +41,4 @@ void PageView::at_end(const Scene& scene) {
     if (!any_after_) add(scene, "the scene at the end");
 }
 
-} // namespace facetmill::pipeline
+} // namespace facetmill::report

@@ -1,4 +1,4 @@
-#include "pipeline/page_failures.hpp"
+#include "report/page_failures.hpp"
 
 #include "geometry/edit/surgery.hpp"
 #include "geometry/spatial/rays.hpp"
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace facetmill::pipeline {
+namespace facetmill::report {
 
 namespace {
 
@@ -19,7 +19,7 @@ bool is_failing(const Mesh& mesh, Index face) {
 }
 
 /// The part that the first entry names, if it has the face.
-const Part* part_of_first(const Scene& scene, const report::EvidenceEntry& first) {
+const Part* part_of_first(const Scene& scene, const EvidenceEntry& first) {
     const auto found = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
         return part.name == first.name && first.face && *first.face < part.mesh.face_count();
     });
@@ -77,7 +77,7 @@ Scene without_what_hides(Scene scene, const Sight& sight) {
 
 } // namespace
 
-Scene with_failing_faces(const Scene& scene, const report::Check& check) {
+Scene with_failing_faces(const Scene& scene, const Check& check) {
     Scene out = scene;
     for (Part& part : out.parts) {
         std::vector<float> failing(part.mesh.face_count());
@@ -92,8 +92,8 @@ Scene with_failing_faces(const Scene& scene, const report::Check& check) {
     return out;
 }
 
-CloseView close_view(const Scene& marked, const report::Check& check, PictureSettings settings) {
-    const report::EvidenceEntry& first = check.evidence->front();
+CloseView close_view(const Scene& marked, const Check& check, PictureSettings settings) {
+    const EvidenceEntry& first = check.evidence->front();
     const double whole = marked.bounds().diagonal();
     settings.zoom = close_zoom;
     const Part* part = whole > 0 ? part_of_first(marked, first) : nullptr;
@@ -112,4 +112,4 @@ CloseView close_view(const Scene& marked, const report::Check& check, PictureSet
     return {without_what_hides(marked, sight), settings};
 }
 
-} // namespace facetmill::pipeline
+} // namespace facetmill::report

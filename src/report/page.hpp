@@ -4,18 +4,27 @@
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/face_tree.hpp"
 #include "io/gltf/contents/resolved_materials.hpp"
-#include "pipeline/plan.hpp"
 #include "report/record.hpp"
 
+#include <functional>
 #include <memory>
 
-namespace facetmill::pipeline {
+namespace facetmill::report {
+
+/// What a page has to know of a stage.
+struct PageStep {
+    std::string name;
+    bool loads = false, moves = false, checks = false; ///< see StageInfo
+    bool measures = false;                             ///< how far it moved the surface is shown
+};
 
 /// Collects it while a run goes on. Pictures become smaller, and are left out at last, before the page goes
 /// beyond its 3 MB; the record says so. Calls throw as pictures do (limit).
 class Page {
   public:
-    explicit Page(report::RunRecord& record) : record_(record) {}
+    /// digest: equal for scenes that are equal.
+    Page(RunRecord& record, std::function<std::string(const Scene&)> digest)
+        : record_(record), digest_(std::move(digest)) {}
 
     /// Before all else: collects no pictures and no histograms, but how far results are off, for Markdown.
     void leave_out_pictures() { with_pictures_ = false; }
@@ -57,17 +66,16 @@ class Page {
     UpAxis camera_up() const { return camera_up_; }
 
     /// Before the stage works on the scene.
-    void before(const Step& step, const Scene& scene);
+    void before(const PageStep& step, const Scene& scene);
     /// After it: its picture, distances where it measured such, and the results that it wrote, which are the
     /// outputs from that number on.
-    void after(const Step& step, const Scene& scene, report::StageRecord& stage, std::size_t first_output);
+    void after(const PageStep& step, const Scene& scene, StageRecord& stage, std::size_t first_output);
     /// Whether measure() looks at the scene.
-    bool is_measured(const Step& step, std::size_t first_output) const;
+    bool is_measured(const PageStep& step, std::size_t first_output) const;
     /// In the place of after(), where pictures are left out.
-    void measure(const Step& step, const Scene& scene, std::size_t first_output);
+    void measure(const PageStep& step, const Scene& scene, std::size_t first_output);
     /// Pictures of the checks from that number on that did not hold; a run that ends there shows its scene.
-    /// Whether it ends there.
-    bool failures(const std::string& step, const Scene& scene, std::size_t first_check);
+    void failures(const std::string& step, const Scene& scene, std::size_t first_check);
     /// Whether the result of that name, or the scene where the run ends, is off the reference.
     bool differs(const std::string& name) const;
     /// When nothing was written.
@@ -77,14 +85,15 @@ class Page {
     bool is_full() const;
     PictureSettings sized_for_page(double part) const;
     const Camera& camera_for(const Scene& scene);
-    void add_picture(const Scene& scene, report::StageRecord& stage);
-    void set_loaded(const Step& step, const Scene& scene);
+    void add_picture(const Scene& scene, StageRecord& stage);
+    void set_loaded(const PageStep& step, const Scene& scene);
     void add_results(std::size_t first_output, const Scene& scene);
     void add_result(const std::string& name, const Scene& scene);
-    report::DeviationView distances(const Scene& scene, Reference& from);
-    std::string picture_of_failure(const Scene& scene, const report::Check& check);
+    DeviationView distances(const Scene& scene, Reference& from);
+    std::string picture_of_failure(const Scene& scene, const Check& check);
 
-    report::RunRecord& record_;
+    RunRecord& record_;
+    std::function<std::string(const Scene&)> digest_;
     bool with_pictures_ = true;
     std::shared_ptr<Reference> loaded_, entering_;
     std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances, and of what they were from
@@ -100,4 +109,4 @@ class Page {
     std::size_t bytes_ = 0, measured_stages_ = 0, failures_shown_ = 0;
 };
 
-} // namespace facetmill::pipeline
+} // namespace facetmill::report
