@@ -65,14 +65,12 @@ void allow_deferred(AllowedFiles& allowed, const Value& value, const Folders& pl
 }
 
 void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Folders& places) {
-    for (const auto& step : steps) {
-        if (step.info && step.info->names_files) {
-            allow_deferred(allowed, step.given, places);
-            if (const auto evidence = step.stage->files().evidence)
-                allow_output(allowed, places.output(evidence->text));
-        }
-        for (const auto& arm : step.arms) allow_steps(allowed, *arm.steps, places);
-    }
+    pipeline::for_each_step(steps, [&](const pipeline::Step& step) {
+        if (!step.info || !step.info->names_files) return;
+        allow_deferred(allowed, step.given, places);
+        if (const auto evidence = step.stage->files().evidence)
+            allow_output(allowed, places.output(evidence->text));
+    });
 }
 
 std::string told(const Protections& on) {

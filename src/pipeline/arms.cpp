@@ -161,4 +161,11 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
     };
 }
 
+void for_each_step(const Steps& steps, const std::function<void(const Step&)>& visit) {
+    for (const Step& step : steps) {
+        visit(step);
+        for (const Arm& arm : step.arms) for_each_step(*arm.steps, visit);
+    }
+}
+
 } // namespace facetmill::pipeline

@@ -1,6 +1,6 @@
 #pragma once
 // Runs steps: for each its condition, its result from a source (cache, memory or cells), its record and its
-// contract. Whoever watches is called for what happens.
+// contract. Observers watch the events of a run (observers.hpp).
 
 #include "pipeline/failures.hpp"
 #include "pipeline/stage_cache.hpp"
@@ -29,22 +29,18 @@ struct Event {
     const Scene* scene = nullptr;
 };
 
-/// Whom the engine calls for events of one kind.
+/// An observer of events of one kind.
 struct Watch {
     Event::Kind kind;
-    /// What it makes of the scene, in words: that is fetched, and what it throws fails the run. Null: it
-    /// needs no scene.
+    /// What the observer makes of the scene, in words: the scene is fetched first, and an exception of
+    /// `call` fails the run. Null: it needs no scene.
     const char* scene_for;
     std::function<void(const Event&)> call;
     std::function<bool(const Event&)> wants = {}; ///< empty: all of them
 };
 
-class Engine {
-  public:
-    Engine(const Plan& plan_to_run, const RunSettings& given, RunState& run_state, Failures& all_failures,
-           StageCache& stage_cache)
-        : plan(plan_to_run), settings(given), state(run_state), failures(all_failures), cache(stage_cache) {}
-
+/// What a run has, and how its steps are run.
+struct Engine {
     const Plan& plan;
     const RunSettings& settings;
     RunState& state;
@@ -60,30 +56,17 @@ class Engine {
     /// Records the stage of a step. source: does its work and fills the record; false after a failure.
     bool run_stage(const Step& step, SceneState& flow,
                    const std::function<bool(report::StageRecord&)>& source);
+    /// Makes the scene of the flow be there. False after a failure.
+    bool fetch(const Mark& where, const std::string& what, SceneState& flow);
     /// flow: where the scene can be had.
     void emit(Event event, SceneState* flow = nullptr);
-    /// Until its end, work that is not of a stage reports its progress.
-    ProgressScope beside_stages(const std::string& what) const;
-
-  private:
+    /// Runs body; what it throws becomes a failure of the step. False then.
     template <class Body>
     bool guarded(const Step& step, Body&& body) {
         return failures.guarded(step.where, step.name, std::forward<Body>(body));
     }
-    bool fetch(const Mark& where, const std::string& what, SceneState& flow);
-    std::optional<bool> run_step(const Step& step, SceneState& flow, bool needed);
-    report::StageRecord& begin(const Step& step);
-    void record_skipped(const Step& step);
-    bool recall_or_perform(const Step& step, SceneState& flow, report::StageRecord& stage);
-    bool perform_stage(const Step& step, SceneState& flow, report::StageRecord& stage);
-    bool is_skipped(const Step& step, const Scene& scene);
-    std::vector<report::Check> judged(const Assertions& assertions, const Step& step, const Scene& scene,
-                                      const Box& entering, report::StageRecord& record);
-    std::shared_ptr<const Surface> reference_of(const Step& step, const Scene& scene) const;
-    void check_contract(const Step& step, const Scene& scene, const Box& entered, const Surface* reference);
-    bool run_arms(const Step& step, SceneState& flow, bool needed);
-    bool run_arm(const Step& step, const Arm& arm, SceneState& inside);
-    bool run_part_arms(const Step& step, SceneState& flow);
+    /// Until its end, work that is not of a stage reports its progress.
+    ProgressScope beside_stages(const std::string& what) const;
 };
 
 } // namespace facetmill::pipeline

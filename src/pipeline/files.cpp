@@ -99,13 +99,11 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places
 std::vector<fs::path> asset_roots_of(const Steps& steps, const Folders& places) {
     OrderedSet<fs::path> folders;
     for (const auto& folder : places.asset_roots) folders.add(folder);
-    for (const auto& step : steps) {
-        if (step.stage)
-            for (const auto& folder : step.stage->files().asset_roots)
-                if (!folder.text.empty()) folders.add(places.input(folder.text));
-        for (const auto& arm : step.arms)
-            for (const auto& folder : asset_roots_of(*arm.steps, places)) folders.add(folder);
-    }
+    for_each_step(steps, [&](const Step& step) {
+        if (!step.stage) return;
+        for (const auto& folder : step.stage->files().asset_roots)
+            if (!folder.text.empty()) folders.add(places.input(folder.text));
+    });
     return folders.all();
 }
 

@@ -24,6 +24,9 @@ void watch_view(Engine& engine, report::PageView& view);
 /// Stages for whoever shows them as they end.
 void watch_console(Engine& engine);
 
+/// For pictures and deviations alike: references of arms, failures of contracts, and the scene at the end.
+void watch_results(Engine& engine, report::Page& page, const char* scene_for);
+report::PageStep page_step(const Step& step);
 /// Whether the run makes a page; whether it has a report in this format.
 bool makes_page(const Engine& engine);
 bool has_report(const Engine& engine, std::string_view suffix);

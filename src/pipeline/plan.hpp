@@ -50,6 +50,9 @@ struct Step {
     Mark where;
 };
 
+/// Calls visit for each step, and for those of its arms after it.
+void for_each_step(const Steps& steps, const std::function<void(const Step&)>& visit);
+
 /// A file that a plan reads or writes.
 struct PlannedFile {
     std::filesystem::path path;

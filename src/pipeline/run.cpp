@@ -22,23 +22,20 @@ namespace {
 /// How many outputs there will be, about: files that stages name.
 std::size_t count_outputs(const Steps& steps) {
     std::size_t count = 0;
-    for (const Step& step : steps) {
-        if (step.kind == Step::Kind::stage) count += step.info->tells && !step.info->checks;
-        for (const Arm& arm : step.arms) count += count_outputs(*arm.steps);
-    }
+    for_each_step(steps,
+                  [&](const Step& step) { count += step.info && step.info->tells && !step.info->checks; });
     return count;
 }
 
 /// Whether a contract or a stage compares with the scene as loaded.
 bool compares_with_load(const Steps& steps) {
-    return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
-        if (step.ensure && step.ensure->deviation &&
-            step.ensure->deviation->from == DeviationLimits::From::load)
-            return true;
-        if (step.kind == Step::Kind::stage) return step.stage->compares_with_load();
-        return std::any_of(step.arms.begin(), step.arms.end(),
-                           [](const Arm& arm) { return compares_with_load(*arm.steps); });
+    bool any = false;
+    for_each_step(steps, [&](const Step& step) {
+        const auto* deviation = step.ensure && step.ensure->deviation ? &*step.ensure->deviation : nullptr;
+        any |= (deviation && deviation->from == DeviationLimits::From::load) ||
+               (step.stage && step.stage->compares_with_load());
     });
+    return any;
 }
 
 /// What is known of the run before it begins.

@@ -10,7 +10,7 @@ namespace facetmill {
 /// the run holds it: until the next load.
 inline const Surface& surface_as_loaded(Context& context) {
     static const Surface nothing;
-    const auto& loaded = context.run().loaded;
+    const Surface* loaded = context.loaded();
     return loaded ? *loaded : nothing;
 }
 

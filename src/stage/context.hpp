@@ -97,7 +97,17 @@ class Context {
     void mark_uncacheable() { ++run_.unrepeatable; }
 
     const Folders& places() const { return run_.places; }
-    RunState& run() { return run_; }
+    /// The files of the run, and what is recorded of them.
+    io::Outputs& outputs() { return run_.outputs; }
+    std::vector<report::FileRecord>& output_records() { return run_.record.outputs; }
+    /// Written files are decoded again and compared.
+    bool reads_back() const { return run_.read_back; }
+    /// An input with its SHA-256: only the same bytes may be written there.
+    void record_input(report::FileRecord file);
+    /// A file that an input names and that is missing.
+    void record_absent(std::string path) { run_.record.absent.push_back(std::move(path)); }
+    /// The surface of the scene after the last load, when a contract compares with it; or null.
+    const Surface* loaded() const { return run_.loaded.get(); }
     const Mark& where() const { return where_; }
     const std::string& name() const { return record_.name; }
 

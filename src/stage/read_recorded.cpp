@@ -10,9 +10,7 @@ namespace facetmill {
 
 void record_input(Context& context, const std::string& path, std::size_t bytes, std::string sum,
                   io::Span contents) {
-    context.run().outputs.protect(path, sum);
-    context.run().record.inputs.push_back(
-        {path, bytes, std::move(sum), {}, io::byte_kinds(path, bytes, contents)});
+    context.record_input({path, bytes, std::move(sum), {}, io::byte_kinds(path, bytes, contents)});
 }
 
 namespace {
@@ -43,7 +41,7 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_neighbour(context, file);
-    for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
+    for (const auto& file : log.absent) context.record_absent(file.string());
     if (log.unrepeatable || !input.is_as_opened()) context.mark_uncacheable();
     return {std::move(scene), std::move(log)};
 }

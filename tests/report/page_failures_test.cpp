@@ -36,10 +36,10 @@ report::Check check_of_face(const std::string& part, std::size_t face, const Vec
 /// Whether the middle of the picture of the close view is red.
 bool is_red_in_the_middle(const Scene& scene, const report::Check& check) {
     PictureSettings settings;
-    settings.attribute = pipeline::failing_attribute;
+    settings.attribute = report::failing_attribute;
     settings.range = {ColourRange::Kind::given, -1, 1, true};
-    const Scene marked = pipeline::with_failing_faces(scene, check);
-    auto close = pipeline::close_view(marked, check, settings);
+    const Scene marked = report::with_failing_faces(scene, check);
+    auto close = report::close_view(marked, check, settings);
     close.settings.at = check.evidence->front().at;
     close.settings.camera = camera_of(marked, close.settings);
     const Picture picture = picture_of(close.scene, close.settings);
@@ -60,7 +60,7 @@ TEST_CASE("a failing face inside of others is seen in the close view", "[pipelin
         const auto check = check_of_face("inner", f, middle_of(scene.parts[0], f));
         CHECK(is_red_in_the_middle(scene, check));
         // Only what lies before it goes: one side of the outer cube.
-        const auto close = pipeline::close_view(pipeline::with_failing_faces(scene, check), check, {});
+        const auto close = report::close_view(report::with_failing_faces(scene, check), check, {});
         CHECK(close.scene.parts[0].mesh.face_count() == 12);
         CHECK(close.scene.parts[1].mesh.face_count() == 10);
     }
@@ -71,8 +71,7 @@ TEST_CASE("where nothing hides a failing face, all of the scene is in the close 
     for (Index f = 0; f < 12; ++f) {
         const auto check = check_of_face("outer", f, middle_of(scene.parts[1], f));
         CHECK(is_red_in_the_middle(scene, check));
-        CHECK(
-            pipeline::close_view(pipeline::with_failing_faces(scene, check), check, {}).scene.face_count() ==
-            24);
+        CHECK(report::close_view(report::with_failing_faces(scene, check), check, {}).scene.face_count() ==
+              24);
     }
 }

@@ -37,8 +37,7 @@ Scene run_load(Scene scene, const LoadOptions& o, Context& context) {
     part.mesh = shapes::cube();
     scene.parts.push_back(std::move(part));
     if (o.mm) scene.unit = Unit::mm;
-    context.run().record.inputs.push_back(
-        {context.places().input(o.file.text).string(), 1, std::string(64, '0'), {}});
+    context.record_input({context.places().input(o.file.text).string(), 1, std::string(64, '0'), {}});
     return scene;
 }
 struct LoadStage : StageOf<run_load> {
@@ -106,8 +105,8 @@ Scene run_write(Scene scene, const WriteOptions& o, Context& context) {
     std::string text;
     for (const auto& part : scene.parts) text += fmt::format("{} {}\n", part.name, part.mesh.face_count());
     const auto& file =
-        context.run().outputs.add(context.places().output(o.path.text), std::as_bytes(std::span(text)));
-    context.run().record.outputs.push_back({o.path.text, file.bytes, file.sha256, {}});
+        context.outputs().add(context.places().output(o.path.text), std::as_bytes(std::span(text)));
+    context.output_records().push_back({o.path.text, file.bytes, file.sha256, {}});
     return scene;
 }
 struct WriteStage : StageOf<run_write> {

@@ -1,4 +1,4 @@
-#include "pipeline/observers/page.hpp"
+#include "pipeline/observers.hpp"
 
 #include <fmt/format.h>
 

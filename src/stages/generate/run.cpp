@@ -99,7 +99,6 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context, GenerateRepor
     report = {to_string(o.shape), part.mesh.vertex_count(), part.mesh.face_count(), {}};
     io::add_scene(scene, std::move(made.scene));
     report.part = scene.parts.back().name;
-    context.run().load_diagonal = diagonal(scene.bounds());
     return scene;
 }
 

@@ -124,7 +124,6 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
             load_file(scene, files[i], o, context);
         }
     }
-    context.run().load_diagonal = diagonal(scene.bounds());
     return scene;
 }
 
@@ -210,7 +209,6 @@ void LoadStage::on_cells(CellFlow& flow, Context& context) const {
         context.warn("W-CELLS", fmt::format("{}: cells do not carry {}", source->name(), what),
                      "use more memory, if it is needed");
     cells::require_as_opened(contents.files);
-    context.run().load_diagonal = diagonal(flow.bounds());
 }
 
 const RegisterStage registered = make_stage<LoadStage>(

@@ -190,7 +190,7 @@ class Judge {
     }
 
     void finish(const Scene& scene) {
-        if (s_.update_baseline) failed_.write(context_.run().outputs, *s_.baseline);
+        if (s_.update_baseline) failed_.write(context_.outputs(), *s_.baseline);
         if (s_.mark && any_) write_failed_copy(scene, flags_, *s_.mark);
         if (s_.baseline) tell_of_baseline();
     }

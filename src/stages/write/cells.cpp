@@ -50,7 +50,7 @@ struct Staged {
 /// Stages one file of bytes, told as the pipeline names it.
 Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& context) {
     const auto& staged =
-        context.run().outputs.add(context.places().output(name.string()), bytes, context.where());
+        context.outputs().add(context.places().output(name.string()), bytes, context.where());
     const std::string told = name.lexically_normal().string();
     return {&staged, {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, bytes)}};
 }
@@ -68,7 +68,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
     std::vector<const io::Outputs::File*> staged;
     const auto tell = [&](const Staged& one) {
         staged.push_back(one.file);
-        context.run().record.outputs.push_back(one.told);
+        context.output_records().push_back(one.told);
     };
     for (const io::OutputFile& file : written.index) tell(stage_one(folder / file.name, file.bytes, context));
     for (const std::string& name : written.names) tell(tiles.at(name));
@@ -76,7 +76,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
     report.tiles = written.told;
     for (const Diagnostic& w : written.warnings) context.warn(w.id, w.message, w.hint);
     context.attribute_changes(outline.parts.front(), written.changes);
-    if (!context.run().read_back) return;
+    if (!context.reads_back()) return;
     for (const io::Outputs::File* file : staged) read_again(*file, context);
 }
 
@@ -139,7 +139,7 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
         settings.double_positions = needs_full(
             cells::rounding_of(*flow.partition, outline.parts.front().transform), outline.bounds(), context);
     double rounding = 0;
-    const auto& staged = context.run().outputs.add(
+    const auto& staged = context.outputs().add(
         target,
         [&](const io::Outputs::Put& put) {
             rounding = cells::write_cells(*flow.partition, place, codec, settings, put);
@@ -148,9 +148,9 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
     warn_of_rounding(rounding, o, codec, flow, context);
     if (codec.name == "glb") tell_of_positions_only(o, flow, outline.parts.front(), context);
     const std::string told = std::filesystem::path(o.path.text).lexically_normal().string();
-    context.run().record.outputs.push_back(
+    context.output_records().push_back(
         {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, {})});
-    if (context.run().read_back) read_again(staged, context);
+    if (context.reads_back()) read_again(staged, context);
     context.report(fields_of<WriteReport>(declare_write_report), &report);
 }
 

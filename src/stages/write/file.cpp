@@ -251,9 +251,8 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
 
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
                  const Scene& scene, const io::WriteSettings& settings, Context& context) {
-    RunState& run = context.run();
     const io::Outputs::File* main = nullptr;
-    const std::size_t first = run.record.outputs.size();
+    const std::size_t first = context.output_records().size();
     ProgressSteps steps({1, 3});
     for (const auto& file : written.files) {
         if (main && path == "-") {
@@ -265,21 +264,21 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
         const bool packs = packing != io::Packing::none;
         const io::Bytes packed = packs ? io::packed(file.bytes, packing) : io::Bytes{};
         const std::filesystem::path name = main ? path.parent_path() / file.name : path;
-        const auto& staged = run.outputs.add(context.places().output(name.string()),
-                                             packs ? packed : file.bytes, context.where());
+        const auto& staged = context.outputs().add(context.places().output(name.string()),
+                                                   packs ? packed : file.bytes, context.where());
         if (!main) main = &staged;
         const std::string told = name.lexically_normal().string();
-        run.record.outputs.push_back(
+        context.output_records().push_back(
             {told,
              staged.bytes,
              staged.sha256,
              {},
              io::byte_kinds(told, staged.bytes, packed.empty() ? io::Span(file.bytes) : io::Span{})});
     }
-    if (!main || !run.read_back) return;
+    if (!main || !context.reads_back()) return;
     steps.next();
-    const io::ReadBack back = io::read_back(run.outputs.staged(*main), codec, scene, settings, written);
-    run.record.outputs[first].read_back = back.json();
+    const io::ReadBack back = io::read_back(context.outputs().staged(*main), codec, scene, settings, written);
+    context.output_records()[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",
                      fmt::format("'{}' is less sound when read back than the scene: {}", path.string(),

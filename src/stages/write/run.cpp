@@ -221,7 +221,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
     choose_bits(settings, o, *codec, out, report);
-    settings.draco.keep_decoded = context.run().read_back;
+    settings.draco.keep_decoded = context.reads_back();
     steps.next();
     const io::Written written = codec->write(out, settings);
     if (written.cache.triangles > 0) report.order = written.cache;
