@@ -1,7 +1,7 @@
 #!/bin/sh
 # ccache.sh CCACHE COMPILER ARGUMENT...: compiles through ccache.
-# A precompiled header that is already there is removed before it is made anew: else ccache takes it for one that the
-# compiler reads, looks no further, and may answer with one that was made of other headers.
+# A precompiled header is removed before it is made again, because ccache takes an existing one for an input. Its comments
+# count: the compiler recognises headers by their bytes, and would define twice what an older precompiled one has.
 set -eu
 case " $* " in
 *" c++-header "*)
@@ -13,6 +13,7 @@ case " $* " in
         fi
         before=$argument
     done
+    export CCACHE_COMMENTS=1
     ;;
 esac
 # Precompiled headers make ccache doubt the preprocessed text unless it is told that time macros do not matter.

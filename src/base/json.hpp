@@ -7,8 +7,8 @@
 namespace facetmill {
 using Json = nlohmann::ordered_json;
 
-/// Parses a JSON text. Throws Json::parse_error; with Broken::discarded an invalid text gives a value that
-/// is_discarded(). Compiled once, unlike Json::parse, which is a template.
+/// The value that a JSON text stands for. Throws Json::parse_error; with Broken::discarded a broken text
+/// gives a value that is_discarded(). Compiled once, as Json::parse, a template, would not be.
 enum class Broken { thrown, discarded };
 Json parse_json(std::string_view text, Broken broken = Broken::thrown);
 } // namespace facetmill
