@@ -477,24 +477,15 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     if (settings.draco.on && settings.mesh_manifold)
         patch.warn("W-MANIFOLD",
                    "EXT_mesh_manifold is not written under Draco, which renumbers what it names");
-    claim_placements(patch);
-    move_skins(patch, skin_moves);
+    Claims claims = claim_placements(patch, skin_moves);
     ProgressSteps steps({4, 1, 2, 3});
-    const auto mesh_of_part = patch_meshes(patch);
+    PartMeshes meshes = patch_meshes(patch, std::move(claims));
     steps.next();
-    const auto node_of_part = patch_nodes(patch, mesh_of_part);
-    for (std::size_t i = 0; i < node_of_part.size(); ++i) {
-        if (node_of_part[i] < 0) continue;
-        const auto node = static_cast<std::size_t>(node_of_part[i]);
-        patch.bits_of_node[node] = settings.grid_bits(i);
-        if (settings.lattice(i).step > 0) patch.lattice_of_node[node] = settings.lattice(i);
-    }
-    patch_levels(patch, node_of_part);
-    drop_dead_meshes(patch, mesh_of_part);
+    PartNodes nodes = patch_nodes(patch, std::move(meshes));
     steps.next();
-    store_meshes(patch);
-    store_streams(patch);
-    interleave_attributes(patch);
+    const StoredMeshes stored = store_meshes(patch, std::move(nodes));
+    store_streams(patch, stored);
+    interleave_attributes(patch, stored);
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
@@ -503,7 +494,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     const Textures textures = settings.textures != Textures::automatic ? settings.textures
                               : binary                                 ? Textures::embed
                                                                        : Textures::copy;
-    auto images = place_images(patch, stem, textures);
+    auto images = place_images(patch, stored.images, stem, textures);
     Bytes buffer = builder.finish(written.warnings);
     if (!settings.names) drop_names(builder.json());
     // Whole numbers stand where other files have them, too: their nodes stay as they are to the last bit.

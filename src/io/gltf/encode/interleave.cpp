@@ -144,7 +144,7 @@ void Interleave::run() {
 
 } // namespace
 
-void interleave_attributes(Patch& patch) {
+void interleave_attributes(Patch& patch, const StoredMeshes&) {
     if (patch.settings.interleave) Interleave(patch.builder).run();
 }
 

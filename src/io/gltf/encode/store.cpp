@@ -28,10 +28,17 @@ std::string key_of(const std::optional<PositionGrid>& grid) {
 /// A pass over the document's meshes.
 class Store {
   public:
-    explicit Store(Patch& patch)
+    Store(Patch& patch, const PartNodes& nodes)
         : patch_(patch), builder_(patch.builder), json_(patch.builder.json()),
           quantize_(patch.settings.quantize),
-          filters_(patch.settings.meshopt.on && patch.settings.meshopt.filters) {}
+          filters_(patch.settings.meshopt.on && patch.settings.meshopt.filters) {
+        for (std::size_t i = 0; i < nodes.of_part.size(); ++i) {
+            if (nodes.of_part[i] < 0) continue;
+            const auto node = static_cast<std::size_t>(nodes.of_part[i]);
+            bits_of_node_[node] = patch.settings.grid_bits(i);
+            if (const Lattice own = patch.settings.lattice(i); own.step > 0) lattice_of_node_[node] = own;
+        }
+    }
 
     void run();
 
@@ -77,8 +84,10 @@ class Store {
     Json& json_;
     const QuantizeSettings& quantize_;
     bool filters_;
-    bool small_integers_ = false;                 ///< as only KHR_mesh_quantization allows them
-    std::vector<std::vector<std::size_t>> nodes_; ///< by mesh
+    bool small_integers_ = false;                    ///< as only KHR_mesh_quantization allows them
+    std::vector<std::vector<std::size_t>> nodes_;    ///< by mesh
+    std::map<std::size_t, int> bits_of_node_;        ///< of the positions of its mesh, if they are on a grid
+    std::map<std::size_t, Lattice> lattice_of_node_; ///< of nodes whose parts have one
     std::vector<NodeFrame> frames_;
     std::set<std::size_t> animated_, joints_;
     std::map<std::string, std::size_t> made_; ///< by accessor and what was asked of it
@@ -161,7 +170,7 @@ const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid)
 int Store::bits_of(std::size_t mesh) const {
     int bits = 0;
     for (const std::size_t node : nodes_[mesh])
-        if (const auto of = patch_.bits_of_node.find(node); of != patch_.bits_of_node.end())
+        if (const auto of = bits_of_node_.find(node); of != bits_of_node_.end())
             bits = std::max(bits, of->second);
     return bits > 0 ? bits : quantize_.position_bits;
 }
@@ -180,8 +189,8 @@ PositionGrid Store::grid_in(std::size_t mesh, const Box& box) const {
     Lattice finest;
     bool all = true;
     for (const std::size_t node : nodes_[mesh]) {
-        const auto found = patch_.lattice_of_node.find(node);
-        all = all && found != patch_.lattice_of_node.end();
+        const auto found = lattice_of_node_.find(node);
+        all = all && found != lattice_of_node_.end();
         if (all && !(finest.step > 0 && finest.step <= found->second.step)) finest = found->second;
     }
     bool within = all && finest.step > 0;
@@ -523,9 +532,10 @@ void Store::run() {
 
 } // namespace
 
-void store_meshes(Patch& patch) {
+StoredMeshes store_meshes(Patch& patch, PartNodes nodes) {
     const MeshoptSettings& meshopt = patch.settings.meshopt;
-    if (patch.settings.quantize.on || (meshopt.on && meshopt.filters)) Store(patch).run();
+    if (patch.settings.quantize.on || (meshopt.on && meshopt.filters)) Store(patch, nodes).run();
+    return {std::move(nodes.images)};
 }
 
 } // namespace facetmill::io::gltf

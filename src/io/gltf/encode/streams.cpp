@@ -190,7 +190,7 @@ void Streams::store_instances(Json& attributes, bool on_grid) {
 
 } // namespace
 
-void store_streams(Patch& patch) {
+void store_streams(Patch& patch, const StoredMeshes&) {
     if (patch.settings.meshopt.on) Streams(patch).run();
 }
 

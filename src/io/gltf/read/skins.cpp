@@ -111,21 +111,21 @@ Scene in_bind_pose(Scene scene, int base, std::map<std::size_t, Transform>& skin
     return scene;
 }
 
-void move_skins(Patch& patch, const std::map<std::size_t, Transform>& skin_moves) {
+void move_skins(Patch& patch, Claims& claims, const std::map<std::size_t, Transform>& skin_moves) {
     std::map<std::size_t, Transform> roots;
     for (const auto& [skin, move] : skin_moves) {
         if (move.identity()) continue;
-        for (const std::size_t root : roots_of(patch.builder.source().json(), patch.frames, skin))
+        for (const std::size_t root : roots_of(patch.builder.source().json(), claims.frames, skin))
             roots[root] = move;
         move_bind_matrices(patch, skin, inverse(move).value());
     }
-    std::vector<std::size_t> root(patch.frames.size());
-    for (std::size_t n = 0; n < root.size(); ++n) root[n] = root_of(patch.frames, n);
+    std::vector<std::size_t> root(claims.frames.size());
+    for (std::size_t n = 0; n < root.size(); ++n) root[n] = root_of(claims.frames, n);
     for (std::size_t n = 0; n < root.size(); ++n)
         if (const auto move = roots.find(root[n]); move != roots.end())
-            patch.frames[n].world = move->second * patch.frames[n].world;
+            claims.frames[n].world = move->second * claims.frames[n].world;
     for (const auto& [node, move] : roots) move_from_above(patch, node, move);
-    patch.above = std::move(roots);
+    claims.above = std::move(roots);
 }
 
 } // namespace facetmill::io::gltf

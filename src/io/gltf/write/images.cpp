@@ -24,13 +24,13 @@ struct FileImage {
     const Bytes* bytes;       ///< null when it was not read
 };
 
-std::vector<FileImage> file_images(Patch& patch) {
+std::vector<FileImage> file_images(Patch& patch, const ImageOwners& owners) {
     std::vector<FileImage> all;
     for (std::size_t i = 0; i < count_of(patch.builder.json(), "images"); ++i) {
         const auto uri = item(patch.builder.json(), "images", i).find("uri");
         if (!uri || is_data_uri(uri->text())) continue;
-        const auto owner = patch.image_document.find(i);
-        const int d = owner == patch.image_document.end() ? patch.base : owner->second;
+        const auto owner = owners.find(i);
+        const int d = owner == owners.end() ? patch.base : owner->second;
         const Document* document = patch.scene.documents[static_cast<std::size_t>(d)].get();
         const auto found = document->files.find(uri->text());
         all.push_back({i, uri->text(), document, found == document->files.end() ? nullptr : &found->second});
@@ -114,11 +114,12 @@ void refer(Patch& patch, Placer& placer, const FileImage& image) {
 
 } // namespace
 
-std::vector<OutputFile> place_images(Patch& patch, const std::string& stem, Textures textures) {
+std::vector<OutputFile> place_images(Patch& patch, const ImageOwners& owners, const std::string& stem,
+                                     Textures textures) {
     for (std::size_t i = 0; i < count_of(patch.builder.json(), "images"); ++i)
         warn_of_fault(patch, i, embedded_fault(patch, item(patch.builder.json(), "images", i)));
     Placer placer(patch, stem);
-    for (const FileImage& image : file_images(patch)) {
+    for (const FileImage& image : file_images(patch, owners)) {
         if (textures == Textures::reference)
             refer(patch, placer, image);
         else if (!image.bytes)

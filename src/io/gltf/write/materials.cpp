@@ -9,12 +9,13 @@ namespace {
 
 enum : std::size_t { kind_texture, kind_image, kind_sampler, kinds };
 
-const Json& other_document(Patch& patch, int document) {
-    auto found = patch.others.find(document);
-    if (found == patch.others.end())
-        found = patch.others
+const Json& other_document(MaterialCopies& copies, int document) {
+    auto found = copies.others.find(document);
+    if (found == copies.others.end())
+        found = copies.others
                     .emplace(document,
-                             parse_document(patch.scene.documents[static_cast<std::size_t>(document)]->json))
+                             parse_document(
+                                 copies.patch.scene.documents[static_cast<std::size_t>(document)]->json))
                     .first;
     return found->second;
 }
@@ -22,71 +23,71 @@ const Json& other_document(Patch& patch, int document) {
 /// Runs `copy` the first time that item i of that kind of a document is asked for, and remembers the new
 /// index.
 template <class Copy>
-std::size_t once(Patch& patch, int document, std::size_t kind, std::size_t i, Copy&& copy) {
+std::size_t once(MaterialCopies& copies, int document, std::size_t kind, std::size_t i, Copy&& copy) {
     const auto key = std::pair(document, i * kinds + kind);
-    if (const auto known = patch.copied.find(key); known != patch.copied.end()) return known->second;
+    if (const auto known = copies.copied.find(key); known != copies.copied.end()) return known->second;
     const std::size_t index = copy();
-    patch.copied[key] = index;
+    copies.copied[key] = index;
     return index;
 }
 
-std::size_t copy_image(Patch& patch, int document, std::size_t i) {
-    const Json& other = other_document(patch, document);
+std::size_t copy_image(MaterialCopies& copies, int document, std::size_t i) {
+    const Json& other = other_document(copies, document);
     Json image = item(other, "images", i).json();
     if (image.contains("bufferView")) {
-        Source source(other, patch.scene.documents[static_cast<std::size_t>(document)]->buffers);
+        Source source(other, copies.patch.scene.documents[static_cast<std::size_t>(document)]->buffers);
         const Span bytes = source.view(item(other, "images", i).at("bufferView"));
-        image["bufferView"] = patch.builder.add_view(Bytes(bytes.begin(), bytes.end()));
+        image["bufferView"] = copies.patch.builder.add_view(Bytes(bytes.begin(), bytes.end()));
     }
-    const std::size_t index = patch.builder.add("images", std::move(image));
-    patch.image_document[index] = document;
+    const std::size_t index = copies.patch.builder.add("images", std::move(image));
+    copies.images[index] = document;
     return index;
 }
 
-std::size_t image_for(Patch& patch, int document, const JsonCursor& reference) {
-    const std::size_t i = reference.index(count_of(other_document(patch, document), "images"), "image");
-    return once(patch, document, kind_image, i, [&] { return copy_image(patch, document, i); });
+std::size_t image_for(MaterialCopies& copies, int document, const JsonCursor& reference) {
+    const std::size_t i = reference.index(count_of(other_document(copies, document), "images"), "image");
+    return once(copies, document, kind_image, i, [&] { return copy_image(copies, document, i); });
 }
 
-std::size_t copy_texture(Patch& patch, int document, std::size_t i) {
-    const Json& other = other_document(patch, document);
+std::size_t copy_texture(MaterialCopies& copies, int document, std::size_t i) {
+    const Json& other = other_document(copies, document);
     const JsonCursor place = item(other, "textures", i);
     Json texture = place.json();
-    if (const auto source = place.find("source")) texture["source"] = image_for(patch, document, *source);
+    if (const auto source = place.find("source")) texture["source"] = image_for(copies, document, *source);
     if (const auto sampler = place.find("sampler")) {
         const std::size_t s = sampler->index(count_of(other, "samplers"), "sampler");
-        texture["sampler"] = once(patch, document, kind_sampler, s, [&] {
-            return patch.builder.add("samplers", item(other, "samplers", s).json());
+        texture["sampler"] = once(copies, document, kind_sampler, s, [&] {
+            return copies.patch.builder.add("samplers", item(other, "samplers", s).json());
         });
     }
     if (const auto extensions = place.find("extensions"))
         for (const auto& [name, value] : extensions->json().items())
             if (const auto source = JsonCursor(value, extensions->path() + "." + name).find("source")) {
-                texture["extensions"][name]["source"] = image_for(patch, document, *source);
-                patch.builder.use_extension(name, !texture.contains("source"));
+                texture["extensions"][name]["source"] = image_for(copies, document, *source);
+                copies.patch.builder.use_extension(name, !texture.contains("source"));
             }
-    return patch.builder.add("textures", std::move(texture));
+    return copies.patch.builder.add("textures", std::move(texture));
 }
 
 /// Renumbers the textures in a material, its extensions included: everything called "...Texture" with an
 /// index.
-void copy_textures(Patch& patch, int document, Json& json) {
+void copy_textures(MaterialCopies& copies, int document, Json& json) {
     if (!json.is_object()) return;
     for (auto& [key, value] : json.items()) {
         if (key == "extras") continue;
         const std::string name = key;
         const bool texture = name.size() >= 7 && name.compare(name.size() - 7, 7, "Texture") == 0;
         if (texture && value.is_object() && value.contains("index")) {
-            const Json& other = other_document(patch, document);
+            const Json& other = other_document(copies, document);
             const std::size_t i =
                 JsonCursor(value, "materials").at("index").index(count_of(other, "textures"), "texture");
             value["index"] =
-                once(patch, document, kind_texture, i, [&] { return copy_texture(patch, document, i); });
+                once(copies, document, kind_texture, i, [&] { return copy_texture(copies, document, i); });
         }
         if (name == "extensions" && value.is_object())
             for (const auto& [extension, content] : value.items())
-                patch.builder.use_extension(extension, false);
-        copy_textures(patch, document, value);
+                copies.patch.builder.use_extension(extension, false);
+        copy_textures(copies, document, value);
     }
 }
 
@@ -109,24 +110,26 @@ void patch_sides(const Material& material, Json& json) {
 
 } // namespace
 
-int patch_material(Patch& patch, Index index) {
-    if (index >= patch.scene.materials.size()) return -1;
-    const Material& material = patch.scene.materials[index];
-    if (material.document >= 0 && material.document == patch.base && material.index >= 0) {
-        patch_sides(material, patch.builder.json()["materials"][static_cast<std::size_t>(material.index)]);
+int patch_material(MaterialCopies& copies, Index index) {
+    if (index >= copies.patch.scene.materials.size()) return -1;
+    const Material& material = copies.patch.scene.materials[index];
+    if (material.document >= 0 && material.document == copies.patch.base && material.index >= 0) {
+        patch_sides(material,
+                    copies.patch.builder.json()["materials"][static_cast<std::size_t>(material.index)]);
         return material.index;
     }
-    if (const auto known = patch.materials.find(index); known != patch.materials.end()) return known->second;
+    if (const auto known = copies.materials.find(index); known != copies.materials.end())
+        return known->second;
     Json json;
     if (material.document >= 0 && material.index >= 0) {
-        const Json& other = other_document(patch, material.document);
+        const Json& other = other_document(copies, material.document);
         json = item(other, "materials", static_cast<std::size_t>(material.index)).json();
-        copy_textures(patch, material.document, json);
+        copy_textures(copies, material.document, json);
         patch_sides(material, json);
     } else {
         json = new_material(material);
     }
-    return patch.materials[index] = static_cast<int>(patch.builder.add("materials", std::move(json)));
+    return copies.materials[index] = static_cast<int>(copies.patch.builder.add("materials", std::move(json)));
 }
 
 } // namespace facetmill::io::gltf

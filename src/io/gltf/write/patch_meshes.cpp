@@ -71,7 +71,8 @@ bool is_original(Patch& patch, const Part& part) {
     });
 }
 
-EncodeSettings settings_for(Patch& patch, const Part& part) {
+EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
+    const Patch& patch = copies.patch;
     EncodeSettings s;
     s.draco = patch.settings.draco;
     const auto number = static_cast<std::size_t>(&part - &patch.scene.parts[0]);
@@ -87,7 +88,7 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     s.keep_exact = patch.settings.quantize.on;
     s.points = patch.of_points;
     s.name = part.name;
-    s.material = [&patch](Index m) { return patch_material(patch, m); };
+    s.material = [&copies](Index m) { return patch_material(copies, m); };
     // Numbers of features and tables mean something in one document only.
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d)
         if (static_cast<int>(d) != patch.base)
@@ -129,9 +130,10 @@ void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
 }
 
 /// The mesh object for a part: `mesh` is what it was (or has only a name). Null when nothing is left of it.
-Json encoded_object(Patch& patch, Json mesh, Variant& variant) {
+Json encoded_object(MaterialCopies& copies, Json mesh, Variant& variant) {
+    Patch& patch = copies.patch;
     const Part& part = patch.scene.parts[variant.example];
-    EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
+    EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(copies, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
     patch.written.cache.add(encoded.cache);
     Json untouched = Json::array(); // points, and lines of which tubes were made
@@ -158,7 +160,8 @@ bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Va
 }
 
 /// All parts of one mesh of the patched document.
-void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& variants) {
+void patch_variants(MaterialCopies& copies, std::size_t mesh, std::vector<Variant>& variants) {
+    Patch& patch = copies.patch;
     const bool all_original =
         std::all_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
     if (all_original) {
@@ -173,13 +176,13 @@ void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& varian
     if (slot_free)
         for (const auto& primitive : before["primitives"])
             if (is_of_part(primitive, lines)) patch.builder.release(primitive);
-    int copies = 0;
+    int own = 0;
     for (auto& variant : variants) {
         if (variant.original) {
             variant.mesh = static_cast<int>(mesh);
             continue;
         }
-        Json object = encoded_object(patch, before, variant);
+        Json object = encoded_object(copies, before, variant);
         if (object.is_null()) continue;
         if (slot_free) {
             patch.builder.json()["meshes"][mesh] = std::move(object);
@@ -187,13 +190,13 @@ void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& varian
             slot_free = false;
         } else {
             variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
-            copies += !is_level(patch.scene, variants, variant);
+            own += !is_level(patch.scene, variants, variant);
         }
     }
-    if (copies > 0)
+    if (own > 0)
         patch.warn("W-INSTANCES",
                    fmt::format("the instances of meshes[{}] differ now: {} of them {} a mesh of {} own", mesh,
-                               copies, copies == 1 ? "has" : "have", copies == 1 ? "its" : "their"));
+                               own, own == 1 ? "has" : "have", own == 1 ? "its" : "their"));
 }
 
 } // namespace
@@ -210,7 +213,8 @@ bool same_mesh(const Mesh& a, const Mesh& b, const std::function<bool(Index, Ind
                       same_primitive);
 }
 
-std::vector<int> patch_meshes(Patch& patch) {
+PartMeshes patch_meshes(Patch& patch, Claims claims) {
+    MaterialCopies copies{patch};
     const auto& parts = patch.scene.parts;
     const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
     std::vector<std::size_t> variant_of(parts.size());
@@ -236,11 +240,11 @@ std::vector<int> patch_meshes(Patch& patch) {
     }
     for (auto& [key, family] : families) {
         if (key.first == patch.base && patch.base >= 0) {
-            patch_variants(patch, static_cast<std::size_t>(key.second), family);
+            patch_variants(copies, static_cast<std::size_t>(key.second), family);
             continue;
         }
         for (auto& variant : family) {
-            Json object = encoded_object(patch, {{"name", parts[variant.example].name}}, variant);
+            Json object = encoded_object(copies, {{"name", parts[variant.example].name}}, variant);
             if (!object.is_null())
                 variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
         }
@@ -251,13 +255,14 @@ std::vector<int> patch_meshes(Patch& patch) {
         mesh_of_part[i] = variant.mesh;
         patch.written.dropped_faces += variant.dropped_faces;
     }
-    return mesh_of_part;
+    return {std::move(claims), std::move(mesh_of_part), std::move(copies.images)};
 }
 
-void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part) {
+void drop_dead_meshes(Patch& patch, const PartMeshes& meshes) {
     std::set<std::size_t> dead;
-    for (const auto& placement : patch.placements) dead.insert(static_cast<std::size_t>(placement.mesh));
-    for (const int mesh : mesh_of_part)
+    for (const auto& placement : meshes.claims.placements)
+        dead.insert(static_cast<std::size_t>(placement.mesh));
+    for (const int mesh : meshes.of_part)
         if (mesh >= 0) dead.erase(static_cast<std::size_t>(mesh));
     Json& json = patch.builder.json();
     visit_mesh_references(json, [&](Json& r) { dead.erase(r.get<std::size_t>()); });

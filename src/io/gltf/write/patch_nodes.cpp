@@ -63,24 +63,24 @@ void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int pa
 }
 
 /// Where the node of a part should be: where the part is, taken back by the instance that it stands at.
-Transform node_world(const Patch& patch, const Part& part) {
-    const auto found = patch.largest_instances.find(part.node);
-    if (part.document != patch.base || found == patch.largest_instances.end()) return part.transform;
-    const Transform& before = patch.frames[static_cast<std::size_t>(part.node)].world;
+Transform node_world(const Patch& patch, const Claims& claims, const Part& part) {
+    const auto found = claims.largest_instances.find(part.node);
+    if (part.document != patch.base || found == claims.largest_instances.end()) return part.transform;
+    const Transform& before = claims.frames[static_cast<std::size_t>(part.node)].world;
     if (part.transform == before * found->second) return before;
     const auto back = inverse(found->second);
     return back ? part.transform * *back : part.transform;
 }
 
 /// Where each node of the document should be now: parts where they say, everything else where it was.
-std::vector<Transform> wanted_worlds(const Patch& patch) {
+std::vector<Transform> wanted_worlds(const Patch& patch, const Claims& claims) {
     std::vector<Transform> worlds;
-    for (const auto& frame : patch.frames) worlds.push_back(frame.world);
-    for (std::size_t p = 0; p < patch.placements.size(); ++p) {
-        const auto& placement = patch.placements[p];
-        if (patch.claimed[p] < 0 || placement.node < 0) continue;
-        const Part& part = patch.scene.parts[static_cast<std::size_t>(patch.claimed[p])];
-        if (!part.skinned) worlds[static_cast<std::size_t>(placement.node)] = node_world(patch, part);
+    for (const auto& frame : claims.frames) worlds.push_back(frame.world);
+    for (std::size_t p = 0; p < claims.placements.size(); ++p) {
+        const auto& placement = claims.placements[p];
+        if (claims.claimed[p] < 0 || placement.node < 0) continue;
+        const Part& part = patch.scene.parts[static_cast<std::size_t>(claims.claimed[p])];
+        if (!part.skinned) worlds[static_cast<std::size_t>(placement.node)] = node_world(patch, claims, part);
     }
     return worlds;
 }
@@ -119,11 +119,11 @@ void place_instead(Json& document, std::size_t node, std::size_t other) {
 }
 
 /// Warns of a node that moves by itself under one that is animated and stays.
-void warn_of_animated_ancestor(Patch& patch, std::size_t n, const std::set<std::size_t>& animated,
-                               const std::vector<Transform>& wanted) {
-    for (int p = patch.frames[n].parent; p >= 0; p = patch.frames[static_cast<std::size_t>(p)].parent) {
+void warn_of_animated_ancestor(Patch& patch, const Claims& claims, std::size_t n,
+                               const std::set<std::size_t>& animated, const std::vector<Transform>& wanted) {
+    for (int p = claims.frames[n].parent; p >= 0; p = claims.frames[static_cast<std::size_t>(p)].parent) {
         const auto parent = static_cast<std::size_t>(p);
-        if (animated.contains(parent) && wanted[parent] == patch.frames[parent].world)
+        if (animated.contains(parent) && wanted[parent] == claims.frames[parent].world)
             return patch.warn("W-TRANSFORM",
                               fmt::format("nodes[{}] has moved under the animated nodes[{}], which stays: "
                                           "the animation plays around the old position",
@@ -132,18 +132,18 @@ void warn_of_animated_ancestor(Patch& patch, std::size_t n, const std::set<std::
 }
 
 /// Nodes whose parents and own place are as they were keep their transform as written.
-void move_nodes(Patch& patch) {
-    const auto wanted = wanted_worlds(patch);
+void move_nodes(Patch& patch, const Claims& claims) {
+    const auto wanted = wanted_worlds(patch, claims);
     const auto animated = animated_nodes(patch.builder.json());
-    for (const std::size_t n : parents_first(patch.frames)) {
-        const auto& frame = patch.frames[n];
+    for (const std::size_t n : parents_first(claims.frames)) {
+        const auto& frame = claims.frames[n];
         const auto parent = static_cast<std::size_t>(frame.parent);
-        const bool parent_moved = frame.parent >= 0 && wanted[parent] != patch.frames[parent].world;
+        const bool parent_moved = frame.parent >= 0 && wanted[parent] != claims.frames[parent].world;
         if (!parent_moved && wanted[n] == frame.world) continue;
-        const auto root = patch.above.find(n);
-        const auto up = frame.parent >= 0           ? inverse(wanted[parent])
-                        : root == patch.above.end() ? Transform{}
-                                                    : inverse(root->second);
+        const auto root = claims.above.find(n);
+        const auto up = frame.parent >= 0            ? inverse(wanted[parent])
+                        : root == claims.above.end() ? Transform{}
+                                                     : inverse(root->second);
         const auto down = animated.contains(n) ? inverse(frame.local) : Transform{};
         if (!up || !down) {
             patch.warn("W-TRANSFORM",
@@ -152,7 +152,7 @@ void move_nodes(Patch& patch) {
             continue;
         }
         if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;
-        if (!parent_moved) warn_of_animated_ancestor(patch, n, animated, wanted);
+        if (!parent_moved) warn_of_animated_ancestor(patch, claims, n, animated, wanted);
         // An animated node keeps its own transform, which the animation drives: one above it moves both.
         if (animated.contains(n))
             move_from_above(patch, n, *up * wanted[n] * *down);
@@ -177,23 +177,23 @@ Json& root_nodes(Json& document) {
 }
 
 /// The node of the document that a new part was split off from; -1 for none.
-int origin_of(const Patch& patch, const Part& part) {
+int origin_of(const Patch& patch, const Claims& claims, const Part& part) {
     const bool there = part.document == patch.base && part.node >= 0 &&
-                       static_cast<std::size_t>(part.node) < patch.frames.size();
+                       static_cast<std::size_t>(part.node) < claims.frames.size();
     return there ? part.node : -1;
 }
 
 /// Where the part stands below a node that an animation moves, so that it moves along; nothing when it stands
 /// by itself.
-std::optional<Transform> place_below(const Patch& patch, const Part& part, int origin) {
+std::optional<Transform> place_below(const Patch& patch, const Claims& claims, const Part& part, int origin) {
     const auto animated = animated_nodes(patch.builder.json());
     bool moves = false;
-    for (int n = origin; n >= 0; n = patch.frames[static_cast<std::size_t>(n)].parent)
+    for (int n = origin; n >= 0; n = claims.frames[static_cast<std::size_t>(n)].parent)
         moves |= animated.contains(static_cast<std::size_t>(n));
     if (!moves) return {};
-    const auto up = inverse(wanted_worlds(patch)[static_cast<std::size_t>(origin)]);
+    const auto up = inverse(wanted_worlds(patch, claims)[static_cast<std::size_t>(origin)]);
     if (!up) return {};
-    const Transform local = *up * node_world(patch, part);
+    const Transform local = *up * node_world(patch, claims, part);
     return nearly_same(local, {}) ? Transform{} : local;
 }
 
@@ -216,20 +216,20 @@ void copy_weights(Patch& patch, int origin, std::size_t node) {
     }
 }
 
-std::size_t add_node(Patch& patch, const Part& part, int mesh) {
+std::size_t add_node(Patch& patch, const Claims& claims, const Part& part, int mesh) {
     Json node = {{"name", part.name}};
     if (mesh >= 0) node["mesh"] = mesh;
     Json& document = patch.builder.json();
-    const int origin = origin_of(patch, part);
+    const int origin = origin_of(patch, claims, part);
     std::optional<Transform> below;
     if (part.skinned && mesh >= 0 && origin >= 0) {
         const Json& source = patch.builder.source().json()["nodes"][static_cast<std::size_t>(origin)];
         if (source.contains("skin")) node["skin"] = source["skin"];
     } else {
-        below = place_below(patch, part, origin);
-        const Transform at = below ? *below : node_world(patch, part);
+        below = place_below(patch, claims, part, origin);
+        const Transform at = below ? *below : node_world(patch, claims, part);
         if (!at.identity()) node["matrix"] = matrix(at);
-        if (mesh >= 0 && patch.largest_instances.contains(origin))
+        if (mesh >= 0 && claims.largest_instances.contains(origin))
             node["extensions"][instancing_extension] =
                 document["nodes"][static_cast<std::size_t>(origin)]["extensions"][instancing_extension];
     }
@@ -252,46 +252,27 @@ void move_from_above(Patch& patch, std::size_t node, const Transform& by) {
     set_matrix(document["nodes"][above], by);
 }
 
-void claim_placements(Patch& patch) {
-    if (patch.base < 0) return;
-    patch.frames = node_frames(patch.builder.json());
-    patch.placements = placements(patch.builder.json(), patch.frames);
-    stand_at_largest_instances(patch.builder.source(), patch.frames, patch.placements);
-    patch.claimed.assign(patch.placements.size(), -1);
-    for (const Placement& placement : patch.placements)
-        if (placement.instances > 0) patch.largest_instances[placement.node] = placement.largest_instance;
+Claims claim_placements(Patch& patch, const std::map<std::size_t, Transform>& skin_moves) {
+    Claims claims;
+    if (patch.base < 0) return claims;
+    claims.frames = node_frames(patch.builder.json());
+    claims.placements = placements(patch.builder.json(), claims.frames);
+    stand_at_largest_instances(patch.builder.source(), claims.frames, claims.placements);
+    claims.claimed.assign(claims.placements.size(), -1);
+    for (const Placement& placement : claims.placements)
+        if (placement.instances > 0) claims.largest_instances[placement.node] = placement.largest_instance;
     std::map<std::pair<int, int>, std::size_t> placement_at; // by node and mesh
-    for (std::size_t p = 0; p < patch.placements.size(); ++p)
-        placement_at[{patch.placements[p].node, patch.placements[p].mesh}] = p;
+    for (std::size_t p = 0; p < claims.placements.size(); ++p)
+        placement_at[{claims.placements[p].node, claims.placements[p].mesh}] = p;
     for (std::size_t i = 0; i < patch.scene.parts.size(); ++i) {
         const Part& part = patch.scene.parts[i];
         const auto found = placement_at.find({part.node, part.source_mesh});
         // The first part of a placement keeps its node; parts split off it get new ones.
-        if (part.document == patch.base && found != placement_at.end() && patch.claimed[found->second] < 0)
-            patch.claimed[found->second] = static_cast<int>(i);
+        if (part.document == patch.base && found != placement_at.end() && claims.claimed[found->second] < 0)
+            claims.claimed[found->second] = static_cast<int>(i);
     }
-}
-
-std::vector<int> patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part) {
-    std::vector<char> placed(patch.scene.parts.size());
-    std::vector<int> nodes(placed.size(), -1);
-    for (std::size_t p = 0; p < patch.placements.size(); ++p) {
-        const int part = patch.claimed[p], node = patch.placements[p].node;
-        if (part >= 0) {
-            placed[static_cast<std::size_t>(part)] = true;
-            nodes[static_cast<std::size_t>(part)] = node;
-        }
-        if (node >= 0)
-            set_mesh(patch, static_cast<std::size_t>(node), patch.placements[p], part,
-                     part < 0 ? -1 : mesh_of_part[static_cast<std::size_t>(part)]);
-    }
-    if (patch.base >= 0) {
-        move_nodes(patch);
-        drop_dead_weights(patch);
-    }
-    for (std::size_t i = 0; i < placed.size(); ++i)
-        if (!placed[i]) nodes[i] = static_cast<int>(add_node(patch, patch.scene.parts[i], mesh_of_part[i]));
-    return nodes;
+    move_skins(patch, claims, skin_moves);
+    return claims;
 }
 
 // --- Levels of detail in one file: MSFT_lod.
@@ -345,9 +326,8 @@ void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
     if (!local.identity()) node["matrix"] = matrix(local);
 }
 
-} // namespace
-
-void patch_levels(Patch& patch, const std::vector<int>& node_of_part) {
+/// Makes the nodes of parts X.lod1, X.lod2, ... levels of X's.
+void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& node_of_part) {
     if (!patch.settings.lods) return;
     Json& document = patch.builder.json();
     const auto all = levels_by_part(patch.scene.parts);
@@ -366,7 +346,8 @@ void patch_levels(Patch& patch, const std::vector<int>& node_of_part) {
             if (frames[node].parent >= 0) continue; // stands somewhere in the document already
             unroot(document, node);
             if (!patch.scene.parts[part].skinned)
-                place_level(document["nodes"][node], parent, node_world(patch, patch.scene.parts[part]));
+                place_level(document["nodes"][node], parent,
+                            node_world(patch, claims, patch.scene.parts[part]));
         }
         document["nodes"][static_cast<std::size_t>(node_of_part[base])]["extensions"]["MSFT_lod"] = {
             {"ids", ids}};
@@ -377,6 +358,34 @@ void patch_levels(Patch& patch, const std::vector<int>& node_of_part) {
         patch.warn("W-LODS",
                    "there are no levels of detail to write: no part is called X.lod1 beside a part X",
                    "simplify: {lods: [100%, 25%, 5%]} makes them");
+}
+
+} // namespace
+
+PartNodes patch_nodes(Patch& patch, PartMeshes meshes) {
+    const Claims& claims = meshes.claims;
+    std::vector<char> placed(patch.scene.parts.size());
+    std::vector<int> nodes(placed.size(), -1);
+    for (std::size_t p = 0; p < claims.placements.size(); ++p) {
+        const int part = claims.claimed[p], node = claims.placements[p].node;
+        if (part >= 0) {
+            placed[static_cast<std::size_t>(part)] = true;
+            nodes[static_cast<std::size_t>(part)] = node;
+        }
+        if (node >= 0)
+            set_mesh(patch, static_cast<std::size_t>(node), claims.placements[p], part,
+                     part < 0 ? -1 : meshes.of_part[static_cast<std::size_t>(part)]);
+    }
+    if (patch.base >= 0) {
+        move_nodes(patch, claims);
+        drop_dead_weights(patch);
+    }
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        if (!placed[i])
+            nodes[i] = static_cast<int>(add_node(patch, claims, patch.scene.parts[i], meshes.of_part[i]));
+    patch_levels(patch, claims, nodes);
+    drop_dead_meshes(patch, meshes);
+    return {std::move(nodes), std::move(meshes.images)};
 }
 
 } // namespace facetmill::io::gltf

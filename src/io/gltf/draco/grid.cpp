@@ -1,0 +1,38 @@
+// The grid that the positions of a mesh are quantised to.
+
+#include "io/gltf/draco/draco.hpp"
+#include "io/gltf/draco/quantise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facetmill::io {
+
+void set_draco_grid(const Mesh& mesh, DracoInput& input) {
+    const Box box = mesh.bounds();
+    const auto not_below = [](double x) {
+        const auto rounded = static_cast<float>(x);
+        return static_cast<double>(rounded) < x ? std::nextafter(rounded, HUGE_VALF) : rounded;
+    };
+    float range = 0;
+    input.extent = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        input.origin[i] = storable_below(-not_below(-box.min[i]));
+        range = std::max(range, not_below(box.max[i] - static_cast<double>(input.origin[i])));
+        input.extent = std::max(input.extent, not_below(box.max[i] - box.min[i]));
+    }
+    input.range = storable_above(input.extent > 0 ? range : 1);
+}
+
+void set_whole_steps(DracoInput& input, int bits) {
+    input.range = input.extent = static_cast<float>((std::int64_t{1} << bits) - 1);
+}
+
+void widen_draco_grid(DracoInput& input, double step, int bits) {
+    const auto range = static_cast<float>(step * (std::ldexp(1.0, bits) - 1));
+    if (!(range > input.range) || !std::isfinite(range)) return;
+    input.extent = range;
+    input.range = storable_above(range);
+}
+
+} // namespace facetmill::io
