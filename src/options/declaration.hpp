@@ -44,9 +44,10 @@ struct Option {
 
     std::string name;
     OptionKind kind = OptionKind::text;
-    OptionKind one = OptionKind::text; ///< of one value, where several may be given; else the kind
+    OptionKind one =
+        OptionKind::text; ///< the kind of one value, if the option accepts several; else the kind
     Dimension dimension = Dimension::none;
-    std::string help;         ///< one or two sentences; says the unit when the number has one
+    std::string help;         ///< one or two sentences, including the unit of a number
     std::string default_text; ///< the default's spelling; empty when unset
     bool required = false;
     bool primary = false;    ///< a bare value sets it
@@ -58,15 +59,15 @@ struct Option {
     /// Reads the value into this option's member of the struct at target. False after adding problems. The
     /// range is checked by Declaration::parse.
     Function<bool(const Option&, const Value&, void* target, Problems&)> parse;
-    /// The number in the struct that the range limits, if there is one.
+    /// The number in the struct that the range limits, if any.
     Function<std::optional<double>(const void* target)> magnitude;
-    bool may_be_true = false; ///< true is one of its values, beside others
+    bool may_be_true = false; ///< the option also accepts true
 
     /// Whether a value may be a list: several, or one that is a list.
     bool may_be_list() const;
 };
 
-/// What stands for a group when it is no map and not the value of its primary option.
+/// A shorthand for a group, instead of a map or the value of its primary option.
 enum class ShortForm {
     none,
     truth,       ///< true or false: switched on or off
@@ -105,9 +106,10 @@ struct Declaration {
     std::vector<std::string> names() const;
     Json schema() const;
 
-    /// Reads a stage's value into the options struct at target: null takes the defaults, a map sets options
-    /// by name, anything else goes to the shorthand or the primary option. owner is for messages: "clip",
-    /// "clip: plane". Keys in also_known are skipped (the common keys). False after adding problems.
+    /// Reads a stage's value into the options struct at target: null selects the defaults, a map sets
+    /// options by name, and any other value goes to the shorthand or the primary option. owner is for
+    /// messages: "clip", "clip: plane". Keys in also_known are skipped (the common keys). Returns false
+    /// after adding problems.
     bool parse(const Value& value, void* target, std::string_view owner, Problems& problems,
                const std::set<std::string>& also_known = {}) const;
 };
@@ -148,7 +150,8 @@ class OptionRef {
         option().primary = true;
         return *this;
     }
-    /// For numbers whose type does not say it: a double that is a count, an integer that is bytes.
+    /// For numbers whose type does not imply the dimension: a double that is a count, an integer that is
+    /// bytes.
     OptionRef& measures(Dimension dimension) {
         option().dimension = dimension;
         return *this;
@@ -172,8 +175,8 @@ Json choice_schema(const std::vector<Choice>& choices);
 /// Which of the option's choices the value spells (0 for a deferred value); none after adding a problem.
 std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems);
 
-/// How many bytes into an S its member is: all that is kept of a member, so that what reads it is compiled
-/// once a type rather than once a member.
+/// The byte offset of a member in S. Only the offset is stored, so that the reading code is compiled once
+/// per type instead of once per member.
 template <class S, class T>
 std::size_t offset_of(T S::*member) {
     alignas(S) static constexpr std::byte place[sizeof(S)]{};
@@ -195,7 +198,7 @@ const T& member_at(const void* record, std::size_t offset) {
 Option& start_option(Declaration& owner, std::string_view name, OptionKind kind, std::string_view help);
 /// The declaration, owned.
 std::shared_ptr<const Declaration> shared(Declaration&& declaration);
-/// Adds the options of a struct that lies at the offset within the one that is parsed.
+/// Adds the options of a struct at this offset within the parsed struct.
 void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset);
 
 /// Adds an option whose value is the T at the offset, which is now the default.

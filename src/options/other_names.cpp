@@ -12,7 +12,8 @@ namespace {
 struct OtherNames {
     std::string_view option;
     std::vector<std::string_view> words;
-    std::string_view how = {};    ///< where the name alone does not say what to write, or how it differs
+    std::string_view how =
+        {}; ///< extra words if the name alone does not explain the spelling, or the difference
     std::string_view beside = {}; ///< an option that must be known, too
 };
 
