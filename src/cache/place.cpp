@@ -20,7 +20,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-/// Of this user, or not there yet.
+/// Whether the folder belongs to this user, or does not exist.
 bool is_own_or_missing(const fs::path& folder) {
     struct stat about {};
     if (::stat(folder.c_str(), &about) == 0) return about.st_uid == ::geteuid();

@@ -29,7 +29,7 @@ constexpr std::size_t digits = 64;
 constexpr std::string_view suffixes[] = {".memory", ".scene", ".last"};
 constexpr std::string_view temporary = ".part";
 
-/// The digits of a SHA-256: what goes into a path is nothing else.
+/// Whether the text is the digits of a SHA-256: a path contains nothing else.
 bool is_key(const std::string& text) {
     return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
 }
@@ -41,7 +41,7 @@ bool is_entry(const fs::path& path) {
 
 io::Span span_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-/// What stands before the bytes of an entry.
+/// The header before the bytes of an entry.
 std::string head_of(const std::string& name, io::Span bytes) {
     const std::string sums = sha256(bytes) + name;
     return fmt::format("{}{}{}\n", magic, sha256(span_of(sums)), name);
@@ -69,7 +69,7 @@ std::int64_t nanoseconds_of(const timespec& time) {
     return time.tv_sec * in_a_second + time.tv_nsec;
 }
 
-/// Of looking at all entries, by those of one folder of 256: keys are spread evenly.
+/// The time to visit all entries, estimated from one folder of 256: keys are spread evenly.
 double seconds_to_count(const fs::path& folder) {
     constexpr double folders = 256, seconds_of_an_entry = 2e-6;
     std::error_code error;
@@ -87,10 +87,10 @@ bool is_one_in_many() {
     return now.tv_nsec / 1000 % many == 0;
 }
 
-/// Only what this user has put there is believed: a plain file of his own, not a link or a pipe.
+/// Trusts only files of this user: a plain file, not a link or a pipe.
 bool is_own_file(const struct stat& about) { return S_ISREG(about.st_mode) && about.st_uid == ::geteuid(); }
 
-/// Reads at most so many bytes more.
+/// Reads at most `more` further bytes.
 void read_more(int fd, io::Bytes& bytes, std::size_t more) {
     std::size_t at = bytes.size();
     bytes.resize(at + more);
@@ -110,9 +110,9 @@ struct OpenFile {
     }
 };
 
-/// What is not begun as an entry of that name is not read further, and nothing of one beyond the limit: the
-/// result is then shorter than a head. None when there is no file of ours. Read rather than mapped: a file
-/// that shrinks while it is mapped would end the process.
+/// Stops reading if the header is not of an entry of that name, or beyond the limit: the result is then
+/// shorter than a header. None when this user has no such file. The file is read instead of mapped, because
+/// a file that shrinks while mapped would end the process.
 std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std::uint64_t max_bytes) {
     const OpenFile file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
     struct stat about {};
@@ -127,17 +127,17 @@ std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std:
     return bytes;
 }
 
-/// Makes what is missing of it, the last one for this user alone.
+/// Creates the missing folders, the last for this user alone.
 void make_folder(const fs::path& folder) {
     constexpr mode_t of_the_user = 0700;
     if (::mkdir(folder.c_str(), of_the_user) != 0 && errno != EEXIST)
         throw fs::filesystem_error("mkdir", folder, std::error_code(errno, std::generic_category()));
 }
 
-/// Others need the disk more than the cache does: twice the entry stays free beside this much.
+/// Other programs need the disk more than the cache does: twice the entry plus this much stays free.
 constexpr std::uint64_t reserve = std::uint64_t{64} << 20;
 
-/// None where the system does not say.
+/// None if the system does not report it.
 std::optional<std::uint64_t> free_space(const fs::path& folder) {
     struct statvfs about {};
     if (::statvfs(folder.c_str(), &about) != 0) return {};
@@ -149,9 +149,9 @@ bool has_space(const fs::path& folder, std::uint64_t bytes) {
     return !space || *space >= 2 * bytes + reserve; // writing will tell
 }
 
-/// Measured on slow machines; what a store has seen takes its place.
+/// Measured on slow machines; replaced by the measurements of a store.
 constexpr double usual_bytes_per_second = 150e6;
-/// Of a file, however small: three calls of the system, and a folder at times.
+/// The time for a file of any size: three system calls, and sometimes a folder.
 constexpr double seconds_of_a_file = 0.0005;
 
 } // namespace
@@ -251,7 +251,7 @@ void Store::tell_of_full_disk() {
 
 namespace {
 
-/// A file beside an entry, until it takes its name; a signal removes it, too.
+/// A temporary file in the entry's folder until it is renamed; a signal also removes it.
 struct PartFile {
     fs::path path;
     io::CleanUp* clean_up = nullptr;
@@ -347,7 +347,7 @@ double Store::seconds_for(std::size_t bytes) const {
 }
 
 void Store::took(std::size_t bytes, double seconds) {
-    constexpr std::size_t enough = 1 << 20; // less says nothing of the rate
+    constexpr std::size_t enough = 1 << 20; // less is too small to measure the rate
     if (bytes < enough || !(seconds > 0)) return;
     const std::lock_guard lock(known_->guard);
     known_->bytes_per_second = (known_->bytes_per_second + static_cast<double>(bytes) / seconds) / 2;
