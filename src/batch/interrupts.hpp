@@ -1,5 +1,5 @@
 #pragma once
-// SIGINT, SIGTERM and SIGHUP while a batch runs: something is told before they end the process.
+// Handles SIGINT, SIGTERM and SIGHUP during a batch: calls a function before they end the process.
 
 #include <csignal>
 #include <functional>
