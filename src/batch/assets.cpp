@@ -1,4 +1,4 @@
-// What the assets of a batch are.
+// Finds the assets of a batch.
 
 #include "base/text/glob.hpp"
 #include "base/text/words.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* input_param = "input";
 
-/// What of a pattern stands before its first wildcard; of a file, its folder.
+/// The part of a pattern before its first wildcard; for a file, its folder.
 fs::path fixed_prefix(const fs::path& pattern) {
     fs::path prefix;
     for (const auto& component : pattern.parent_path()) {
@@ -58,7 +58,7 @@ class AssetFinder {
   private:
     void add_pattern(const std::string& pattern) {
         std::error_code ignored;
-        const bool is_file = fs::exists(pattern, ignored); // a name may hold what looks like a wildcard
+        const bool is_file = fs::exists(pattern, ignored); // a file name may contain wildcard characters
         const fs::path base = sources_.base.empty()
                                   ? (is_file ? fs::path(pattern).parent_path() : fixed_prefix(pattern))
                                   : fs::path(sources_.base);
@@ -86,7 +86,7 @@ class AssetFinder {
                             sources_.place(pattern), std::move(hint)});
     }
 
-    /// Whether an earlier batch found something there.
+    /// Whether an earlier batch found a match.
     bool was_there(const std::string& pattern) const {
         return sources_.former &&
                std::any_of(sources_.former->begin(), sources_.former->end(),

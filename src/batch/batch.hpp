@@ -1,6 +1,6 @@
 #pragma once
-// Many assets through one pipeline in one process: what the assets are, a run of its own for each, with all
-// of them on shared threads, what an earlier batch has done already, and one summary.
+// Runs many assets through one pipeline in one process: finds the assets, runs each separately on shared
+// threads, skips unchanged results of earlier batches, and writes one summary.
 
 #include "base/text/markup.hpp"
 #include "batch/figures.hpp"
@@ -21,7 +21,7 @@ struct Asset {
     std::map<std::string, Value> lists;                       ///< ... those that are lists
 };
 
-/// Where assets are named.
+/// The sources of assets.
 struct Sources {
     std::vector<std::string> patterns; ///< --input: files or globs, each a value of the param `input`
     std::vector<std::string> lists;    ///< --inputs-from: files of names ("-": standard input)
@@ -46,15 +46,16 @@ struct Settings {
     /// Plans the pipeline for an asset; problems are added.
     std::function<pipeline::Plan(const Asset&, Problems&)> plan;
     std::string pipeline;      ///< its name
-    std::string pipeline_text; ///< what makes results out of date when it changes, besides comments
+    std::string pipeline_text; ///< a change other than comments makes results out of date
     std::filesystem::path output_dir;
-    std::vector<std::filesystem::path> others; ///< what the summary writes: no asset may write it
+    std::vector<std::filesystem::path> others; ///< files of the summary: no asset may write them
     std::vector<std::filesystem::path> read;   ///< besides what assets read: the pipeline, lists, a table
     int jobs = 0;                              ///< assets and threads at a time; 0: see run
-    std::uint64_t memory = 0; ///< bytes for all assets that run at a time; 0: three quarters of what is there
-    bool keep_going = false;  ///< a failure does not keep those after it from running
-    bool prune = false;       ///< outputs go whose source is gone
-    bool pictures = false;    ///< outcomes have pictures
+    std::uint64_t memory =
+        0; ///< bytes for all assets that run at a time; 0: three quarters of the available memory
+    bool keep_going = false; ///< after a failure, later assets still run
+    bool prune = false;      ///< outputs go whose source is gone
+    bool pictures = false;   ///< outcomes have pictures
     bool check_invariants = false;
     bool rehearse = false;            ///< outputs of works are those of pipeline::rehearsed_headers
     bool sync = true;                 ///< as io::CommitSettings
@@ -67,14 +68,14 @@ struct Settings {
 struct Work {
     Asset asset;
     std::vector<std::filesystem::path> inputs, outputs; ///< as far as they are known before it runs
-    std::string digest; ///< of all options and what else a result depends on, besides the inputs' content
-    std::uint64_t memory = 0;                         ///< an estimate, in bytes
+    std::string digest;       ///< of all options and other influences on a result, except the inputs' content
+    std::uint64_t memory = 0; ///< an estimate, in bytes
     std::vector<std::filesystem::path> asset_roots{}; ///< folders below which the inputs may name files
 };
 
 struct Prepared {
     std::vector<Work> works;
-    std::vector<Diagnostic> missing;  ///< inputs that are not there
+    std::vector<Diagnostic> missing;  ///< inputs that do not exist
     std::vector<std::string> allowed; ///< ids of warnings, as the plans have them
     bool files_collide = false;       ///< then not even the summary may be written
 };
@@ -108,7 +109,7 @@ struct Summary {
     double seconds = 0;
 };
 
-/// What is told while a batch runs; never from two threads at a time.
+/// Callbacks of a running batch; never called from two threads at a time.
 struct Listener {
     std::function<void(const Asset&, const Outcome&, const Summary& so_far)> on_finished;
     std::function<void(const Asset&, const report::StageRecord&)> on_stage; ///< a stage of an asset has ended
@@ -122,18 +123,18 @@ struct Listener {
 /// changed. Throws output (E-BUSY) when another batch of this pipeline is at work there.
 Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
 
-/// Of assets that are not run because of these errors.
+/// The summary of assets that are not run because of these errors.
 Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, ErrorKind kind,
                 const std::vector<Diagnostic>& why);
 
-/// What jobs that run at a time may take: what was asked for, else (0) three quarters of what is there.
+/// The memory for concurrent jobs: the requested amount, else (0) three quarters of the available memory.
 std::uint64_t memory_for_jobs(std::uint64_t asked);
 
 /// The worse_exit_code of two exit codes: 70, 2, 4, 7, 5, 6, 3, 1, 0.
 int worse_exit_code(int a, int b);
 
-/// The assets in the order of a summary: the gravest failures first, then those that were not run, then
-/// warnings.
+/// The assets in the order of a summary: the worst failures first, followed by assets that were not run, and
+/// by warnings.
 std::vector<std::size_t> worst_first(const Summary& summary);
 
 /// For a terminal: failures, and as many of the others as fit, or all of them. Of errors, which were told as
@@ -144,7 +145,7 @@ Painted to_terminal(const Summary& summary, bool colour, bool all);
 std::string render_for(const std::string& path, const Summary& summary);
 /// The JSON Schema of the report in JSON.
 Json summary_schema();
-/// Times, threads, and what was kept, as JSON.
+/// Times, threads, and reused results, as JSON.
 std::string timings_text(const Summary& summary);
 
 } // namespace facetmill::batch

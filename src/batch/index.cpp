@@ -1,4 +1,4 @@
-// What a batch did, as a page and as Markdown.
+// The results of a batch, as a page and as Markdown.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

@@ -19,7 +19,7 @@ class Jobserver {
     Jobserver(const Jobserver&) = delete;
     Jobserver& operator=(const Jobserver&) = delete;
 
-    /// Takes a token, unless there is none now.
+    /// Takes a token if one is available.
     bool take();
     void give();
     void give_all();

@@ -1,5 +1,5 @@
 #pragma once
-// What batches have done in an output folder, so that the next one leaves alone whatever has not changed.
+// The record of batches in an output folder, so that the next batch skips unchanged assets.
 
 #include "base/error.hpp"
 #include "batch/figures.hpp"
@@ -20,7 +20,7 @@ namespace facetmill::batch {
 struct Stamp {
     std::string path; ///< absolute; of an output from the output folder
     std::uint64_t bytes = 0;
-    std::int64_t time = 0; ///< nanoseconds; 0: only the digest tells
+    std::int64_t time = 0; ///< nanoseconds; 0: compare only the digest
     std::string sha256;
 };
 
@@ -32,7 +32,7 @@ struct Done {
     std::string mount_point; ///< of the source; empty: not known
     bool of_table = false;
     std::vector<Stamp> inputs, outputs;
-    std::vector<std::string> absent; ///< files that inputs name and that were not there
+    std::vector<std::string> absent; ///< files that inputs name and that did not exist
     std::vector<std::pair<std::string, std::string>> former; ///< outputs of runs before, and their digests
     Figures figures;
     std::vector<std::string> written; ///< outputs without reports, as a summary has them
@@ -61,7 +61,7 @@ class Journal {
     static std::vector<std::string> assets_in(const std::filesystem::path& folder, const std::string& name);
 
     const std::map<std::string, Done>& all() const { return all_; }
-    /// What batches of other pipelines have written in the folder.
+    /// The outputs of batches of other pipelines in the folder.
     std::set<std::string> outputs_of_others() const;
     /// What was done for the asset with these options, if its inputs and outputs are as they were then. Times
     /// that changed without the content are noted. For several threads, as long as nothing is added or
@@ -74,7 +74,7 @@ class Journal {
     std::vector<std::string> remove_former(const std::string& asset, const std::set<std::string>& current);
     /// ... all outputs of an asset, which is then forgotten.
     std::vector<std::string> remove_all(const std::string& asset, const std::set<std::string>& current);
-    /// Writes the file anew, without what was overwritten by later lines.
+    /// Rewrites the file without lines that later lines replace.
     std::optional<Diagnostic> compact();
 
   private:

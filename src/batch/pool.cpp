@@ -25,7 +25,7 @@ bool Pool::take_slot(bool& has_token) {
 }
 
 bool Pool::begin(Begun& begun) {
-    constexpr std::chrono::milliseconds between_looks(20); // nothing tells that a token came back
+    constexpr std::chrono::milliseconds between_looks(20); // no event signals a returned token
     std::unique_lock lock(guard_);
     while (true) {
         if (stopped_ || (waiting_.empty() && running_ == 0)) return false;
@@ -88,7 +88,7 @@ void Pool::run() {
     threads.reserve(count);
     try {
         for (std::size_t t = 0; t < count; ++t) threads.emplace_back(on_thread);
-    } catch (const std::system_error&) { // no further thread: those that there are do all of it
+    } catch (const std::system_error&) { // no further thread: the existing threads do all the work
         if (threads.empty()) throw;
     }
     for (auto& thread : threads) thread.join();

@@ -19,11 +19,11 @@ struct Job {
     bool alone = false;       ///< nothing else runs meanwhile
 };
 
-/// What follows a job.
+/// The action after a job.
 enum class Next {
     go_on,
     stop,        ///< nothing more begins
-    again_alone, ///< it is run again, with nothing beside it
+    again_alone, ///< the job is run again, alone
 };
 
 struct PoolSettings {
@@ -52,7 +52,7 @@ class Pool {
     void take_jobs(const InArena& in_arena);
     bool fits(const Job& job) const;
     bool take_slot(bool& has_token);
-    bool begin(Begun& begun); ///< waits for a job; false when there is none any more
+    bool begin(Begun& begun); ///< waits for a job; false when no jobs are left
     void end(const Begun& begun, Next next);
 
     const PoolSettings settings_;

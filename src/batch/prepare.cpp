@@ -24,7 +24,7 @@ std::string digest_of(const std::string& text) { return sha256(std::as_bytes(std
 
 /// The pipeline without its comments and blanks.
 std::string content_of(const std::string& text) {
-    Problems ignored; // planning has told them
+    Problems ignored; // planning has reported them
     return pipeline::emit_yaml(
         pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{"", text}), ignored));
 }
@@ -75,7 +75,7 @@ std::uint64_t memory_for(const std::vector<fs::path>& inputs) {
     return bytes;
 }
 
-/// The files of all assets, by what they are on a disk where case does not count.
+/// The files of all assets, with case ignored as on a case-insensitive disk.
 class FileOwners {
   public:
     explicit FileOwners(Problems& problems) : problems_(problems) {}

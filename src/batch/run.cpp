@@ -124,7 +124,7 @@ class BatchRun {
         const auto look = [&](std::size_t i) {
             kept[i] = journal_.unchanged(works_[i].asset.name, works_[i].digest);
         };
-        if (tokens_) // there is one thread so far
+        if (tokens_) // only one thread exists so far
             for (std::size_t i = 0; i < works_.size(); ++i) look(i);
         else
             parallel_for(works_.size(), look, 1);
@@ -331,11 +331,11 @@ class BatchRun {
         return current;
     }
 
-    /// Outputs of assets that are gone, and those that assets no longer have.
+    /// Removes outputs of deleted assets, and outputs that assets no longer have.
     void prune() {
         const bool all_made = std::all_of(summary_.outcomes.begin(), summary_.outcomes.end(),
                                           [](const Outcome& out) { return out.verdict == Verdict::ok; });
-        if (!all_made) { // what the others would write is not known
+        if (!all_made) { // the outputs of the other assets are unknown
             warn(Diagnostic{Severity::warning,
                             "W-PRUNE",
                             "nothing is pruned, because not all assets were made",
@@ -404,7 +404,7 @@ class BatchRun {
     const Stopwatch watch_;
     const std::vector<Work> works_;
     std::unique_ptr<Jobserver> tokens_;
-    std::mutex guard_; ///< of all that follows
+    std::mutex guard_; ///< guards all following members
     Journal journal_;
     Summary summary_;
     std::vector<bool> started_; ///< and not yet ended

@@ -1,4 +1,4 @@
-// What a batch did, as text and JUnit.
+// The results of a batch, as text and JUnit.
 
 #include "base/ordered_set.hpp"
 #include "base/text/markup.hpp"
@@ -16,7 +16,7 @@ namespace facetmill::batch {
 
 namespace {
 
-/// The gravest last: what is wrong with the asset, with the machine, with the pipeline, with the program.
+/// The worst last: a problem with the asset, the machine, the pipeline, the program.
 constexpr std::array by_gravity{0, 1, 3, 6, 5, 7, 4, 2, 70};
 
 std::size_t gravity(int code) {
@@ -24,7 +24,7 @@ std::size_t gravity(int code) {
                                     by_gravity.begin());
 }
 
-/// Where an outcome stands in a summary.
+/// The rank of an outcome in a summary.
 std::size_t place_of(const Outcome& out) {
     const std::size_t codes = by_gravity.size();
     switch (out.verdict) {

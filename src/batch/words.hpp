@@ -1,5 +1,5 @@
 #pragma once
-// What the renderers of a summary share.
+// Shared code of the renderers of a summary.
 
 #include "batch/batch.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// Records as bytes and back. What a record has is said once, by its Members (cache/fields.hpp), for both
-// ways. Counts that are read are compared with the bytes that are left before anything is made of them.
+// Converts records to bytes and back. Members (cache/fields.hpp) lists the members of a record once for both
+// directions. Counts are checked against the remaining bytes before anything is allocated.
 
 #include "base/json.hpp"
 #include "base/math/vec.hpp"
@@ -41,7 +41,7 @@ struct Corrupt : std::exception {
     const char* what() const noexcept override { return "the bytes are not as they were written"; }
 };
 
-/// Throws Corrupt for what is no CBOR, or is nested more than 200 deep.
+/// Throws Corrupt for invalid CBOR, or for nesting deeper than 200.
 Json json_of_cbor(io::Span cbor);
 
 /// Points as numbers, three each; null for null.
@@ -51,7 +51,7 @@ inline const double* coordinates(const Vec3* points) {
 }
 inline double* coordinates(Vec3* points) { return reinterpret_cast<double*>(points); }
 
-/// Numbers in the order of the machine: what is written never leaves it.
+/// Numbers are in machine order, because the bytes never leave the machine.
 class ByteWriter {
   public:
     io::Bytes bytes;
@@ -72,7 +72,7 @@ class ByteWriter {
   private:
     static constexpr std::size_t piece = std::size_t{1} << 20;
 
-    /// Room for so many bytes more, which is returned.
+    /// Appends so many bytes and returns them.
     std::byte* room(std::size_t size) {
         if (take_ && bytes.size() + size > piece) flush();
         bytes.resize(bytes.size() + size);

@@ -19,7 +19,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-/// Of this user, or not there yet.
+/// Whether the folder belongs to this user, or does not exist.
 bool is_own_or_missing(const fs::path& folder) {
     const auto about = status_of(folder);
     return about ? about->is_own() : errno == ENOENT;

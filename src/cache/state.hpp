@@ -1,5 +1,5 @@
 #pragma once
-// What is stored of a stage: the scene that left it, and, apart from that, all that the run tells of it.
+// The stored results of a stage: its output scene and, separately, everything that the run reports of it.
 
 #include "io/bytes.hpp"
 #include "mesh/scene.hpp"
@@ -16,11 +16,11 @@ std::optional<Scene> decoded_scene(io::Span bytes);
 /// About as many bytes as encoded() gives, without making them.
 std::size_t size_of(const Scene& scene);
 
-/// What a run tells of a stage that it need not run.
+/// The report of a stage that need not run again.
 struct Memory {
     report::StageRecord record;             ///< without its name, place and times
     std::vector<report::FileRecord> inputs; ///< files that it read
-    std::vector<std::string> absent;        ///< files that it looked for and that were not there
+    std::vector<std::string> absent;        ///< files that it looked for and that did not exist
     std::string scene;                      ///< the key of the scene that left it
     std::string told_name;                  ///< its name, if its warnings have it; else empty
     Box bounds;                             ///< of that scene

@@ -1,7 +1,6 @@
 #pragma once
-// A folder of entries that are found by their keys: written whole or not at all, replaced whole, and removed
-// when there are too many, those first that have not been used for longest. Any number of processes may share
-// it.
+// A folder of entries addressed by keys. Entries are written and replaced atomically. When the store is too
+// large, the least recently used entries are removed first. Any number of processes may share it.
 
 #include "base/error.hpp"
 #include "io/bytes.hpp"
@@ -16,29 +15,29 @@
 
 namespace facetmill::cache {
 
-/// What an entry holds, which is the suffix of its file.
+/// The kind of an entry, which is the suffix of its file.
 enum class Kind { memory, scene, last_run };
 
 struct StoreSettings {
     std::filesystem::path folder;
     std::uint64_t max_bytes = 0;
-    bool everything = false; ///< what is cheap to compute is stored, too (tests)
+    bool everything = false; ///< also store results that are cheap to compute (tests)
     /// Is told what hinders the store: W-CACHE, once, when it cannot be written; notes of corrupt entries.
     /// May be empty.
     std::function<void(const Diagnostic&)> tell = {};
-    double max_share = 1; ///< of what the entries and the free space of their disk are together
+    double max_share = 1; ///< relative to the entries plus the free space of their disk
 };
 
-/// How much is there.
+/// The size of the store.
 struct Contents {
     std::uint64_t entries = 0, bytes = 0, scenes = 0;
 };
 
-/// Makes the folder of a store and those above it; whether it is there then.
+/// Creates the folder of a store and its parents; returns whether it exists afterwards.
 bool make_folders(const std::filesystem::path& folder);
 
-/// Keys are 64 hexadecimal digits; others are not there. Files that are not this user's are not either.
-/// Safe for several threads. What goes wrong is told, not thrown: a run does without its cache.
+/// Keys are 64 hexadecimal digits; other keys have no entry. Files of other users are ignored. Thread-safe.
+/// Failures are reported, not thrown: a run works without its cache.
 class Store {
   public:
     explicit Store(StoreSettings settings);
@@ -52,7 +51,7 @@ class Store {
     /// note. What was asked for counts as used, and stays as long as this object lives: as it does for the
     /// others of the process that know of it.
     std::optional<io::Bytes> get(const std::string& key, Kind kind);
-    /// Whether there is an entry, which then counts as used.
+    /// Whether an entry exists, which then counts as used.
     bool has(const std::string& key, Kind kind);
     /// Whether it is there afterwards: not when it cannot be written, there is no room beside what stays, or
     /// the disk has less free than twice the entry and 64 MiB. Replaces what is there, but for scenes, which
@@ -63,7 +62,7 @@ class Store {
 
     /// Whether a put has not failed yet.
     bool is_usable() const;
-    /// How long the first put of a process looks at what is there; 0 when it has.
+    /// The time that the first put of a process needs to scan the store; 0 afterwards.
     double seconds_to_begin() const;
     /// How long a put of that many bytes takes, made ready before, as far as this object has seen.
     double seconds_for(std::size_t bytes) const;
@@ -74,8 +73,8 @@ class Store {
     std::uint64_t limit(std::uint64_t bytes) const;
     /// Why nothing can be put; empty: it can, as far as that is seen without doing it.
     std::string hindrance() const;
-    /// Removes what a process left that ended early, and entries until all are within the limit. How much
-    /// went.
+    /// Removes the remains of processes that ended early, and entries until all are within the limit.
+    /// Returns the removed amount.
     Contents collect();
     /// Removes all entries. How much went.
     Contents clear();
@@ -87,13 +86,13 @@ class Store {
     bool write(const std::filesystem::path& path, io::Span head, io::Span bytes);
     bool make_room(std::uint64_t bytes, Kind kind);
     Contents shrink(std::uint64_t limit);
-    /// Of writers that ended early: no entry takes an hour to write.
+    /// Removes files of writers that ended early: no entry takes an hour to write.
     void remove_leftovers(std::int64_t older_than = 3600) const;
     void cannot_write(const std::string& why);
     void tell_of_full_disk();
     void drop(const std::filesystem::path& path, const char* why);
 
-    /// What stores of one folder and process know together.
+    /// The state shared by the stores of one folder in a process.
     struct Known {
         std::mutex guard;                          ///< of all that follows, and of used_ of each
         std::map<std::filesystem::path, int> used; ///< by how many of them

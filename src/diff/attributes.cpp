@@ -24,7 +24,7 @@ bool turns_with_part(const Attribute& a) {
     return a.role == Role::normal || a.role == Role::tangent || a.role == Role::morph_vector;
 }
 
-/// Directions of parts that a node turns, as they are in the world; other attributes are the same there.
+/// Directions of transformed parts in the world; other attributes are unchanged.
 class WorldAttributes {
   public:
     explicit WorldAttributes(const Scene& scene) {

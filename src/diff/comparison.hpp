@@ -1,5 +1,5 @@
 #pragma once
-// Two scenes side by side: what `facetmill diff` finds.
+// Compares two scenes: the result of `facetmill diff`.
 
 #include "diff/conversion.hpp"
 #include "diff/items.hpp"
@@ -19,8 +19,9 @@ inline constexpr const char* comparison_sections[] = {"counts",    "topology", "
 struct ComparisonSettings {
     std::set<std::string> ignored; ///< sections that are shown but do not decide
     DeviationSettings deviation;
-    /// How far the surfaces may be apart, in units of the first scene, or in percent of its diagonal. Without
-    /// any limit the maximum may be a ten-thousandth of a percent: what float32 coordinates lose.
+    /// The allowed distance of the surfaces, in units of the first scene, or in percent of its diagonal.
+    /// Without any limit the maximum may be a ten-thousandth of a percent: the precision of float32
+    /// coordinates.
     struct Limit {
         double amount = 0;
         bool percent = false;
@@ -36,8 +37,8 @@ struct Difference {
     Json a, b;
     bool same = true;
     std::string note;       ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
-    bool compared = true;   ///< false: it could not be, and the note says why
-    bool of_places = false; ///< of a material: where it is, and not what it is
+    bool compared = true;   ///< false: not comparable, and the note has the reason
+    bool of_places = false; ///< for a material: its position differs, not its properties
 };
 
 /// Something of a file that was not read, so that nothing is known of it.
@@ -46,16 +47,17 @@ struct LeftOut {
     std::string what;
 };
 
-/// The bytes of a file and of those that it names, and what they are spent on.
+/// The bytes of a file and of the files it refers to, and their use.
 struct SizeOnDisk {
     std::uint64_t bytes = 0;
     io::ByteKinds kinds;
 };
 
 struct Comparison {
-    std::vector<Difference> lines;                               ///< equal ones too
-    std::optional<DeviationResult> deviation;                    ///< none when geometry is ignored
-    const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< what it is of: surface, points, nothing
+    std::vector<Difference> lines;            ///< equal ones too
+    std::optional<DeviationResult> deviation; ///< none when geometry is ignored
+    const char *geometry_a = "nothing",
+               *geometry_b = "nothing"; ///< the kind of geometry: surface, points, nothing
     std::vector<LeftOut> left_out;
     std::set<std::string> ignored;
     Properties properties_a, properties_b;

@@ -12,13 +12,13 @@ namespace facetmill::report {
 
 namespace {
 
-/// Where a scene lies: its box, and a point in it by which turns of one box are told apart.
+/// The position of a scene: its box, and a point in it that distinguishes rotations with the same box.
 struct Lie {
     Box box;
     Vec3 middle;
 };
 
-/// The middle of places that weigh differently.
+/// The weighted mean of points.
 class WeightedMean {
   public:
     void add(const Vec3& p, double weight) {
@@ -63,12 +63,12 @@ std::pair<Lie, Lie> lies_of(const Scene& a, const Scene& b) {
 }
 
 struct UnitFactor {
-    double factor = 1; ///< what numbers in `to` are multiples of those in `from`
+    double factor = 1; ///< a number in `from` is this multiple of a number in `to`
     Unit from = Unit::unknown, to = Unit::unknown;
 };
 
-/// The pair of units whose factor is nearest to the ratio, within two hundredths; units people model in come
-/// first. What one of the files states, where the other states nothing, is one of the pair.
+/// The pair of units whose factor is nearest to the ratio, within two hundredths; common modelling units
+/// come first. If only one file states its unit, the pair includes it.
 UnitFactor unit_factor(double ratio, Unit first, Unit second) {
     constexpr std::array units{Unit::mm, Unit::m, Unit::cm, Unit::inch, Unit::foot, Unit::um, Unit::km};
     const bool both = first != Unit::unknown && second != Unit::unknown;
@@ -119,7 +119,7 @@ AxisTurn up_turn(UpAxis from, UpAxis to) {
     return out;
 }
 
-/// None first, then those of another up axis, then all others that mirror nothing.
+/// The identity first, followed by changes of the up axis, and by all other rotations.
 std::vector<AxisTurn> all_turns() {
     std::vector<AxisTurn> out{{}, up_turn(UpAxis::y, UpAxis::z), up_turn(UpAxis::z, UpAxis::y)};
     constexpr std::array<std::array<std::size_t, 3>, 6> orders{
@@ -182,7 +182,7 @@ Given given_by_command_line(const Origin& origin, UpAxis up) {
     return out;
 }
 
-/// How to say that the first file has the one and the second the other.
+/// The words for a first file with one value and a second with the other.
 std::string way_to_say(const char* option, const char* what, std::string_view from, std::string_view to,
                        bool first_states, bool second_states) {
     if (first_states && second_states)
@@ -208,7 +208,7 @@ std::string words_for(const AxisTurn& turn) {
     return fmt::format("turned so that its x, y, z are {} (transform --matrix {})", axes, matrix);
 }
 
-/// What is to be said, and how it is said on the command line.
+/// The hint and the command-line text for it.
 struct Words {
     std::string how, way;
 };

@@ -7,10 +7,10 @@
 
 namespace facetmill::report {
 
-/// What was known of two scenes before the second was put into the convention of the first.
+/// The conventions of two scenes before the second was converted to the first's.
 struct Origin {
-    io::Convention a, b;      ///< what the files themselves state
-    io::Conversion of_second; ///< what was done, by this and by what the command line says
+    io::Convention a, b;      ///< as the files themselves state
+    io::Conversion of_second; ///< the conversion that was applied, including command-line options
 };
 
 /// What to do when the box of the second scene is that of the first times a factor between two units, or with

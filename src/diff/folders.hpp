@@ -1,5 +1,5 @@
 #pragma once
-// Two folders of mesh files side by side: what `facetmill diff A/ B/` finds, as text, JSON and an index.
+// Compares two folders of mesh files: the result of `facetmill diff A/ B/`, as text, JSON and an index.
 
 #include "diff/comparison.hpp"
 
@@ -10,10 +10,9 @@ namespace facetmill::report {
 /// The paths of two files in their folders, with slashes; empty: that folder has none.
 struct PairedPaths {
     std::string a, b;
-    std::string unpaired =
-        {}; ///< why a file stands alone, though the other folder has one that is called alike
+    std::string unpaired = {}; ///< why a file has no partner, although the other folder has a similar name
 
-    /// Of the first, or the only one.
+    /// The path of the first file, or the only one.
     const std::string& path() const { return a.empty() ? b : a; }
     /// "sub/a.glb", "sub/a.ply and a.glb".
     std::string text() const;
@@ -30,7 +29,7 @@ struct FolderPair {
         percent; ///< the largest deviation, of the first file's diagonal; none: not measured
     std::uint64_t faces_a = 0, faces_b = 0, bytes_a = 0, bytes_b = 0;
     std::string differs_in;            ///< "counts, geometry"
-    std::string page;                  ///< of this pair, from the index; empty: none
+    std::string page;                  ///< the page of this pair, relative to the index; empty: none
     std::string picture_a, picture_b;  ///< small PNGs in base64; empty: none
     std::vector<Diagnostic> not_drawn; ///< textures that pictures do without
 };
@@ -41,12 +40,13 @@ struct FolderComparison {
     bool differs() const;          ///< anything but the same files that agree
 };
 
-/// The mesh files below both folders in the order of their paths: those of one path are a pair. Of the rest
-/// two of one path but for the suffix are a pair, too (a.ply, a.glb), where neither folder has another such.
-/// Links to folders are not followed. Throws missing (E-FILE) when a folder cannot be looked into.
+/// The mesh files below both folders in the order of their paths. Files of the same path are a pair. Of the
+/// rest, files whose paths differ only in the suffix (a.ply, a.glb) are a pair if neither folder has a
+/// second candidate. Links to folders are not followed. Throws missing (E-FILE) when a folder cannot be
+/// read.
 std::vector<PairedPaths> pairs_in(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Fills in what an index tells of a pair.
+/// Sets the index entries of a pair.
 void tell(const Comparison& comparison, FolderPair& pair);
 
 /// Numbers of the pairs, the worst first: failures, then by how far they are apart.

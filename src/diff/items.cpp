@@ -50,7 +50,7 @@ Json contents_or_null(io::MaterialContents& contents, const Material& material) 
     }
 }
 
-/// "other emissiveTexture, roughnessFactor": what of two materials of glTF is not the same; empty: nothing.
+/// "other emissiveTexture, roughnessFactor": the differing properties of two glTF materials; empty: equal.
 std::string look_note(const Json& a, const Json& b) {
     if (a == b) return {};
     if (!a.is_object() || !b.is_object()) return "another look";
@@ -76,7 +76,7 @@ class Pairing {
     explicit Pairing(const List& second) : taken_(second.size()) {
         for (std::size_t i = 0; i < second.size(); ++i) by_name_.emplace(second[i].name, i);
     }
-    /// Its number; none when there is no more of that name.
+    /// The next index of that name; none if all are used.
     std::optional<std::size_t> take(const std::string& name) {
         const auto found = by_name_.find(name);
         if (found == by_name_.end()) return {};
@@ -88,7 +88,7 @@ class Pairing {
     bool is_taken(std::size_t i) const { return taken_[i]; }
 
   private:
-    std::multimap<std::string, std::size_t> by_name_; // of one name in the order of insertion
+    std::multimap<std::string, std::size_t> by_name_; // equal names in the order of insertion
     std::vector<bool> taken_;
 };
 

@@ -17,14 +17,14 @@ struct Comparing {
     void add(const char* section, std::string name, const Json& x, const Json& y) const {
         add(section, std::move(name), x, y, x == y);
     }
-    /// A line that tells nothing, and why.
+    /// Adds a line that was not compared, with the reason.
     void leave(const char* section, std::string name, Json x, Json y, const std::string& why) const {
         result.lines.push_back(
             {section, std::move(name), std::move(x), std::move(y), true, "not compared: " + why, false});
     }
 };
 
-/// Those of a section, in order.
+/// The lines of a section, in order.
 inline std::vector<const Difference*> of_section(const Comparison& comparison, const std::string& section) {
     std::vector<const Difference*> lines;
     for (const auto& d : comparison.lines)
@@ -34,13 +34,13 @@ inline std::vector<const Difference*> of_section(const Comparison& comparison, c
 
 using Limit = ComparisonSettings::Limit;
 
-/// What JSON has no number for is null.
+/// Null for numbers that JSON cannot represent.
 inline Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-/// How far surfaces may be apart at most: as given, or, without any limit, what float32 loses.
+/// The maximum distance of surfaces: as given or, without any limit, the precision of float32.
 std::optional<Limit> maximum_of(const ComparisonSettings& settings);
 
-/// How many there are, and their names in order.
+/// Compares the numbers of items, and their names in order.
 template <class List>
 void compare_names(const Comparing& with, const char* section, const List& a, const List& b) {
     with.add(section, "number", a.size(), b.size());
@@ -55,7 +55,7 @@ void compare_geometry(const Comparing& with);
 void compare_attributes(const Comparing& with);
 /// Materials by number: name, look, and where the faces are that have them.
 void compare_materials(const Comparing& with);
-/// What a glTF holds beside meshes.
+/// Compares the contents of a glTF other than meshes.
 void compare_documents(const Comparing& with);
 
 } // namespace facetmill::report

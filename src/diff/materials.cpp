@@ -33,7 +33,7 @@ std::map<std::string, std::pair<Json, Json>> different_entries(const Json& a, co
 /// A value as one word, whatever it is.
 Json in_short(const Json& value) { return value.is_structured() ? Json(value.dump()) : value; }
 
-/// What is told elsewhere, or means no more than leaving it out.
+/// Removes properties that are reported elsewhere, or equal their default.
 Json beside_basics(Json material) {
     for (const char* key : {"name", "doubleSided"}) material.erase(key);
     if (const auto pbr = material.find("pbrMetallicRoughness"); pbr != material.end()) {
@@ -49,7 +49,7 @@ bool is_plain(const Json& material) {
     return left.empty() || left == Json{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
 }
 
-/// All that only glTF says of a material.
+/// Compares all glTF-only properties of a material.
 void compare_contents(const Comparing& with, io::MaterialContents& of_a, io::MaterialContents& of_b,
                       std::size_t i) {
     const std::string name = fmt::format("{}", i);
@@ -122,7 +122,7 @@ std::string elements_of(const Comparing& with, const char* elements, Index mater
                         : fmt::format("the {} of '{}'", elements, name);
 }
 
-/// Which faces each material is on: by number where the faces are the same ones, else by where they are.
+/// Compares the faces of each material: by number if the faces are the same, else by position.
 void compare_places(const Comparing& with) {
     const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
     const std::set<Index> all = materials_to_compare(a, b);
@@ -152,7 +152,7 @@ std::vector<Index> materials_of_lines(const Scene& scene) {
     return all;
 }
 
-/// Which lines each material is on: as for faces.
+/// Compares the lines of each material, as for faces.
 void compare_places_of_lines(const Comparing& with) {
     const std::set<Index> all = materials_to_compare(materials_of_lines(with.a), materials_of_lines(with.b));
     if (all.empty()) return;

@@ -96,7 +96,7 @@ std::string elsewhere(const Comparison& c) {
                : fmt::format("; where they are differs for {}, see the section materials below", count);
 }
 
-/// Those that are not the same, as far as they fit.
+/// The changed items, up to a limit.
 std::vector<const ItemChange*> told_items(const std::vector<const ItemChange*>& all) {
     constexpr std::size_t most = 100;
     std::vector<const ItemChange*> told;

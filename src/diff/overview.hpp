@@ -1,5 +1,5 @@
 #pragma once
-// What a page of a comparison tells of both files beside each other.
+// The side-by-side overview of both files on a comparison page.
 
 #include "diff/comparison.hpp"
 

@@ -23,7 +23,7 @@ std::optional<DeviationView> distances_from(const FaceTree& tree, double diagona
                                             const Scene& scene, const PictureSettings& settings) {
     if (tree.empty()) return {};
     auto view = deviation_view(scene, {name, diagonal, tree}, settings);
-    // What 32-bit floats lose is no difference to look at.
+    // The rounding of 32-bit floats is not a visible difference.
     const bool any = std::abs(view.worst_distance) > 1e-6 * view.diagonal;
     return any ? std::optional(std::move(view)) : std::nullopt;
 }
@@ -35,7 +35,7 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     PictureSettings settings = page_settings();
     settings.width = 640;
     settings.height = 480;
-    // Distances are those in the pose that is seen.
+    // Distances are measured in the displayed pose.
     const auto posed_a = io::posed(a), posed_b = io::posed(b);
     const Scene &seen_a = posed_a ? *posed_a : a, &seen_b = posed_b ? *posed_b : b;
     Camera camera = camera_of(seen_a);

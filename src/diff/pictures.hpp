@@ -8,12 +8,12 @@
 
 namespace facetmill::report {
 
-/// PNG images in base64, and distances there and back.
+/// PNG images in base64, and distances both ways.
 struct ComparisonPictures {
     std::string a, b;
-    /// Of the first scene from the second: what is gone. Its diagonal is that of the first, as backward's.
+    /// From the first scene to the second: removed geometry. Its diagonal is the first's, like backward's.
     std::optional<DeviationView> forward;
-    std::optional<DeviationView> backward; ///< of the second from the first: what is new
+    std::optional<DeviationView> backward; ///< from the second to the first: new geometry
     Json view;                             ///< both, to be turned (report/viewer.hpp)
     std::vector<Diagnostic> not_drawn;     ///< textures that all of these do without, and why
 };

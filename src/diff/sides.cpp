@@ -65,7 +65,7 @@ bool same_place(const Component& a, const Component& b) {
     return length(a.middle / a.area - b.middle / b.area) <= 1e-2 * std::sqrt(a.area);
 }
 
-/// All components as one. Each volume has its own origin, which matters for open components only.
+/// All components merged. Each volume has its own origin, which matters for open components only.
 Component whole(const std::vector<Component>& components) {
     Component sum;
     for (const Component& p : components) {

@@ -18,7 +18,7 @@ namespace {
 /// Whether people are shown the line, without `all`.
 bool is_told(const Difference& d) { return !d.same || !d.compared || d.section == "geometry"; }
 
-/// What pages say of a line, and its colour.
+/// The words and the colour of a line on pages.
 struct Outcome {
     const char *text, *kind;
 };
@@ -30,7 +30,7 @@ Outcome outcome_of(const Difference& d) {
     return {"same", "good"};
 }
 
-/// A text; of a SHA-256 as much as tells it from others.
+/// A text; a SHA-256 is shortened to its first digits.
 std::string short_digest(const std::string& text) {
     constexpr std::size_t digits = 64, enough = 12;
     const bool is_digest =
@@ -47,7 +47,7 @@ std::string text_of(const Json& value) {
     return value.dump();
 }
 
-/// What is told of a distance below its numbers: where it is, and how it was measured.
+/// The lines below a distance: its position, and the measurement.
 std::vector<std::string> measured_lines(const Comparison& comparison) {
     const DeviationResult& d = *comparison.deviation;
     std::vector<std::string> lines;
@@ -71,7 +71,7 @@ std::vector<std::string> measured_lines(const Comparison& comparison) {
     return lines;
 }
 
-/// These of a section; none but of geometry.
+/// The additional lines of a section; only geometry has any.
 std::vector<std::string> lines_below(const Comparison& comparison, const char* section) {
     if (section != std::string_view("geometry") || !comparison.deviation) return {};
     return measured_lines(comparison);
@@ -127,7 +127,7 @@ const char* geometry_text(const Comparison& comparison) {
     return a != b ? "files" : a == "points" ? "points" : "surfaces";
 }
 
-/// "differ in counts", with what was not compared.
+/// "differ in counts", with everything that was not compared.
 std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
                                     const std::string& name_b) {
     std::vector<std::string> lines = left_out_lines(comparison, name_a, name_b);

@@ -1,5 +1,5 @@
 #pragma once
-// What the generators share: a declaration flattened into rows, and text laid out in columns.
+// Shared code of the generators: a declaration flattened into rows, and text laid out in columns.
 
 #include "options/declaration.hpp"
 #include "options/fields.hpp"
@@ -22,7 +22,7 @@ std::vector<OptionRow> rows(const Declaration& declaration);
 struct FieldRow {
     std::string name; ///< "parts[].before.area"
     std::string type; ///< "number, scene units", "one of faces, edges"
-    std::string help; ///< with when it is null or not there
+    std::string help; ///< including when it is null or missing
     std::vector<Choice> choices;
 };
 
@@ -34,8 +34,8 @@ std::string spelling_help(Dimension dimension);
 /// spelling_help of every dimension that the rows use, once each.
 std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
 
-/// Text broken at blanks into lines of at most width characters, each led by indent blanks. Words longer than
-/// a line stand alone; line breaks in the text are kept.
+/// Breaks text at blanks into lines of at most width characters, each indented by indent blanks. A longer
+/// word gets its own line; line breaks in the text are kept.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
 
 /// The lines of each paragraph joined: help is written as raw strings of short lines.

@@ -42,7 +42,7 @@ std::vector<std::string> arguments(std::string_view text) {
     return all;
 }
 
-/// .B all of it, .BR and the like: the letters are the fonts of the arguments in turn.
+/// .B sets all arguments; for .BR and the like, the letters are the fonts of the arguments in turn.
 std::string in_fonts(std::string_view fonts, const std::vector<std::string>& texts) {
     std::string out;
     if (fonts.size() == 1) {

@@ -11,7 +11,7 @@ namespace facetmill::docs {
 std::string id_of(std::string text);
 /// One line per id.
 std::string message_list();
-/// All of one id: what it means, its exit code, what to do.
+/// The page of one id: its meaning, its exit code, the remedy.
 std::string message_page(const MessageId& message);
 /// All ids, as one Markdown page.
 std::string messages_markdown();

@@ -18,7 +18,7 @@ Json ref(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; 
 
 Json with_expressions(Json schema);
 
-/// The schema or an expression in its place.
+/// The schema, or an expression instead.
 Json or_expression(Json schema) {
     if (schema.is_boolean()) return schema; // names a property, no more
     schema = with_expressions(std::move(schema));
@@ -44,7 +44,7 @@ Json with_expressions(Json schema) {
     return schema;
 }
 
-/// A map with one stage (or branch, foreach) key, and the common keys beside it.
+/// A map with one stage (or branch, foreach) key, and the common keys.
 Json step_schema(const std::string& key, Json value, const Json& beside = Json::object()) {
     Json properties = {{key, std::move(value)}};
     properties.update(beside);
@@ -56,7 +56,7 @@ Json step_schema(const std::string& key, Json value, const Json& beside = Json::
             {"additionalProperties", false}};
 }
 
-/// Whether the stage may stand alone, without a value.
+/// Whether the stage may be written without a value.
 bool may_be_bare(const StageInfo& stage) {
     const auto& rules = stage.options->exclusions;
     const auto& options = stage.options->options;

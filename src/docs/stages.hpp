@@ -6,11 +6,11 @@
 
 namespace facetmill::docs {
 
-/// The paragraphs of a stage, and what is done about faces that intersect themselves.
+/// The paragraphs of a stage, including its treatment of self-intersecting faces.
 std::string details_of(const StageInfo& stage);
 /// One line per stage.
 std::string stage_list();
-/// All of one stage: what it does, its options, rules, spelling of quantities and examples.
+/// The page of one stage: its purpose, options, rules, spelling of quantities and examples.
 std::string stage_page(const StageInfo& stage);
 /// All stages, as one Markdown page.
 std::string stages_markdown();

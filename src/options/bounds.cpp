@@ -24,7 +24,7 @@ bool read_angle(const Value& value, Limit& out, Problems& problems) {
     if (value.deferred) return true;
     Angle angle;
     if (!OptionType<Angle>::parse(value, angle, problems)) return false;
-    // As written when in degrees: a way there and back would round it.
+    // Keeps the text's number if it is in degrees: converting to radians and back would round it.
     const auto parts = number_and_unit(value.text);
     out = parts->second == "rad" ? angle.radians * (180 / pi) : parts->first;
     return true;
@@ -70,7 +70,7 @@ bool read_range(const Value& value, Bound& out, Reader read, Problems& problems)
     return good && (!value.entries.empty() || wrong_type(value, "min or max", problems));
 }
 
-/// A bare value is what must be, or, of a limit, the most that may be.
+/// A bare value is the required value or, for a limit, the maximum.
 bool read_bound(const Value& value, Bound& out, Reader read, bool is_limit, Problems& problems) {
     out = {};
     if (value.deferred) return true;

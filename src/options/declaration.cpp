@@ -105,7 +105,7 @@ std::vector<KnownName> Declaration::known_names() const {
 
 namespace {
 
-/// A default as a value of its type, none for those that are no single value.
+/// A default as a value of its type, null for defaults that are not a single value.
 Json default_json(const Option& option) {
     const std::string& text = option.default_text;
     if (text.empty() || text.starts_with('[') || text.starts_with('{')) return nullptr;
@@ -120,7 +120,7 @@ bool is_switch(const Option& option) {
     return option.fields && option.may_be_true && !option.fields->shorthand;
 }
 
-/// The schema of an option's value with all that the declaration tells.
+/// The schema of an option's value with all properties of the declaration.
 Json described(const Option& option) {
     Json schema = option.schema;
     if (is_switch(option)) schema["anyOf"].push_back({{"type", "boolean"}});
@@ -135,14 +135,14 @@ Json described(const Option& option) {
     return schema;
 }
 
-/// Of names of which at most one may be given: each forbids the others, so that an editor points at them.
+/// At most one of these names may be given: each forbids the others, so that an editor marks them.
 void add_conflicts(const std::vector<std::string>& names, Json& object) {
     for (const auto& name : names)
         for (const auto& other : names)
             if (name != other) object["dependentSchemas"][name]["properties"][other] = false;
 }
 
-/// One of the names must be there. Each form names its property, as strict validators want it.
+/// One of the names is required. Each form names its property, as strict validators require.
 Json any_of_these(const std::vector<std::string>& names) {
     Json forms = Json::array();
     for (const auto& name : names)
@@ -152,7 +152,8 @@ Json any_of_these(const std::vector<std::string>& names) {
 
 bool is_map(const Json& schema) { return schema.contains("type") && schema["type"] == "object"; }
 
-/// What a bare value of the primary option may be: a map gives the options by their names.
+/// The schema of a bare value of the primary option: without maps, because a map gives the options by their
+/// names.
 Json without_maps(Json schema) {
     if (!schema.contains("anyOf")) return schema;
     Json forms = Json::array();
@@ -264,7 +265,7 @@ const Option* other_choice(const Declaration& declaration, const Option& primary
     return it == declaration.options.end() || &*it == &primary ? nullptr : &*it;
 }
 
-/// What a bare number may be of, where the bare value is a name: `split: 2`. Empty where there is nothing.
+/// The options that accept a number, if the bare value must be a name: `split: 2`. Empty if none does.
 std::string hint_of_number(const Declaration& declaration, const Option& primary, std::string_view owner,
                            const Value& value) {
     constexpr std::size_t most_told = 3;
@@ -287,7 +288,7 @@ std::string where_listed(std::string_view owner, std::size_t names) {
     return names > most_listed ? fmt::format("facetmill stages {} lists its options", owner) : "";
 }
 
-/// A bare value where none may stand: often the name of an option, as it is here or elsewhere.
+/// The hint for a forbidden bare value, which is often the name of an option of this or another stage.
 std::string hint_of_bare_value(const Declaration& declaration, std::string_view owner, const Value& value) {
     const std::vector<std::string> names = declaration.names();
     const std::vector<std::string> called = value.is_scalar()
@@ -343,7 +344,7 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         return false;
     }
     bool good = true;
-    std::set<std::string> meant; // by names that there are not
+    std::set<std::string> meant; // named by unknown names
     for (const auto& entry : value.entries) {
         if (also_known.contains(entry.key)) continue;
         if (const Option* o = find(entry.key)) {

@@ -10,7 +10,8 @@ namespace facetmill {
 
 namespace {
 
-/// Of a value that is not null; that of objects is made when it is asked for, since a run has no use for it.
+/// The schema of a value that is not null. Schemas of objects are built on request, because a run does not
+/// need them.
 Json schema_of_value(const Field& field) {
     if (!field.fields || !field.schema.is_null()) return field.schema;
     if (!field.is_list) return field.fields->schema();

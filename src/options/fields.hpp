@@ -31,7 +31,7 @@ namespace facetmill {
 struct Fields;
 
 namespace fields {
-/// What a phrase on the terminal can say.
+/// The printable values of a phrase on the terminal.
 using Printable = std::variant<std::uint64_t, std::int64_t, double, std::string>;
 /// Looks at the object in a record, or at each item of the list; false: the record has none.
 using Each = Function<bool(const void* record, const std::function<void(const void*)>& look)>;
@@ -50,8 +50,8 @@ struct Field {
     std::string type; ///< for people: "count", "number", "text", "list of objects"
     std::string unit; ///< "scene units", "degrees"; empty: none
     std::string help;
-    std::string null_when; ///< what null says; empty: it is never null
-    std::string only_when; ///< when the key is there; empty: always
+    std::string null_when; ///< the meaning of null; empty: it is never null
+    std::string only_when; ///< the condition for the key; empty: always present
     int optionals = 0;     ///< how many may be empty around the value: of two, the outer leaves out the key
     std::vector<Choice> choices;
     Json schema;                          ///< of a value that is not null
@@ -61,14 +61,14 @@ struct Field {
     Function<void(const Field&, const void* record, Json& object)> put;
     /// Its value; none: it is empty, or no number and no text.
     Function<std::optional<facetmill::fields::Printable>(const void* record)> value;
-    /// Its value, as the terminal tells it; none: nothing is said of it.
+    /// The value as text for the terminal; none: it is not printed.
     Function<std::optional<std::string>(const void* record)> phrase;
-    /// Of a count: how many.
+    /// For a count: its value.
     Function<std::uint64_t(const void* record)> count;
-    /// Of an object or a list.
+    /// For an object or a list.
     facetmill::fields::Each each;
     bool is_list = false;
-    /// Of a list: what is said when all counts of its items are 0; else their sums are said by name.
+    /// For a list: the text if all counts of its items are 0; else their sums are printed by name.
     std::optional<std::string> nothing_counted;
 };
 
@@ -83,13 +83,13 @@ struct Fields {
 
     std::vector<Field> all;
     std::string heading; ///< the field whose text leads the line of a record: "part"
-    /// What is said on the terminal where phrases of single fields do not do.
+    /// Lines for the terminal, if phrases of single fields do not suffice.
     Function<std::vector<std::string>(const void* record)> tell;
 
     Json json(const void* record) const;
-    /// Of an object with these keys and no others.
+    /// The schema of an object with exactly these keys.
     Json schema() const;
-    /// For the terminal: `tell`, or a line of the phrases, and one for each item of a list that has some.
+    /// For the terminal: `tell`, or a line of the phrases, and a line for each list item that has phrases.
     std::vector<std::string> lines(const void* record) const;
 };
 
@@ -114,7 +114,7 @@ Json schema_of_count();
 Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> size = {});
 } // namespace fields
 
-/// How a C++ type of a field is told and described. Each specialisation has name, schema() and json().
+/// The text, schema and JSON of the C++ type of a field. Each specialisation has name, schema() and json().
 template <class T>
 struct FieldType;
 
@@ -141,7 +141,7 @@ struct FieldType<T> {
     static Json json(T value) { return value; }
 };
 
-/// Null beyond the range of numbers; a field that may be so says it (null_when).
+/// Null beyond the range of numbers; such a field declares it (null_when).
 template <>
 struct FieldType<double> {
     static constexpr const char* name = "number";
@@ -197,13 +197,13 @@ class FieldRef {
 
     FieldRef& unit(std::string_view text);
     FieldRef& null_when(std::string_view text);
-    /// Of an optional value: without one the key is left out, rather than null.
+    /// For an optional value: without a value the key is omitted instead of null.
     FieldRef& only_when(std::string_view text);
     /// Leads the line of its record on the terminal.
     FieldRef& heads();
     /// Is said on the terminal, in the place of {} of the format, unless it has no value.
     FieldRef& said(std::string_view format);
-    /// Of a list: the sums of its items' counts are said, or `nothing` when all are 0.
+    /// For a list: prints the sums of its items' counts, or `nothing` when all are 0.
     FieldRef& tallied(std::string_view nothing);
     Field& field() { return owner_->all[index_]; }
 
@@ -219,7 +219,7 @@ inline constexpr bool is_count = std::unsigned_integral<T> && !std::same_as<T, b
 
 inline constexpr auto to_json = []<class T>(const T& value) { return FieldType<T>::json(value); };
 
-/// Adds a field to those of a record. optionals: how many are around its value.
+/// Adds a field to a record. optionals: the number of optionals around its value.
 Field& start(Fields& fields, std::string_view name, const char* type, Json schema, std::string_view help,
              int optionals);
 /// Adds an object with these fields, or a list of such.
@@ -227,7 +227,7 @@ FieldRef object_field(Fields& fields, std::string_view name, std::string_view he
                       std::shared_ptr<const Fields> inner, int optionals, Each each);
 FieldRef list_field(Fields& fields, std::string_view name, std::string_view help,
                     std::shared_ptr<const Fields> inner, int optionals, Each each);
-/// Adds the fields of a record that lies within another: within() of the other.
+/// Adds the fields of a nested record: within() of the outer record.
 void embed(Fields& fields, const Fields& inner, const Function<const void*(const void*)>& within);
 /// The fields, owned.
 std::shared_ptr<const Fields> shared(Fields&& fields);
@@ -256,7 +256,7 @@ void put_value(const Field& field, const T& value, const ToJson& json, Json& obj
     }
 }
 
-/// What a phrase on the terminal can say of the value; none when it is empty, or no number and no text.
+/// The printable value for the terminal; none when it is empty, or neither number nor text.
 template <class T>
 std::optional<Printable> told_value(const T& value) {
     if constexpr (is_optional<T>)
@@ -305,8 +305,8 @@ FACETMILL_COMMON_FIELD_TYPES(FACETMILL_ELSEWHERE)
 
 } // namespace fields
 
-/// Fills Fields for the record R. Getters are members of R or functions of it; what they return may be
-/// optional: null, or no key with only_when, where there is none.
+/// Fills Fields for the record R. Getters are members of R or functions of it. They may return an optional:
+/// an empty optional is null, or omits the key with only_when.
 template <class R>
 class DeclareFields {
   public:
@@ -334,7 +334,7 @@ class DeclareFields {
         }
     }
 
-    /// A word out of few: value and name of each, and what it means.
+    /// An enumeration: value, name and meaning of each choice.
     template <class Get, class E = typename facetmill::fields::Inner<
                              std::remove_cvref_t<std::invoke_result_t<Get, const R&>>>::type>
     FieldRef choice(std::string_view name, Get get, const std::vector<NamedChoice<E>>& choices,
@@ -393,7 +393,7 @@ class DeclareFields {
             });
     }
 
-    /// The fields of a record within this one, in its place: get returns a reference to it.
+    /// Adds the fields of a nested record at the same level: get returns a reference to it.
     template <class Get, class Fill>
     void embed(Get get, Fill fill) {
         using T = Value<Get>;
@@ -405,7 +405,7 @@ class DeclareFields {
         });
     }
 
-    /// Counts by name (NamedCounts), the names being some of those given.
+    /// Counts by name (NamedCounts); all names must be among the given names.
     template <class Get>
     FieldRef counts(std::string_view name, Get get, const std::vector<std::string>& names,
                     std::string_view help) {
@@ -420,7 +420,7 @@ class DeclareFields {
         return {fields, fields.all.size() - 1};
     }
 
-    /// What the terminal is told of the record: a function that returns lines.
+    /// The terminal lines of the record: a function that returns lines.
     template <class Tell>
     void tell(Tell tell) {
         fields.tell = [tell](const void* record) -> std::vector<std::string> {

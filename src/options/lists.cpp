@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// Reads the text from left to right; blanks beside signs do not count.
+/// Reads the text from left to right; ignores blanks around signs.
 class ListReader {
   public:
     ListReader(std::string_view text, const Mark& mark) : text_(trimmed(text)), mark_(mark) {}

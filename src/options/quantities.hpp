@@ -39,7 +39,7 @@ struct Ratio {
     double value = 0;
 };
 
-/// A file as written; what it is relative to, the pipeline knows.
+/// A file as written; the pipeline resolves it.
 struct PathText {
     std::string text;
     bool operator==(const PathText&) const = default;

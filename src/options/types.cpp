@@ -91,7 +91,7 @@ std::string hint_of_integer(const Value& value) {
     return meant ? fmt::format("write {}", *meant) : "";
 }
 
-/// What to write for 10% and 2mm; empty when it is neither.
+/// The replacement for 10% and 2mm; empty for other values.
 std::string hint_of_number(const Value& value) {
     const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
     if (!parts) return {};

@@ -11,7 +11,7 @@
 
 namespace facetmill {
 
-/// What a value of an option is.
+/// The kind of an option's value.
 enum class OptionKind {
     boolean,
     integer,
@@ -38,11 +38,11 @@ enum class OptionKind {
 };
 /// As help and the manual call it: "bool", "integer".
 std::string_view to_string(OptionKind kind);
-/// Whether a value may be a map, or a list, in YAML. (Of a group its declaration tells more.)
+/// Whether a value may be a map, or a list, in YAML. (For a group its declaration decides.)
 bool may_be_map(OptionKind kind);
 bool may_be_list(OptionKind kind);
 
-/// What the number of an option measures.
+/// The dimension of an option's number.
 enum class Dimension { none, length, angle, ratio, count, bytes };
 
 /// Limits of a numeric option; the open ends are exclusive.

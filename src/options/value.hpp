@@ -1,6 +1,6 @@
 #pragma once
-// What a person wrote, with its places: the one tree that the YAML file, the one-liner, -D and --set all
-// become before options are read from it.
+// A person's input with its locations: the common tree of the YAML file, the one-liner, -D and --set, from
+// which options are read.
 
 #include "base/error.hpp"
 #include "base/mark.hpp"
@@ -58,7 +58,7 @@ struct Value::Entry {
     Value value;
 };
 
-/// The same tree, whatever the places and quotes.
+/// Whether the trees are equal, ignoring locations and quotes.
 bool same_content(const Value& a, const Value& b);
 
 } // namespace facetmill

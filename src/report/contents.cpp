@@ -46,7 +46,7 @@ std::optional<Vec3> corner_of(const Json& json) {
     return Vec3{numbers[0], numbers[1], numbers[2]};
 }
 
-/// Null of a place, which is nobody's.
+/// Null for a location, which has no owner.
 const char* key_of(EvidenceEntry::Of of) {
     switch (of) {
     case EvidenceEntry::Of::place:

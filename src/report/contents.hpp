@@ -1,6 +1,6 @@
 #pragma once
-// What info and reports tell of a scene beside its properties: plain data, and the declaration of its fields,
-// from which JSON and its schema come.
+// The data of a scene for info and reports, in addition to its properties, and the declaration of its
+// fields, from which JSON and its schema derive.
 
 #include "geometry/inspect/inspect.hpp"
 #include "options/fields.hpp"
@@ -12,16 +12,16 @@ namespace facetmill::report {
 Brief brief_of(const Scene& scene);
 const Fields& brief_fields();
 
-/// What a check found, as reports and baselines have it: a box is {min, max}, none is null.
+/// The value found by a check, as JSON for reports and baselines: a box is {min, max}, none is null.
 Json found_json(const Found& found);
-/// The same back; none of what is no such JSON.
+/// The inverse of found_json; none for other JSON.
 std::optional<Found> found_of(const Json& json);
 /// {"amplitude": {"given": "0.2%", "is": 0.03}}
 Json resolved_json(const std::vector<ResolvedLength>& lengths);
 
 /// {min, max}; null of an empty box.
 Json box_json(const Box& box);
-/// Of a box that may be empty.
+/// The schema of a box that may be empty.
 Json box_schema();
 
 /// An attribute that some part has.

@@ -19,7 +19,7 @@ double limit_of(const std::vector<float>& distances, double most) {
     const auto within = [&](std::size_t percent) {
         return static_cast<double>(sizes[(sizes.size() - 1) * percent / 100]);
     };
-    // What goes far beyond most of the surface, such as a cut that was closed, may be some of it.
+    // Distances far beyond most of the surface, such as a closed cut, may be a small part of it.
     for (const double limit : {within(99), 4 * within(90)})
         if (limit > 0 && limit < most / 4) return limit;
     return most;
@@ -58,7 +58,7 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
 } // namespace
 
 double colour_limit(const std::vector<float>& distances, double most, double diagonal) {
-    constexpr double lost_by_floats = 1e-6; // of the diagonal: has no colours
+    constexpr double lost_by_floats = 1e-6; // relative to the diagonal: smaller distances get no colours
     const double limit = limit_of(distances, most);
     return std::isfinite(diagonal) ? std::max(limit, lost_by_floats * diagonal) : limit;
 }

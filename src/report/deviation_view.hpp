@@ -7,7 +7,7 @@
 
 namespace facetmill::report {
 
-/// What distances are from.
+/// The reference of distances.
 struct EarlierSurface {
     std::string name; ///< "the scene as loaded"
     double diagonal = 0;
@@ -20,8 +20,8 @@ struct EarlierSurface {
 /// end. most: the largest amount. diagonal: of the scene.
 double colour_limit(const std::vector<float>& distances, double most, double diagonal);
 
-/// The tree over an earlier surface for the distances of a page, some 100,000. The surface has these bounds
-/// and stays.
+/// The tree over an earlier surface for the distances of a page, about 100,000. The surface has these bounds
+/// and must not change.
 FaceTree tree_of_earlier(const Surface& surface, const Box& bounds);
 
 /// Both in world space, and in one pose. pictures: their size and camera; none: only numbers. Throws as

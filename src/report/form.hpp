@@ -1,5 +1,5 @@
 #pragma once
-// The forms that reports have, of a run and of a batch; the suffix of the file says which.
+// The forms of reports, of a run and of a batch; the suffix of the file selects the form.
 
 #include <string>
 
@@ -7,7 +7,7 @@ namespace facetmill::report {
 
 enum class ReportForm { json, html, markdown, junit, text };
 
-/// As help and messages name them.
+/// The suffixes in help and messages.
 inline constexpr const char* report_suffixes = ".json, .html, .md, .xml (JUnit) or .txt";
 
 /// By the suffix of the report's file. Throws usage (E-REPORT) for another.

@@ -1,5 +1,5 @@
 #pragma once
-// What people ask first of a run, as plain text: pages and Markdown have it, each in its form.
+// The key results of a run, as plain text for pages and Markdown.
 
 #include "report/record.hpp"
 
@@ -7,14 +7,14 @@
 
 namespace facetmill::report {
 
-/// The bytes of files, and what they are spent on.
+/// The bytes of files, and their use.
 struct ByteSum {
     std::uint64_t bytes = 0;
     io::ByteKinds kinds;
 };
 ByteSum sum_of(const std::vector<FileRecord>& files);
 
-/// "12.7 %": of what there was before; "-" of nothing.
+/// "12.7 %": relative to the value before; "-" if that is 0.
 std::string part_of_before(std::uint64_t before, std::uint64_t after);
 
 /// After the first stage and after the last one that was done; none where none was.

@@ -1,4 +1,4 @@
-// Checks on a page: what was expected and found, where it fails, and how to go on.
+// Checks on a page: expected and found values, failing locations, and remedies.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

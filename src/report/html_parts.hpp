@@ -1,5 +1,5 @@
 #pragma once
-// What the pages of reports are made of. Texts that are not HTML yet go through escaped() or code().
+// The building blocks of report pages. Texts that are not HTML yet go through escaped() or code().
 
 #include "base/error.hpp"
 
@@ -28,14 +28,14 @@ std::string figure(const std::string& picture, const std::string& caption, bool 
 /// same camera, which is shown on the left. name: of the later one.
 std::string compared_figure(const std::string& picture, const std::string& before_id, const std::string& name,
                             const std::string& caption);
-/// What pictures do without, and why, a paragraph each; nothing of nothing.
+/// The missing pictures, and the reasons, a paragraph each; empty if none are missing.
 std::string not_drawn_html(const std::vector<Diagnostic>& not_drawn);
 /// A row of headings; a leading # marks a column of numbers.
 std::string heads(std::initializer_list<const char*> titles);
-/// A table under a smaller heading; nothing when there are no rows.
+/// A table under a smaller heading; empty without rows.
 std::string subtable(const std::string& title, const std::string& header, const std::string& rows,
                      const char* level = "h4");
-/// A section with a table; nothing when there are no rows.
+/// A section with a table; empty without rows.
 std::string table(const std::string& title, const std::string& header, const std::string& rows);
 
 } // namespace facetmill::report

@@ -38,7 +38,7 @@ MarkdownRows message_rows(const RunRecord& record) {
     return rows;
 }
 
-/// Those that did not hold; a reviewer is told how many did.
+/// The failed checks; a count summarises the passed ones.
 MarkdownRows failed_rows(const RunRecord& record) {
     MarkdownRows rows;
     for (const auto& c : record.checks) {

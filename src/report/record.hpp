@@ -1,5 +1,5 @@
 #pragma once
-// What a run collects, as plain data. Renderers (text, JSON, HTML, JUnit) read it; nothing else does.
+// The data that a run collects. Only the renderers (text, JSON, HTML, JUnit) read it.
 
 #include "base/error.hpp"
 #include "base/json.hpp"
@@ -17,13 +17,13 @@
 
 namespace facetmill::report {
 
-/// One thing that speaks against a check: a place, or what somebody contributes.
+/// A violation of a check: a location, or the contribution of an owner.
 struct EvidenceEntry {
     enum class Of { place, part, material, image, extension, bytes };
     Of of = Of::place;                               ///< place: a point, of nobody
     std::string name = {};                           ///< whose it is
     std::optional<Vec3> at = {};                     ///< in the world
-    std::optional<Vec3> nearest = {};                ///< of a deviation: on the other surface ...
+    std::optional<Vec3> nearest = {};                ///< for a deviation: on the other surface ...
     std::string side = {};                           ///< ... and whose `at` is
     std::optional<std::size_t> face = {}, with = {}; ///< with: the other face of a pair
     std::string attribute = {};                      ///< the place is about it
@@ -32,7 +32,7 @@ struct EvidenceEntry {
     double length = 0;                    ///< ... and how long it is
     std::string document = {};            ///< that names an extension
     std::size_t width = 0, height = 0;    ///< of an image
-    std::optional<double> amount = {};    ///< what is contributed
+    std::optional<double> amount = {};    ///< the contribution
     bool is_count = false;                ///< the amount is
 };
 using CheckEvidence = std::vector<EvidenceEntry>;
@@ -57,7 +57,7 @@ struct Check {
     std::string expected = {}; ///< "true", "2", "at most 5"
     Found found = {};
     std::string found_words = {};               ///< what people read for it, where that says more
-    std::optional<double> min = {}, max = {};   ///< what a number had to lie between
+    std::optional<double> min = {}, max = {};   ///< the limits of a number
     std::string hint = {};                      ///< when it failed: the stage that fixes it
     std::string part = {};                      ///< the part it is about; empty: the scene
     std::optional<CheckEvidence> evidence = {}; ///< the first locations, or what counts most; none if it held
@@ -73,7 +73,7 @@ struct PartChange {
     AttributeChange change;
 };
 
-/// A length that depended on the scene, and what it was.
+/// A length that depended on the scene, and its value.
 struct ResolvedLength {
     std::string option; ///< "amplitude", or, where parts differ in it, "amplitude (wheel)"
     std::string given;  ///< "0.2%"
@@ -86,7 +86,7 @@ inline void set_resolved(std::vector<ResolvedLength>& all, ResolvedLength length
     (known != all.end() ? *known : all.emplace_back()) = std::move(length);
 }
 
-/// What is cheap to tell of a scene before and after every stage.
+/// The cheap counts of a scene before and after every stage.
 struct Brief {
     std::size_t parts = 0, vertices = 0, faces = 0;
     Box bounds = {};
@@ -120,7 +120,7 @@ struct FileRecord {
     std::string sha256;
     Json read_back; ///< of meshes among the outputs: properties of the file decoded again, and how far
                     ///< positions moved
-    std::optional<io::ByteKinds> kinds = {}; ///< what its bytes are spent on
+    std::optional<io::ByteKinds> kinds = {}; ///< the use of its bytes
 };
 
 /// Why a run failed.
@@ -135,7 +135,7 @@ struct RunRecord {
     std::string command; ///< that runs it again, for a shell; empty: unknown
     Json params = Json::object();
     std::vector<FileRecord> inputs, outputs;
-    std::vector<std::string> absent;  ///< files that inputs name and that are not there: a run goes on
+    std::vector<std::string> absent;  ///< files that inputs name and that do not exist: a run goes on
     std::vector<std::string> reports; ///< that were written, from the output folder
     std::vector<StageRecord> stages;
     std::vector<Check> checks;

@@ -20,17 +20,17 @@ Json properties_json(
 Json scene_json(const Scene& scene, const Properties& properties);
 Json to_json(const RunRecord& record); ///< the report; its schema is schema()
 Json schema();                         ///< JSON Schema (2020-12) of the report
-/// Times, memory and threads: what differs from run to run, and is therefore in no report.
+/// Times, memory and threads, which vary from run to run and are therefore in no report.
 Json timings_json(const RunRecord& record);
 Json timings_schema();
 Json info_schema();                           ///< ... and of `info --json`
 std::string to_text(const RunRecord& record); ///< the report for people
-/// What was done, for a terminal: with times and memory, without warnings and errors, which were told when
-/// they arose.
+/// The summary for a terminal: with times and memory, without warnings and errors, which were printed when
+/// they occurred.
 Painted to_terminal(const RunRecord& record, bool colour);
-/// One self-contained page. view: what its 3D view shows (report/viewer.hpp), or null.
+/// One self-contained page. view: the contents of its 3D view (report/viewer.hpp), or null.
 std::string to_html(const RunRecord& record, const Json& view = nullptr);
-/// ... that also tells times, memory and threads, which differ from run to run.
+/// ... with times, memory and threads, which vary from run to run.
 std::string to_html_with_times(const RunRecord& record, const Json& view = nullptr);
 std::string to_markdown(const RunRecord& record); ///< for the description of a change
 std::string to_junit(const RunRecord& record);    ///< checks as test cases

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double chart_height = 150, bars_top = 6, bars_bottom = 122, strip = 7;
 
-/// Charts with a strip of colours stand alone, others beside each other.
+/// Charts with a strip of colours get a full row; other charts share one.
 double width_of(const BarChart& chart) { return chart.scale ? 440 : 360; }
 
 double tallest(const BarChart& chart) {
@@ -21,7 +21,7 @@ double tallest(const BarChart& chart) {
     return most > 0 ? most : 1;
 }
 
-/// A bar that is there is seen, however low.
+/// A nonzero bar is always visible, however low.
 double top_of(double height, double most) {
     return bars_bottom - std::max(height > 0 ? 1.5 : 0.0, height / most * (bars_bottom - bars_top));
 }

@@ -58,7 +58,7 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, Painted& 
     for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }
 
-/// A terminal has been told of those that do not hold.
+/// A terminal already shows the failed checks.
 void add_checks(const std::vector<Check>& checks, Form form, Painted& out) {
     if (checks.empty()) return;
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return !c.passed; });

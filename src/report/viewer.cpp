@@ -86,7 +86,7 @@ Distances distances_of(const Preview& preview, const FaceTree& tree) {
     return out;
 }
 
-/// Whether two scenes of a view cannot be told apart in it.
+/// Whether two scenes of a view look the same.
 bool look_alike(const Json& a, const Json& b) {
     for (const char* key : {"data", "groups", "origin", "size", "up", "front"})
         if (a[key] != b[key]) return false;
@@ -145,7 +145,7 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     Distances distances;
     if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
     PackedMesh mesh = report::packed(preview, distances.all, distances.scale);
-    // A scene that does not say what is up keeps that of the first.
+    // A scene without an up axis uses the first scene's.
     const Camera camera = first_ && first_up_ == scene.up ? *first_ : camera_of(scene);
     if (!first_) stand_as(camera, scene.up);
     Json json = {{"name", name},
@@ -191,7 +191,7 @@ Json ViewedScenes::group(const Scene& scene, const PreviewPaint& paint, std::siz
             {"double_sided", material < scene.materials.size() && scene.materials[material].double_sided}};
 }
 
-/// The place of the texture among those of the page; null when there is no room.
+/// The index of the texture among the page's; null when there is no room.
 Json ViewedScenes::texture(const Texture& texture, bool with_alpha) {
     const TextureKey key{texture.image.get(), texture.wrap_u, texture.wrap_v, texture.nearest, with_alpha};
     if (const auto known = images_.find(key); known != images_.end()) return known->second;

@@ -1,5 +1,5 @@
 #pragma once
-// The 3D view of a page: scenes as few triangles, packed into the page, and drawn there by viewer.js.
+// The 3D view of a page: scenes reduced to few triangles, embedded in the page and drawn by viewer.js.
 
 #include "base/json.hpp"
 #include "geometry/preview/preview.hpp"
@@ -37,7 +37,7 @@ class ViewedScenes {
     /// does where nothing has changed. from: coloured by the signed distances of its vertices from this, too.
     void add_after(const Scene& scene, const std::string& name,
                    const std::shared_ptr<const ResolvedMaterials>& materials, const ViewedFrom& from = {});
-    /// What viewer_section() takes; null where there is nothing to be seen.
+    /// The input of viewer_section(); null for an empty view.
     Json json() const;
 
   private:

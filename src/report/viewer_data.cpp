@@ -10,7 +10,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// The part of [low, low + size] that x is at, as a whole number up to most.
+/// The position of x in [low, low + size], quantised to 0 .. most.
 std::uint32_t quantised(double x, double low, double size, std::uint32_t most) {
     if (!(size > 0)) return 0;
     const double part = std::clamp((x - low) / size, 0.0, 1.0);

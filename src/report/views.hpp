@@ -1,5 +1,5 @@
 #pragma once
-// What only pages show of a run: numbers beside pictures, as plain data.
+// Data of a run that only pages show: numbers with pictures.
 
 #include "base/math/vec.hpp"
 #include "geometry/measure/shape_histograms.hpp"
@@ -16,7 +16,7 @@ struct DeviationView {
     std::string from;       ///< "the scene as loaded"
     std::string unit;       ///< empty: unknown
     bool posed = false;     ///< distances are those in the pose that pictures show, not in bind pose
-    double diagonal = 0;    ///< of the earlier scene: what percentages are of
+    double diagonal = 0;    ///< of the earlier scene: the basis of percentages
     std::size_t points = 0; ///< that were looked up
     std::size_t caps = 0;   ///< faces that are not measured: they close cuts that the earlier scene has not
     double low = 0, high = 0, mean = 0, rms = 0; ///< mean and rms of the amounts over the area
@@ -37,9 +37,9 @@ struct OutputView {
     ShapeHistograms shape, input_shape; ///< input: of the scene as loaded
     std::size_t input_faces = 0;        ///< 0: nothing was loaded
     std::optional<DeviationView> deviation;
-    std::string no_deviation; ///< why there is none
+    std::string no_deviation; ///< why no deviation exists
     bool differs = false;     ///< from the scene as loaded, wherever that is shown
-    std::string same_as{};    ///< the stage whose deviation is that of this, too
+    std::string same_as{};    ///< another stage with the same deviation
 };
 
 } // namespace facetmill::report
