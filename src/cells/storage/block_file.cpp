@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Tells bytes that were not written from those that were; no defence against intent.
+/// Detects bytes that were not written by this program; it is no defence against intent.
 std::uint64_t digest_of(io::Span bytes) {
     constexpr std::uint64_t factor = 0x9e3779b97f4a7c15ULL;
     std::uint64_t sum = bytes.size() * factor;
@@ -35,7 +35,7 @@ std::uint64_t digest_of(io::Span bytes) {
     return sum;
 }
 
-/// Throws output as io::cannot_write does, with the way out that there is here. error: an errno.
+/// Throws output as io::cannot_write does, with a hint for scratch folders. error: an errno.
 [[noreturn]] void cannot_write_there(const fs::path& folder, int error) {
     const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
     throw Error(
@@ -44,11 +44,11 @@ std::uint64_t digest_of(io::Span bytes) {
         "--scratch DIR names another folder for it, --keep-cells DIR for cells that are kept");
 }
 
-/// A file that has no name, or has lost it.
+/// A file without a name, or with its name removed.
 int nameless_file(const fs::path& folder) {
     const int nameless = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (nameless >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return nameless;
-    for (int attempt = 0;; ++attempt) { // a file system that knows no such files
+    for (int attempt = 0;; ++attempt) { // the file system does not support O_TMPFILE
         const fs::path path = folder / io::temporary_name("cells", attempt);
         const int named = ::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
         if (named < 0 && errno == EEXIST) continue;
@@ -125,7 +125,7 @@ Block BlockFile::put(io::Span bytes) {
     return block;
 }
 
-/// False: it is not as it was written.
+/// False if the bytes changed.
 bool BlockFile::read(const Block& block, std::byte* to) const {
     return read_at(file_, block.offset, {to, block.size}) == block.size &&
            digest_of({to, block.size}) == block.digest;
@@ -188,7 +188,7 @@ void SpillFile::add(std::size_t number, io::Span record) {
     list.size += record.size();
 }
 
-/// Both sizes are of one list that waits, or of a block that was looked at.
+/// Both sizes belong to a list in memory, or to a checked block.
 SpillFile::Part SpillFile::part_of(const Block& block, std::uint64_t size) {
     return {block.offset, block.digest, static_cast<std::uint32_t>(block.size),
             static_cast<std::uint32_t>(size)};

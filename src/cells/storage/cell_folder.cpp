@@ -27,7 +27,7 @@ constexpr std::string_view lock_name = "facetmill-cells.lock";
                 "--keep-cells DIR names another folder");
 }
 
-/// The first line of a file: what it is, its key, the digest of what follows.
+/// The first line of a file: name, key, and digest of the rest.
 std::string head_of(const std::string& name, const std::string& key, io::Span bytes) {
     return fmt::format("facetmill {} {} {}\n", name, key, sha256(bytes));
 }
@@ -49,7 +49,7 @@ void CellFolder::leave() {
     locks_.clear();
 }
 
-/// The file stays: were it removed, a third run could lock a new one while a second waits for this one.
+/// The lock file stays. Otherwise a third run could lock a new file while a second waits for the old one.
 void CellFolder::take_lock(const std::string& name, int how) {
     const fs::path path = file(name);
     const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -70,7 +70,7 @@ void CellFolder::write(const std::string& name, std::initializer_list<io::Span> 
         for (const io::Span piece : pieces) written.put(piece);
         if (settings_.sync) written.sync();
     }
-    // The new name is left to the system: what is not there after a loss of power is made again.
+    // The rename is not synced, because a file missing after a power loss is made again.
     if (::rename(part.c_str(), file(name).c_str()) != 0) cannot_keep(settings_.path, std::strerror(errno));
 }
 
