@@ -39,7 +39,7 @@ std::optional<std::string> why_not_on_cells(const CleanOptions& o) {
     return cells::why_not_in_cells(clean_steps_of(o));
 }
 
-/// Components and what lies inside others go as asked; a union takes what solids have in common.
+/// Requested removals of components may lose any area. A union loses the shared volume of solids.
 MayLose may_lose(const CleanOptions& o) {
     if (o.components || o.inner_components || o.open_components) return MayLose::area;
     const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
@@ -62,7 +62,7 @@ void run_on_cells(const CleanOptions& o, CellFlow& flow, Context& context) {
                          {{part.name, flow.partition->faces(), cleaned.area_after}}, may_lose(o), context);
 }
 
-/// What is done about intersecting faces is done for those that intersect themselves, too.
+/// The policy for intersecting faces also applies to faces that intersect themselves.
 CrossingFacePolicy crossing_faces(const CleanOptions& o) {
     return o.self_intersections == Untangle::off ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
 }

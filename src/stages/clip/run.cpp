@@ -36,14 +36,14 @@ struct ClipOptions {
 };
 
 struct PartsToClip {
-    ClipSettings settings; ///< the same for all; planes, memory and the caps' primitive are set part by part
+    ClipSettings settings; ///< shared by all parts; planes, memory and the caps' primitive are set per part
     std::string cap_material;
-    const char *front = ".front", *back = ".back"; ///< added to the names of both sides
+    const char *front = ".front", *back = ".back"; ///< suffixes for the names of both sides
     bool by_box = false;                           ///< for messages
 };
 
 struct ClipReport {
-    std::optional<std::vector<Plane>> planes; ///< in the world
+    std::optional<std::vector<Plane>> planes; ///< in world space
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
     KeptParts kept;
 };
@@ -77,7 +77,7 @@ void declare(Declare<ClipOptions>& d) {
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
 
-/// The value of an option as written, or the whole.
+/// The value of an option as written; the whole value if the option is missing.
 const Value& written(const Value& given, const char* name) {
     const Value* value = given.is_map() ? given.find(name) : nullptr;
     return value ? *value : given;
@@ -91,7 +91,7 @@ std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& c
     return planes;
 }
 
-/// Adds E-PLANE and E-BOX for what is none.
+/// Adds E-PLANE and E-BOX for invalid planes and boxes.
 void verify(const ClipOptions& o, const Value& given, Problems& problems) {
     const Value& planes = written(given, "planes");
     if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
@@ -104,7 +104,7 @@ void verify(const ClipOptions& o, const Value& given, Problems& problems) {
     }
 }
 
-/// The planes to clip by, in a scene.
+/// The clip planes for a scene.
 class Cutter {
   public:
     /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
@@ -112,9 +112,9 @@ class Cutter {
         : options_(o), scene_(scene), context_(context) {
         if (o.space == Space::world) world_ = resolved(o, scene, context, nullptr);
     }
-    /// With space: world, as they stand in the scene.
+    /// The world planes, with space: world.
     const std::vector<Plane>& world() const { return world_; }
-    /// In the part's own space.
+    /// The planes in the part's own space.
     std::vector<Plane> planes_for(const Part& part) const {
         if (options_.space == Space::local) return resolved(options_, scene_, context_, &part);
         std::vector<Plane> planes = world_;
@@ -148,7 +148,7 @@ void declare_report(DeclareFields<ClipReport>& d) {
     declare_kept_parts(d, &ClipReport::kept);
 }
 
-/// What users should know when all or nothing of the scene was kept.
+/// Warns the user if everything or nothing of the scene was kept.
 void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
     const std::string look = fmt::format("check the position and {} (info prints the bounds)",
                                          how.by_box ? "size of the box" : "direction of the plane");
@@ -165,8 +165,8 @@ void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
                  fmt::format("{}, or keep the {}", look, other));
 }
 
-/// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Warns
-/// of open contours (W-CAP-OPEN), and where no plane meets any part (W-CLIP-ALL) or nothing is left of all
+/// Clips the selected parts by the cutter's planes; with Keep::both each back follows its front. Warns of
+/// open contours (W-CAP-OPEN), if no plane meets a part (W-CLIP-ALL), and if no faces remain
 /// (W-CLIP-NOTHING).
 ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
     ClipSettings settings = how.settings;
@@ -232,19 +232,20 @@ std::optional<std::string> why_not_on_cells(const ClipOptions& o) {
     return {};
 }
 
-/// Faces of cells that a clip may keep or cut: others do not meet what it keeps, nor what it caps.
+/// Selects faces of cells that a clip may keep or cut. Other faces touch neither the kept faces nor the
+/// caps.
 class Reached {
   public:
     Reached(std::vector<Plane> planes, const PartsToClip& how, const Box& box)
         : planes_(std::move(planes)), keep_(how.settings.keep), convex_(how.settings.convex) {
-        // Caps of a plane close on all that the planes before it have kept.
+        // The caps of a plane close everything that the planes before it kept.
         if (how.settings.cap && planes_.size() > 1) {
             if (keep_ == Keep::back && convex_)
                 planes_.clear();
             else
                 planes_.resize(1);
         }
-        // Points count as on a plane within the rounding of float32: well below a millionth.
+        // Points count as on a plane within float32 rounding, which is far below a millionth.
         constexpr double near = 1e-6;
         double size = box.longest_side();
         for (const Vec3& p : {box.min, box.max})
@@ -253,7 +254,7 @@ class Reached {
     }
 
     bool operator()(const Vec3& a, const Vec3& b, const Vec3& c) {
-        const double away = keep_ == Keep::front ? -1 : 1; // the side that goes
+        const double away = keep_ == Keep::front ? -1 : 1; // the removed side
         bool all = !planes_.empty(), any = false;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
             const double s[] = {side(planes_[i], a), side(planes_[i], b), side(planes_[i], c)};
@@ -266,7 +267,7 @@ class Reached {
         }
         return !(keep_ == Keep::back && convex_ ? all : any);
     }
-    /// Whether a face lay in a plane, or nearly so.
+    /// Whether a face lies nearly in a plane.
     bool in_plane() const { return in_plane_; }
 
   private:
@@ -276,8 +277,8 @@ class Reached {
     bool convex_, in_plane_ = false;
 };
 
-/// What becomes of faces in the plane depends on whether the part is closed, which some of its faces do not
-/// tell.
+/// The result for faces in a plane depends on whether the part is closed. Some of its faces alone may not
+/// show this.
 void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
     if (inspect(some).closed == cells::inspect_cells(*flow.partition, {}, flow.means).closed) return;
     throw Error(ErrorKind::usage, "E-CELLS",
@@ -285,7 +286,7 @@ void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
                 "move the plane a little, or give more memory");
 }
 
-/// Brings what the planes reach into memory, and clips that.
+/// Loads the faces that the planes reach, and clips these.
 void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
     const PartsToClip how = parts_to_clip(o);
     Scene outline = flow.outline();
@@ -296,7 +297,7 @@ void run_on_cells(const ClipOptions& o, CellFlow& flow, Context& context) {
     Mesh some = cells::gathered(*flow.partition, std::ref(reached), flow.means);
     if (reached.in_plane()) check_faces_in_plane(flow, some);
     flow.partition.reset();
-    // The rounding that snaps points is that of the whole box.
+    // Points snap by the rounding of the whole box, so its corners are added.
     for (const double x : {box.min.x, box.max.x})
         for (const double y : {box.min.y, box.max.y})
             for (const double z : {box.min.z, box.max.z}) some.positions.push_back({x, y, z});

@@ -138,11 +138,12 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
     return {};
 }
 
-/// What reading them whole tells of files that state another unit or up axis than is given, or no unit where
-/// others do.
+/// Gives the warnings of a full read for files that state another unit or up axis than given, or no unit
+/// although other files state it.
 void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
                          Unit unit, Context& context) {
-    if (paths.size() < 2 && !settings.unit && !settings.up) return; // one file is taken as it says
+    if (paths.size() < 2 && !settings.unit && !settings.up)
+        return; // a single file without overrides needs no check
     for (const auto& path : paths) {
         const io::Input input = cells::open_mapped(path);
         const io::FileHeader stated = io::file_header(input, {});
@@ -153,7 +154,7 @@ void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const 
     }
 }
 
-/// As run, of files that do not fit into memory.
+/// As run, for files that exceed memory.
 void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     std::vector<std::filesystem::path> paths;
     for (const PathText& text : o.path)
@@ -171,10 +172,10 @@ void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
     };
     try {
         flow.partition = cells::kept_partition(source, flow.means);
-    } catch (const Error&) { // a report of what failed names the inputs, too
+    } catch (const Error&) { // a report of a failure names the inputs too
         try {
             record_inputs();
-        } catch (const Error&) { // they cannot be read: what failed is told, and not this
+        } catch (const Error&) { // they cannot be read: the failure itself is reported instead
         }
         throw;
     }

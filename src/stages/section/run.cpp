@@ -17,7 +17,7 @@ namespace {
 
 constexpr double max_lines = 5e6;
 
-/// Refuses to draw more lines than anybody can look at, or memory can hold.
+/// Refuses more hatch lines than a drawing can show or memory can hold.
 void check_hatching(const std::vector<Section>& sections, double spacing) {
     double lines = 0;
     for (const Section& s : sections) {
@@ -33,7 +33,7 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
                     "choose a larger spacing, or fewer planes");
 }
 
-/// The extent of the parts selected along the normal.
+/// The extent of the selected parts along the normal.
 Extent extent_of(const Scene& scene, const Plane& plane, const Context& context) {
     Extent extent;
     for (const Part& part : scene.parts)
@@ -41,8 +41,8 @@ Extent extent_of(const Scene& scene, const Plane& plane, const Context& context)
     return extent;
 }
 
-/// The planes: one alone without spacing and count, else as geometry/section_stack says over the extent.
-/// Throws stage (E-SECTION) for a spacing that comes to 0, and what stack_of throws.
+/// The planes: a single plane without spacing and count, else a stack over the extent by
+/// geometry/section_stack. Throws stage (E-SECTION) if the spacing resolves to 0, and as stack_of.
 template <class ExtentOf>
 Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, Context& context) {
     if (!o.spacing && !o.count) return {};
@@ -66,7 +66,7 @@ std::optional<polygon::HatchSettings> hatching_for(const SectionOptions& o, cons
     return o.hatch ? std::optional(resolve_hatch(*o.hatch, scene, context)) : std::nullopt;
 }
 
-/// The volume of the parts selected, in the world; none when one is not closed.
+/// The volume of the selected parts in world space; none if a part is not closed.
 std::optional<double> volume_of(const Scene& scene, const Context& context) {
     double volume = 0;
     for (const Part& part : scene.parts) {
@@ -78,9 +78,8 @@ std::optional<double> volume_of(const Scene& scene, const Context& context) {
     return volume;
 }
 
-/// A sheet for each plane, with the sections of the parts selected and their hatching. Throws what section
-/// and hatch throw, and limit (E-HATCH) for a stack that would take more than five
-/// million lines in a part.
+/// A sheet for each plane, with the sections of the selected parts and their hatching. Throws as section and
+/// hatch, and limit (E-HATCH) for a stack with more than five million lines in a part.
 io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& stack,
                           const std::optional<polygon::HatchSettings>& hatching, Context& context) {
     io::Drawing drawing{context.name(), scene.unit, {}};
@@ -125,7 +124,7 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
     return scene;
 }
 
-/// Brings the faces that the planes cut into memory, and cuts those: a section needs no others.
+/// Loads only the faces that the planes cut, because a section needs no others.
 void run_on_cells(const SectionOptions& o, CellFlow& flow, Context& context) {
     const Scene world = world_outline(flow);
     const Plane plane = plane_for(o, world, context);

@@ -10,7 +10,7 @@ namespace facetmill::split_stage {
 
 namespace {
 
-/// The part's share of the faces that all selected parts may have.
+/// The part's share of max_faces, which all selected parts share.
 std::uint64_t share(const SplitOptions& o, const Part& part, double total) {
     if (!o.max_faces) return 0;
     const double mine = static_cast<double>(part.mesh.face_count());
@@ -18,7 +18,7 @@ std::uint64_t share(const SplitOptions& o, const Part& part, double total) {
         1, static_cast<std::uint64_t>(static_cast<double>(*o.max_faces) * (total > 0 ? mine / total : 1)));
 }
 
-/// split, whose refusals name the part.
+/// Calls split and adds the part's name to its errors.
 SplitResult split_part(const Part& part, const SplitSettings& settings) {
     try {
         return split(part.mesh, settings);
@@ -45,7 +45,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
         SplitResult result = split_part(part, settings);
         part.mesh = std::move(result.mesh);
         report.added_faces += result.added;
-        const auto narrow = [&](std::size_t faces) { // counted with min_angle only
+        const auto narrow = [&](std::size_t faces) { // counted only with min_angle
             return settings.min_angle > 0 ? std::optional(faces) : std::nullopt;
         };
         const FacetShape after = facet_shape(part.mesh, settings.to_world);
@@ -58,10 +58,10 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
     return scene;
 }
 
-/// Smooth methods approach a surface inside the corners of the first, however much that is.
+/// Smooth methods approach a surface inside the original corners, by any amount.
 MayLose may_lose(const SplitOptions& o) { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
 
-/// A grid takes faces of four corners at most, so that they cannot be filled.
+/// A grid needs faces of at most four corners, so crossing faces cannot be filled.
 CrossingFacePolicy crossing_faces(const SplitOptions& o) {
     return o.chosen() == SplitMethod::grid ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Mode = ThickenOptions::Mode;
 
-/// Thickens surfaces; parts that are one shape but for a move are worked on once.
+/// Thickens surfaces. Parts that differ only by a translation are computed once.
 class SurfaceThickener {
   public:
     SurfaceThickener(const Scene& scene, const ThickenOptions& o)
@@ -35,7 +35,7 @@ class SurfaceThickener {
   private:
     struct Known {
         ThickenResult result;
-        Vec3 origin; ///< of the part that it was made of, in the world
+        Vec3 origin; ///< of the part it was computed from, in world space
     };
 
     ThickenResult result_for(const Part& part, double thickness) {
@@ -55,8 +55,8 @@ class SurfaceThickener {
 
     const Scene& scene_;
     const ThickenOptions& o_;
-    std::vector<std::size_t> work_as_;                             ///< [parts] the first of its shape
-    std::vector<std::size_t> uses_;                                ///< [parts] how many have its shape
+    std::vector<std::size_t> work_as_; ///< [parts] the first part of the same shape
+    std::vector<std::size_t> uses_;    ///< [parts] the number of parts of the same shape
     std::map<std::pair<std::size_t, std::uint64_t>, Known> known_; ///< by the first part and the thickness
 };
 
@@ -94,7 +94,7 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
     return scene;
 }
 
-/// Of wires, only the edges count.
+/// Only the edges matter for wires.
 CrossingFacePolicy crossing_faces(const ThickenOptions& o) {
     return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
 }
