@@ -7,7 +7,7 @@ namespace facetmill::docs {
 
 namespace {
 
-/// Without the escapes of roff: \- and \(dq are characters, \fB and \& are none.
+/// The text without roff escapes: \- and \(dq become characters, \fB and \& disappear.
 std::string unescaped(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -28,7 +28,7 @@ std::string unescaped(std::string_view text) {
     return out;
 }
 
-/// The arguments of a macro: words, or texts in quotes.
+/// The arguments of a macro: words, or quoted texts.
 std::vector<std::string> arguments(std::string_view text) {
     std::vector<std::string> all;
     for (std::size_t at = text.find_first_not_of(' '); at < text.size();
@@ -42,7 +42,7 @@ std::vector<std::string> arguments(std::string_view text) {
     return all;
 }
 
-/// .B all of it, .BR and the like: the letters are the fonts of the arguments in turn.
+/// Formats .B with a single font, and .BR and similar macros with alternating fonts, a letter per argument.
 std::string in_fonts(std::string_view fonts, const std::vector<std::string>& texts) {
     std::string out;
     if (fonts.size() == 1) {

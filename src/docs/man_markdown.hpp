@@ -1,13 +1,13 @@
 #pragma once
-// A manual page as the other pages of the manual are: in Markdown.
+// Converts a manual page to Markdown, like the other pages of the manual.
 
 #include <string>
 #include <string_view>
 
 namespace facetmill::docs {
 
-/// The text of a page with the macros that man/ uses: headings, paragraphs, lists of terms, examples, fonts.
-/// What is bold or italic in the page stands in backticks.
+/// Converts a page with the macros of man/: headings, paragraphs, lists of terms, examples, fonts. Bold and
+/// italic text becomes code in backticks.
 std::string markdown_of_man(std::string_view page);
 
 } // namespace facetmill::docs

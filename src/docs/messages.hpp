@@ -1,19 +1,19 @@
 #pragma once
-// The ids of errors and warnings as people read them: `facetmill explain`, its Markdown, and the manual page
-// facetmill-messages(7). All of it comes from base/message_ids.
+// Documentation of error and warning ids: `facetmill explain`, its Markdown, and the manual page
+// facetmill-messages(7). All texts come from base/message_ids.
 
 #include "base/json.hpp"
 #include "base/message_ids.hpp"
 
 namespace facetmill::docs {
 
-/// An id as people may type it: "w-units" -> "W-UNITS".
+/// Normalises a typed id: "w-units" -> "W-UNITS".
 std::string id_of(std::string text);
 /// One line per id.
 std::string message_list();
-/// All of one id: what it means, its exit code, what to do.
+/// The page of an id: its meaning, its exit code, and what to do.
 std::string message_page(const MessageId& message);
-/// All ids, as one Markdown page.
+/// All ids as a single Markdown page.
 std::string messages_markdown();
 /// All ids as a manual page, facetmill-messages(7).
 std::string messages_man();

@@ -18,9 +18,9 @@ Json ref(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; 
 
 Json with_expressions(Json schema);
 
-/// The schema or an expression in its place.
+/// The schema, with an expression as alternative.
 Json or_expression(Json schema) {
-    if (schema.is_boolean()) return schema; // names a property, no more
+    if (schema.is_boolean()) return schema; // it only names a property
     schema = with_expressions(std::move(schema));
     Json described;
     for (const char* annotation : {"description", "default"})
@@ -44,7 +44,7 @@ Json with_expressions(Json schema) {
     return schema;
 }
 
-/// A map with one stage (or branch, foreach) key, and the common keys beside it.
+/// A map with a single stage (or branch, foreach) key and the common keys.
 Json step_schema(const std::string& key, Json value, const Json& beside = Json::object()) {
     Json properties = {{key, std::move(value)}};
     properties.update(beside);
@@ -56,7 +56,7 @@ Json step_schema(const std::string& key, Json value, const Json& beside = Json::
             {"additionalProperties", false}};
 }
 
-/// Whether the stage may stand alone, without a value.
+/// Whether the stage may appear without a value.
 bool may_be_bare(const StageInfo& stage) {
     const auto& rules = stage.options->exclusions;
     const auto& options = stage.options->options;
@@ -213,7 +213,7 @@ Json report_schema() {
         const std::string name = "result." + stage.name;
         definitions[name] = stage.result->schema();
         definitions[name]["properties"]["deviation"] = contract_result_schema();
-        // A stage that was skipped or has failed leaves no scene, and no result.
+        // A stage that was skipped or failed has no scene and no result.
         const Json done = {{"stage", {{"const", stage.name}}}, {"after", {{"type", "object"}}}};
         forms.push_back(
             {{"if", {{"properties", done}}}, {"then", {{"properties", {{"result", ref(name.c_str())}}}}}});

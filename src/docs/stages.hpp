@@ -1,18 +1,18 @@
 #pragma once
-// The stages as people read them: `facetmill stages`, its Markdown, and the manual page facetmill-stages(7).
-// All of it comes from the declarations.
+// Documentation of the stages: `facetmill stages`, its Markdown, and the manual page facetmill-stages(7).
+// All texts come from the declarations.
 
 #include "stage/stage.hpp"
 
 namespace facetmill::docs {
 
-/// The paragraphs of a stage, and what is done about faces that intersect themselves.
+/// The paragraphs of a stage, and its policy for faces that intersect themselves.
 std::string details_of(const StageInfo& stage);
 /// One line per stage.
 std::string stage_list();
-/// All of one stage: what it does, its options, rules, spelling of quantities and examples.
+/// The page of a stage: its effect, options, rules, notation of quantities, and examples.
 std::string stage_page(const StageInfo& stage);
-/// All stages, as one Markdown page.
+/// All stages as a single Markdown page.
 std::string stages_markdown();
 /// A table of name and purpose in Markdown, for the README.
 std::string stages_markdown_table();
