@@ -1,5 +1,5 @@
 #pragma once
-// Two scenes side by side: what `facetmill diff` finds.
+// The comparison of two scenes for `facetmill diff`.
 
 #include "diff/conversion.hpp"
 #include "diff/items.hpp"
@@ -12,85 +12,87 @@
 
 namespace facetmill::report {
 
-/// The sections of a comparison, in the order they are shown.
+/// The sections of a comparison in display order.
 inline constexpr const char* comparison_sections[] = {"counts",    "topology", "geometry", "attributes",
                                                       "materials", "parts",    "document"};
 
 struct ComparisonSettings {
-    std::set<std::string> ignored; ///< sections that are shown but do not decide
+    std::set<std::string> ignored; ///< sections that are shown but do not affect the verdict
     DeviationSettings deviation;
-    /// How far the surfaces may be apart, in units of the first scene, or in percent of its diagonal. Without
-    /// any limit the maximum may be a ten-thousandth of a percent: what float32 coordinates lose.
+    /// The allowed distance between the surfaces, in units of the first scene or percent of its diagonal.
+    /// Without limits, the maximum is a ten-thousandth of a percent: the precision of float32 coordinates.
     struct Limit {
         double amount = 0;
         bool percent = false;
     };
     std::optional<Limit> maximum, rms, mean;
-    double attribute_limit = 1e-6; ///< how far attribute values may be apart
-    std::optional<Origin> origin;  ///< none: what the scenes have is what their files state
+    double attribute_limit = 1e-6; ///< the allowed difference of attribute values
+    std::optional<Origin> origin;  ///< none: the scenes have the units and axes that their files state
 };
 
-/// One line of the comparison.
+/// A line of the comparison.
 struct Difference {
     std::string section, name;
     Json a, b;
     bool same = true;
     std::string note;       ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
-    bool compared = true;   ///< false: it could not be, and the note says why
-    bool of_places = false; ///< of a material: where it is, and not what it is
+    bool compared = true;   ///< false: it could not be compared, for the reason in the note
+    bool of_places = false; ///< of a material: its location, not its properties
 };
 
-/// Something of a file that was not read, so that nothing is known of it.
+/// Content of a file that was not read, so it could not be compared.
 struct LeftOut {
-    bool of_a = false; ///< of the first file, else of the second
+    bool of_a = false; ///< in the first file, else in the second
     std::string what;
 };
 
-/// The bytes of a file and of those that it names, and what they are spent on.
+/// The bytes of a file and its neighbours, by kind.
 struct SizeOnDisk {
     std::uint64_t bytes = 0;
     io::ByteKinds kinds;
 };
 
 struct Comparison {
-    std::vector<Difference> lines;                               ///< equal ones too
-    std::optional<DeviationResult> deviation;                    ///< none when geometry is ignored
-    const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< what it is of: surface, points, nothing
+    std::vector<Difference> lines;            ///< including equal ones
+    std::optional<DeviationResult> deviation; ///< none if geometry is ignored
+    const char *geometry_a = "nothing",
+               *geometry_b = "nothing"; ///< the kind of geometry: surface, points, nothing
     std::vector<LeftOut> left_out;
     std::set<std::string> ignored;
     Properties properties_a, properties_b;
-    std::vector<ItemChange> items; ///< parts and materials by their names
+    std::vector<ItemChange> items; ///< parts and materials by name
     std::optional<SizeOnDisk> size_a = {}, size_b = {};
-    std::string hint; ///< a unit or an up axis that would explain how the geometry differs
+    std::string hint; ///< a unit or an up axis that would explain the geometric difference
 
-    /// Whether a line that decides differs.
+    /// Whether a line that affects the verdict differs.
     bool differs() const;
-    /// Whether nothing was left out, and no line that decides could not be compared.
+    /// Whether nothing was left out, and all lines that affect the verdict were compared.
     bool complete() const;
 };
 
-/// The properties of property_table() one by one; the deviation both ways, of the surfaces, or of the points
-/// where a scene has no faces; attributes by name, domain and type, and by value where both have as many
-/// elements; materials by name, look and the faces they are on; parts by name; of glTF documents what is
-/// beside meshes. In world space, both scenes in the same convention.
+/// Compares two scenes in world space; both must have the same convention. It compares the properties of
+/// property_table(), and the deviation in both directions, of surfaces, or of points for a scene without
+/// faces. Attributes are compared by name, domain and type, and by value if the element counts agree.
+/// Materials are compared by name, look and faces, parts by name, and glTF documents by their content
+/// besides meshes.
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
 
 /// {a, b, same, complete, left_out, sections: {counts: {same, decides, lines: [{name, a, b, same, compared,
 /// note}]}, ...}, geometry_of: {a, b}, deviation}.
 Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
-/// A table; lines that are equal only with `all`.
+/// A table; equal lines only with `all`.
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all);
-/// One self-contained page: the verdict, both scenes by one camera with a slider, both files beside each
-/// other, parts and materials that came, went or changed, distances as colours, and the lines that differ.
-/// Files are called by the shortest names that tell them apart.
+/// A self-contained page: the verdict, both scenes from the same camera with a slider, and both files side
+/// by side. It lists added, removed and changed parts and materials, distances as colours, and the lines
+/// that differ. Files have the shortest distinct names.
 std::string to_html(const Comparison& comparison, const std::string& path_a, const std::string& path_b,
                     const ComparisonPictures& pictures);
 /// "agree", "differ", "agree in everything that was compared".
 std::string verdict_of(const Comparison& comparison);
-/// "counts, geometry": the sections with a line that decides and differs.
+/// "counts, geometry": the sections with a difference that affects the verdict.
 std::string differs_in(const Comparison& comparison);
-/// Tables for the description of a change, with names as to_html has them.
+/// Tables for the description of a change; names as in to_html.
 std::string to_markdown(const Comparison& comparison, const std::string& path_a, const std::string& path_b);
 Json comparison_schema();
 

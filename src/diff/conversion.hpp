@@ -1,5 +1,5 @@
 #pragma once
-// Two scenes that differ by a unit or an up axis alone.
+// Detects scenes that differ only by a unit or an up axis.
 
 #include "io/convert.hpp"
 
@@ -7,17 +7,16 @@
 
 namespace facetmill::report {
 
-/// What was known of two scenes before the second was put into the convention of the first.
+/// The conventions of two scenes before the second was converted to the convention of the first.
 struct Origin {
-    io::Convention a, b;      ///< what the files themselves state
-    io::Conversion of_second; ///< what was done, by this and by what the command line says
+    io::Convention a, b;      ///< stated by the files themselves
+    io::Conversion of_second; ///< the conversion applied, including the command line's values
 };
 
-/// What to do when the box of the second scene is that of the first times a factor between two units, or with
-/// another up axis or otherwise turned about the axes, or both: "the box of B is that of A times 0.001 ...".
-/// Empty when it is the same box, or no such conversion makes it so (corners within a hundredth of the
-/// diagonal). Where a file states nothing, what the command line says of it is not taken for granted: the
-/// hint is of the files as they are. O(faces).
+/// A hint for scenes whose boxes match after a change of units, a rotation of the axes, or both: "the box of
+/// B is that of A times 0.001 ...". Empty if the boxes are equal, or if no such conversion fits (corners
+/// within a hundredth of the diagonal). Values from the command line for files without a statement are not
+/// trusted: the hint applies to the original files. O(faces).
 std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin);
 
 } // namespace facetmill::report

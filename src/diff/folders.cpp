@@ -39,8 +39,7 @@ std::set<std::string> meshes_in(const fs::path& folder) {
     return paths;
 }
 
-/// Files of either folder that have no file of their path in the other, and are called alike but for
-/// suffixes.
+/// Unpaired files of both folders with the same path except for the suffix.
 struct Namesakes {
     std::vector<std::string> a, b;
 };
@@ -89,14 +88,14 @@ const char* kind_of_pair(const FolderPair& pair) {
     return pair.outcome == FolderOutcome::added ? "warn" : "bad";
 }
 
-/// Of a pair that failed nothing is known.
+/// Empty for a failed pair, because nothing is known about it.
 std::string change_text(const FolderPair& pair, std::uint64_t a, std::uint64_t b,
                         std::string (*tell)(std::uint64_t)) {
     if (pair.outcome == FolderOutcome::failed) return {};
     return a == b ? tell(a) : fmt::format("{} → {}", a > 0 ? tell(a) : "-", b > 0 ? tell(b) : "-");
 }
 
-/// Small ones stay in the page, as long as it stays one that a browser opens at once.
+/// Small pictures are embedded until the page would become slow to open.
 std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
     constexpr std::size_t most = 2'500'000;
     std::string cells;
@@ -112,7 +111,7 @@ std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
     return cells;
 }
 
-/// A path as a relative address.
+/// A path as a relative URL.
 std::string address(const std::string& path) {
     std::string out;
     for (const char c : path) {
@@ -128,7 +127,7 @@ std::string name_html(const FolderPair& pair) {
     return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), path_code(pair.paths.text()));
 }
 
-/// "counts, geometry", or why there is nothing of the kind.
+/// "counts, geometry", or the reason for an empty list.
 std::string more_of(const FolderPair& pair) {
     if (pair.outcome == FolderOutcome::failed) return pair.verdict;
     return pair.paths.unpaired.empty() ? pair.differs_in : pair.paths.unpaired;
@@ -205,7 +204,7 @@ std::vector<std::size_t> worst_first(const FolderComparison& comparison) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto far = [&](std::size_t i) {
         const double percent = comparison.pairs[i].percent.value_or(0);
-        return std::isnan(percent) ? HUGE_VAL : percent; // none is worse than what cannot be compared
+        return std::isnan(percent) ? HUGE_VAL : percent; // a pair that cannot be compared sorts first
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
         const auto x = comparison.pairs[i].outcome, y = comparison.pairs[k].outcome;

@@ -12,12 +12,12 @@ namespace facetmill::report {
 
 namespace {
 
-/// A connected part of the surface, or all of it.
+/// A connected component of the surface, or the whole surface.
 struct Component {
     std::string part;
-    Index face = none; ///< its first
+    Index face = none; ///< its first face
     double area = 0, volume = 0;
-    Vec3 materials, middle; ///< sums of area vectors, and of the faces' middles by area
+    Vec3 materials, middle; ///< sums of area vectors, and of face centroids weighted by area
 };
 
 void add_part(const Part& part, std::vector<Component>& components) {
@@ -50,7 +50,8 @@ std::vector<Component> components_of(const Scene& scene) {
     return components;
 }
 
-/// Volumes decide for what is closed, where the area vectors cancel; for open surfaces the sums of these.
+/// The sign of the volume decides for closed surfaces, whose area vectors cancel. Open surfaces use the sum
+/// of the area vectors.
 bool turned(const Component& a, const Component& b) {
     const auto open = [](const Component& p) { return length(p.materials) > 1e-6 * p.area; };
     const auto solid = [](const Component& p) {
@@ -65,7 +66,7 @@ bool same_place(const Component& a, const Component& b) {
     return length(a.middle / a.area - b.middle / b.area) <= 1e-2 * std::sqrt(a.area);
 }
 
-/// All components as one. Each volume has its own origin, which matters for open components only.
+/// The sum of all components. Each volume has its own origin, which affects open components only.
 Component whole(const std::vector<Component>& components) {
     Component sum;
     for (const Component& p : components) {
