@@ -54,7 +54,7 @@ void Interrupts::end_by(int number) const {
     ::pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
     while (true) {
         ::raise(number);
-        // Outputs are being renamed on another thread, and the handler lets that finish.
+        // Waits while another thread renames outputs; the handler lets the renaming finish.
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 }

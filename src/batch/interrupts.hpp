@@ -1,5 +1,5 @@
 #pragma once
-// SIGINT, SIGTERM and SIGHUP while a batch runs: something is told before they end the process.
+// Handles SIGINT, SIGTERM and SIGHUP during a batch: reports before the process ends.
 
 #include <csignal>
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace facetmill::batch {
 
-/// While one lives, these signals (but ignored ones: nohup) are kept from all threads that start. One that
-/// arrives calls the function, on a thread of its own, and then ends the process as it would without a batch.
+/// During its lifetime, new threads block these signals, except ignored signals (nohup). An arriving signal
+/// calls the function on a separate thread, and then ends the process as it would without a batch.
 class Interrupts {
   public:
     explicit Interrupts(std::function<void()> on_signal);

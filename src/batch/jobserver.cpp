@@ -13,7 +13,7 @@ namespace facetmill::batch {
 
 namespace {
 
-/// The value of the last option of this kind, as make writes it.
+/// The value of the last such option, in make's notation.
 std::string auth_in(const std::string& makeflags) {
     std::istringstream words(makeflags);
     std::string value;
@@ -23,7 +23,7 @@ std::string auth_in(const std::string& makeflags) {
     return value;
 }
 
-/// A description of its own, so that not waiting for a token is nobody else's affair.
+/// A separate file description, so that nonblocking reads do not affect other processes.
 int reopened(const std::string& descriptor, int mode) {
     const auto number = parse_integer(descriptor);
     if (!number || *number < 0) return -1;
@@ -43,7 +43,7 @@ std::unique_ptr<Jobserver> Jobserver::offered(const std::string& makeflags) {
     const std::string auth = auth_in(makeflags), fifo = jobserver_file(makeflags);
     int in = -1, out = -1;
     if (!fifo.empty()) {
-        // For both at once, since a FIFO without a reader cannot be opened to write.
+        // Opened for both directions, because a FIFO without a reader cannot be opened for writing.
         in = ::open(fifo.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         out = in < 0 ? -1 : ::dup(in);
     } else if (const auto comma = auth.find(','); comma != auth.npos) {

@@ -1,5 +1,5 @@
 #pragma once
-// The jobserver of GNU make: tokens shared by all that a make runs, one for each job beyond a program's
+// The jobserver of GNU make: tokens shared by all processes of a make, one for each job beyond a program's
 // first.
 
 #include <memory>
@@ -10,14 +10,14 @@ namespace facetmill::batch {
 
 class Jobserver {
   public:
-    /// What these MAKEFLAGS offer (--jobserver-auth=fifo:PATH or R,W; --jobserver-fds=R,W of older makes), or
-    /// null: when they offer none, or the descriptors were not passed on (a recipe without +).
+    /// The jobserver in these MAKEFLAGS (--jobserver-auth=fifo:PATH or R,W; --jobserver-fds=R,W of older
+    /// makes). Null without a jobserver, or if the descriptors are closed (a recipe without +).
     static std::unique_ptr<Jobserver> offered(const std::string& makeflags);
-    ~Jobserver(); ///< gives all back
+    ~Jobserver(); ///< returns all tokens
     Jobserver(const Jobserver&) = delete;
     Jobserver& operator=(const Jobserver&) = delete;
 
-    /// Takes a token, unless there is none now.
+    /// Takes a token if any is available.
     bool take();
     void give();
     void give_all();
@@ -26,10 +26,10 @@ class Jobserver {
     Jobserver(int in, int out) : in_(in), out_(out) {}
     int in_, out_;
     std::mutex guard_;
-    std::string tokens_; ///< what was taken: a token goes back as it was
+    std::string tokens_; ///< the tokens taken: each must be returned unchanged
 };
 
-/// The FIFO that these MAKEFLAGS name; empty for none.
+/// The FIFO in these MAKEFLAGS; empty without one.
 std::string jobserver_file(const std::string& makeflags);
 
 } // namespace facetmill::batch

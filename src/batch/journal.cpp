@@ -77,7 +77,7 @@ Done done_from(const Json& json) {
     return done;
 }
 
-/// Lines that a kill has cut short are left out.
+/// Skips lines truncated by a kill.
 template <class Take>
 void for_each_done(std::string_view text, Take&& take) {
     while (!text.empty()) {
@@ -90,7 +90,7 @@ void for_each_done(std::string_view text, Take&& take) {
     }
 }
 
-/// Whether the file is as it was, and its stamp as it is now. A file with another time is read.
+/// Whether the file is unchanged; updates the stamp. A file with a different time is read.
 bool is_as_it_was(const fs::path& file, Stamp& stamp, bool& renewed) {
     const auto now = stamp_of(file);
     if (!now || now->bytes != stamp.bytes) return false;
@@ -112,7 +112,7 @@ std::optional<Stamp> stamp_of(const fs::path& file) {
     if (::stat(file.c_str(), &about) != 0 || !S_ISREG(about.st_mode)) return {};
     timespec now{};
     ::clock_gettime(CLOCK_REALTIME, &now);
-    // Kernels count the times of files in ticks of up to 10 ms, some file systems in steps of 2 s.
+    // Kernels count file times in ticks of up to 10 ms, some file systems in steps of 2 s.
     constexpr std::int64_t recent = 2 * nanoseconds;
     const std::int64_t time = in_nanoseconds(about.st_mtim);
     const bool settled = in_nanoseconds(now) - time > recent;
@@ -174,7 +174,7 @@ void Journal::open_locked() {
         ::fstat(fd_, &held);
         if (::stat(path_.c_str(), &named) == 0 && held.st_ino == named.st_ino && held.st_dev == named.st_dev)
             return;
-        ::close(fd_); // a batch that just ended wrote it anew
+        ::close(fd_); // another batch just replaced the file
     }
 }
 
@@ -239,7 +239,7 @@ std::optional<Diagnostic> Journal::add(Done done) {
     try {
         line = done_json(done).dump() + "\n";
     } catch (const Json::exception&) {
-        return {}; // a name that is not UTF-8: it will be done again
+        return {}; // a name that is not UTF-8: the asset runs again next time
     }
     const ssize_t n = ::write(fd_, line.data(), line.size());
     const int error = n < 0 ? errno : ENOSPC;
@@ -254,7 +254,7 @@ bool Journal::remove_output(const std::string& path, const std::string& sha) {
     stamp.sha256 = sha;
     const auto now = stamp_of(file);
     std::error_code ignored;
-    if (!now || fs::is_symlink(file, ignored)) return false; // no batch writes links
+    if (!now || fs::is_symlink(file, ignored)) return false; // batches never write links
     stamp.bytes = now->bytes;
     bool renewed = false;
     if (!is_as_it_was(file, stamp, renewed)) return false;
@@ -296,7 +296,7 @@ std::optional<Diagnostic> Journal::compact() {
     const fs::path part = path_.string() + ".part";
     const int fd = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
     if (fd < 0) return unwritable(errno);
-    ::flock(fd, LOCK_EX | LOCK_NB); // nobody else has a name for it
+    ::flock(fd, LOCK_EX | LOCK_NB); // no other process has a name for it
     const ssize_t n = ::write(fd, text.data(), text.size());
     if (n != static_cast<ssize_t>(text.size()) || ::rename(part.c_str(), path_.c_str()) != 0) {
         const int error = n < 0 ? errno : ENOSPC;

@@ -25,7 +25,8 @@ bool Pool::take_slot(bool& has_token) {
 }
 
 bool Pool::begin(Begun& begun) {
-    constexpr std::chrono::milliseconds between_looks(20); // nothing tells that a token came back
+    constexpr std::chrono::milliseconds between_looks(
+        20); // polling, because a returned token gives no signal
     std::unique_lock lock(guard_);
     while (true) {
         if (stopped_ || (waiting_.empty() && running_ == 0)) return false;
@@ -72,9 +73,8 @@ void Pool::take_jobs(const InArena& in_arena) {
 }
 
 void Pool::run() {
-    // All jobs are in one arena, so that loops inside them have the threads that are free, and there are
-    // never more than that. A job is isolated: while it waits for its loops it does not begin another job's
-    // work.
+    // All jobs share an arena, so that their inner loops use the free threads and never exceed the total.
+    // Each job is isolated: while it waits for its loops, its thread does not start another job.
     tbb::task_arena shared(settings_.jobs);
     const auto on_thread = [&] {
         tbb::task_arena own(1);
@@ -88,7 +88,7 @@ void Pool::run() {
     threads.reserve(count);
     try {
         for (std::size_t t = 0; t < count; ++t) threads.emplace_back(on_thread);
-    } catch (const std::system_error&) { // no further thread: those that there are do all of it
+    } catch (const std::system_error&) { // no further thread: the existing threads do all work
         if (threads.empty()) throw;
     }
     for (auto& thread : threads) thread.join();

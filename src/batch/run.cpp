@@ -1,4 +1,4 @@
-// A batch from its planned assets to its summary.
+// Runs planned assets and makes the summary.
 
 #include "base/hash.hpp"
 #include "base/out_of_memory.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 using Verdict = Outcome::Verdict;
 
-/// From the output folder of the batch.
+/// The path relative to the batch's output folder.
 std::string from_folder(const Asset& asset, const std::string& output) {
     return (fs::path(output).is_absolute() ? fs::path(output) : asset.folder / output)
         .lexically_normal()
@@ -65,7 +65,7 @@ Outcome failure(const Error& error) {
     return out;
 }
 
-/// The diagnostic with the asset in its message.
+/// The diagnostic with the asset's name in the message.
 Diagnostic about_asset(const Asset& asset, Diagnostic d) {
     if (d.message.find(asset.name) == std::string::npos)
         d.message = fmt::format("{}: {}", asset.name, d.message);
@@ -90,7 +90,7 @@ class BatchRun {
         choose_jobs();
         const auto keeping = find_kept();
         std::vector<Job> jobs;
-        std::set<fs::path> folders; // that no job may write to
+        std::set<fs::path> folders; // no job may write to these
         for (std::size_t i = 0; i < works_.size(); ++i)
             if (!keeping[i])
                 jobs.push_back({i, works_[i].memory, false});
@@ -130,7 +130,7 @@ class BatchRun {
         const auto look = [&](std::size_t i) {
             kept[i] = journal_.unchanged(works_[i].asset.name, works_[i].digest);
         };
-        if (tokens_) // there is one thread so far
+        if (tokens_) // the process has a single thread so far
             for (std::size_t i = 0; i < works_.size(); ++i) look(i);
         else
             parallel_for(works_.size(), look, 1);
@@ -151,7 +151,7 @@ class BatchRun {
         return out;
     }
 
-    /// On a thread of the pool.
+    /// Runs on a thread of the pool.
     Next work(const Job& job, const std::function<bool()>& beside_others) {
         {
             const std::lock_guard lock(guard_);
@@ -182,8 +182,10 @@ class BatchRun {
     Outcome run_asset(const Work& work, std::optional<Done>& done) {
         Problems problems;
         const auto plan = settings_.plan(work.asset, problems);
-        problems.throw_if_any(ErrorKind::usage); // it was planned before, and the pipeline has changed since
-        std::vector<Stamp> before;               // what changes while it is read is not the same afterwards
+        problems.throw_if_any(
+            ErrorKind::usage); // the first planning succeeded, so the pipeline has changed since
+        std::vector<Stamp>
+            before; // taken before the run, so that files changed during the run count as changed
         for (const auto& input : work.inputs)
             if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
         std::vector<Diagnostic> warnings;
@@ -192,7 +194,7 @@ class BatchRun {
         run.check_invariants = settings_.check_invariants;
         run.commit.sync = settings_.sync;
         run.last_picture = settings_.pictures;
-        std::optional<cache::Store> store; // what this asset has used may go when it is done
+        std::optional<cache::Store> store; // frees its files for eviction when the asset ends
         if (settings_.store) run.store = &store.emplace(*settings_.store);
         run.on_output = [&](const io::Outputs::File& file) { claim(work.asset, file); };
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
@@ -212,7 +214,7 @@ class BatchRun {
         return out;
     }
 
-    /// So that they can be pruned; the outputs of an earlier run are still there.
+    /// Records the reports of a failed run for pruning; the outputs of an earlier run still exist.
     Done reports_of_failed(const Work& work, const report::RunRecord& record) {
         Done done = named_done(work);
         for (const auto& report : record.reports)
@@ -247,7 +249,7 @@ class BatchRun {
         const auto is_absent = [&](const std::string& name) {
             return std::find(done.absent.begin(), done.absent.end(), name) != done.absent.end();
         };
-        for (const auto& input : work.inputs) { // a baseline is read, and no record tells it
+        for (const auto& input : work.inputs) { // a baseline is read, but the record does not list it
             const std::string name = absolute_name(input);
             if (input != "-" && !is_absent(name)) sums.emplace(name, "");
         }
@@ -271,14 +273,14 @@ class BatchRun {
         return done;
     }
 
-    /// With the size of the file, and its digest where that is not known.
+    /// Adds the size of the file, and its digest if unknown.
     static void complete(Stamp& stamp, const fs::path& file) {
         std::error_code error;
         const auto size = fs::file_size(file, error);
         stamp.bytes = error ? 0 : size;
         try {
             if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
-        } catch (const Error&) { // it is gone: then it is never as it was
+        } catch (const Error&) { // the file is gone, so it never counts as unchanged
         }
     }
     Stamp complete(Stamp stamp) const {
@@ -286,7 +288,7 @@ class BatchRun {
         return stamp;
     }
 
-    /// A warning of the batch itself, under the guard.
+    /// Adds a warning of the batch itself; requires the guard.
     void warn(std::optional<Diagnostic> warning) {
         if (!warning || is_allowed(*warning, settings_.allowed)) return;
         if (auto error = pipeline::strict_failure(*warning, settings_.strict)) {
@@ -308,8 +310,8 @@ class BatchRun {
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
 
-    /// Names that are known only at run time (of parts) may lead two assets to one file, or to the input of
-    /// another. Throws output before anything is written.
+    /// Names known only at run time (of parts) may lead two assets to the same file, or to the input of
+    /// another asset. Throws output before any file is written.
     void claim(const Asset& asset, const io::Outputs::File& file) {
         if (!file.stream.empty() || file.is_input) return;
         const fs::path self = io::identity(file.resolved);
@@ -327,7 +329,7 @@ class BatchRun {
                     "name it by the asset: ${input.stem}");
     }
 
-    /// The outputs that assets have or will have when they are made, and those of other pipelines.
+    /// The outputs that assets have or will have, and the outputs of other pipelines.
     std::set<std::string> current_outputs() const {
         std::set<std::string> current = journal_.outputs_of_others();
         const fs::path folder = fs::absolute(settings_.output_dir).lexically_normal();
@@ -341,11 +343,11 @@ class BatchRun {
         return current;
     }
 
-    /// Outputs of assets that are gone, and those that assets no longer have.
+    /// Removes outputs of assets that no longer exist, and former outputs of others.
     void prune() {
         const bool all_made = std::all_of(summary_.outcomes.begin(), summary_.outcomes.end(),
                                           [](const Outcome& out) { return out.verdict == Verdict::ok; });
-        if (!all_made) { // what the others would write is not known
+        if (!all_made) { // the outputs of the others are unknown
             warn(Diagnostic{Severity::warning,
                             "W-PRUNE",
                             "nothing is pruned, because not all assets were made",
@@ -400,10 +402,10 @@ class BatchRun {
         summary_.seconds = watch_.seconds();
     }
 
-    /// A signal ends the process after this: the guard stays locked, so that nothing is told afterwards.
+    /// A signal ends the process after this. The guard stays locked to prevent further messages.
     void interrupted() {
         guard_.lock();
-        if (over_) return; // the summary is with whoever called
+        if (over_) return; // the caller already has the summary
         close_summary();
         if (listener_.on_interrupt) listener_.on_interrupt(summary_);
         if (tokens_) tokens_->give_all();
@@ -414,13 +416,13 @@ class BatchRun {
     const Stopwatch watch_;
     const std::vector<Work> works_;
     std::unique_ptr<Jobserver> tokens_;
-    std::mutex guard_; ///< of all that follows
+    std::mutex guard_; ///< protects all following members
     Journal journal_;
     Summary summary_;
-    std::vector<bool> started_; ///< and not yet ended
+    std::vector<bool> started_; ///< started and not yet ended
     bool over_ = false;
-    std::map<fs::path, std::string> sources_; ///< by identity: inputs, and of which asset
-    /// By identity: outputs, whose, and their digests.
+    std::map<fs::path, std::string> sources_; ///< inputs by identity, and their assets
+    /// Outputs by identity, with their assets and digests.
     std::map<fs::path, std::pair<std::string, std::string>> written_;
 };
 
