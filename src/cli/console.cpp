@@ -23,7 +23,7 @@ namespace facetmill::cli {
 
 void print(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-    if (errno == EPIPE) { // the reader went away: end as a filter does
+    if (errno == EPIPE) { // the reader closed the pipe: end like a filter
         std::signal(SIGPIPE, SIG_DFL);
         std::raise(SIGPIPE);
     }
@@ -34,8 +34,8 @@ void show(std::string_view text) { print(for_terminal(text)); }
 
 namespace {
 
-/// A message on standard error. When nobody reads it any more (facetmill run ... 2>&1 | head), the run goes
-/// on: what counts is the outputs and the exit code.
+/// Writes a message to standard error. If its reader is gone (facetmill run ... 2>&1 | head), the run
+/// continues, because the outputs and the exit code matter.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
     const std::string text = fmt::format(format, std::forward<Args>(args)...);
@@ -52,7 +52,7 @@ void line(const Json& object) {
     std::fputs(text.c_str(), stderr);
 }
 
-/// One line, redrawn a few times a second: "[####....] 3/8 simplify 42 %, about 12 s left".
+/// A line redrawn a few times a second: "[####....] 3/8 simplify 42 %, about 12 s left".
 class Bar : public Progress {
   public:
     ~Bar() override { done(); }
@@ -89,7 +89,7 @@ class Bar : public Progress {
         if (drawer_.joinable()) return;
         try {
             drawer_ = std::thread([this] { draw_until_done(); });
-        } catch (const std::system_error&) { // no further thread: it is drawn less often
+        } catch (const std::system_error&) { // no further thread: it is redrawn less often
         }
     }
 
@@ -109,12 +109,13 @@ class Bar : public Progress {
         drawn_ = true;
     }
 
-    double filled_ = 0, until_ = 0; ///< shares of the bar, before the stage and after it
+    double filled_ = 0, until_ = 0; ///< fractions of the bar before and after the stage
     std::string what_;
     Stopwatch watch_;
-    std::atomic<double> share_ = 0, told_ = 0; ///< the latter: when the former was told, in seconds
+    std::atomic<double> share_ = 0,
+                        told_ = 0; ///< the fraction of the stage, and the time of its last update in seconds
     bool drawn_ = false, over_ = false;
-    std::mutex guard_; ///< of what stands above
+    std::mutex guard_; ///< protects the members above
     std::condition_variable wake_;
     std::thread drawer_;
 };
@@ -151,7 +152,7 @@ class Lines : public Progress {
 
 namespace {
 
-/// In whole seconds: it is read at a glance, and the time left is a guess.
+/// Whole seconds, because the remaining time is only an estimate.
 std::string in_seconds(double seconds) {
     return seconds < 60 ? fmt::format("{:.0f} s", std::ceil(seconds)) : timed(seconds);
 }
@@ -159,10 +160,10 @@ std::string in_seconds(double seconds) {
 } // namespace
 
 std::string how_far(double seconds, const PrintedMessage& last) {
-    constexpr double long_enough = 1; // what is over sooner needs no number
+    constexpr double long_enough = 1; // shorter steps need no number
     if (seconds < long_enough) return {};
     if (last.share <= 0 || last.share > 1 || last.seconds <= 0) return ", " + in_seconds(seconds);
-    // What comes next may tell nothing for long: meanwhile the time left goes on getting less.
+    // Updates may be rare, so the remaining time counts down between them.
     const double all = std::max(last.seconds / last.share, seconds);
     return fmt::format(" {:.0f} %, about {} left", std::floor(100 * last.share), in_seconds(all - seconds));
 }
@@ -180,7 +181,7 @@ void Console::diagnostic(const Diagnostic& d) const {
         if (as_typed.hint != d.hint) return diagnostic(as_typed);
     }
     if (!json) {
-        // A progress bar may stand on the line.
+        // Clears a progress bar on the line.
         tell("{}{}\n", terminal() ? "\r\033[K" : "", render(d, colour()));
         return;
     }

@@ -1,5 +1,5 @@
-// facetmill migrate: pipelines of an older format to the present one. Format 1 is the only one so far, so
-// that there is nothing to change; what is of no known format is named.
+// facetmill migrate: converts pipelines of older formats. Format 1 is the only format so far, so it changes
+// nothing; unknown formats are reported.
 
 #include "cli/pipeline_options.hpp"
 
