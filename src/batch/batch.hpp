@@ -66,7 +66,7 @@ struct Settings {
 /// A planned asset.
 struct Work {
     Asset asset;
-    std::vector<std::filesystem::path> inputs, outputs; ///< those known before the run
+    std::vector<std::filesystem::path> inputs, outputs; ///< as far as known before the run
     std::string digest;       ///< of all options and other dependencies, except the contents of the inputs
     std::uint64_t memory = 0; ///< an estimate, in bytes
     std::vector<std::filesystem::path> asset_roots{}; ///< folders that may hold files named by inputs

@@ -5,8 +5,8 @@
 
 namespace facetmill::cells {
 
-/// Merges those of the vertices `some` with the same name and position into the first. The mesh has no
-/// seams. Updates names. Returns the old numbers of the remaining vertices.
+/// Merges vertices among `some` with the same name and position into the first. The mesh has no seams.
+/// Updates names. Returns the old numbers of the remaining vertices.
 std::vector<Index> unite(Mesh& mesh, std::vector<std::uint64_t>& names, std::vector<Index> some);
 
 } // namespace facetmill::cells
