@@ -19,9 +19,9 @@ void require_spellable(const std::string& target, const pipeline::Plan& plan);
 /// Writes the rule of a run; the record's paths must be relative to the working directory. The target is the
 /// given one, because Ninja needs a single target. If empty, it is the first written mesh, else the first
 /// output, the first report, or the depfile itself. The rule depends on the pipeline's file, if given, and
-/// on all inputs. For a missing file that an input names, it depends on the folder where the file would
-/// appear, so the rule runs again when it appears. Outputs therefore become newer than such a folder. With
-/// kept_before, outputs older than that time keep their times (--restat).
+/// on all inputs. An input may name a missing file. The rule then depends on the folder of that file, so it
+/// runs again when the file appears. Outputs therefore become newer than such a folder. With kept_before,
+/// outputs older than that time keep their times (--restat).
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
                    const pipeline::Plan& plan, const report::RunRecord& record,
                    std::optional<std::filesystem::file_time_type> kept_before = {});

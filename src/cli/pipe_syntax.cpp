@@ -333,8 +333,8 @@ class Parser {
         return !truth || all_[at_] == "true" || all_[at_] == "false";
     }
 
-    /// Whether the key accepts only true and false: a flag of a stage, a group with a boolean short form
-    /// (--draco), or a property that is a truth.
+    /// Whether the key accepts only true and false. Such keys are flags of a stage, groups with a boolean
+    /// short form (--draco), and properties that are truths.
     static bool is_truth(const std::string& key, const Option* known) {
         if (known && known->fields) return known->fields->short_form == ShortForm::truth;
         if (known && known->kind != OptionKind::bound) return known->kind == OptionKind::boolean;

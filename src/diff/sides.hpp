@@ -14,9 +14,9 @@ struct Turned {
         note; ///< the number of components and the first component; empty if only the wholes were compared
 };
 
-/// Uses the sign of the volume, and for open surfaces the direction of the summed area vectors. Compares
-/// component by component (connected over edges, part by part) if both scenes have the same components in
-/// the same order with equal areas and positions. Otherwise compares the wholes. O(n).
+/// Uses the sign of the volume, and for open surfaces the direction of the summed area vectors. Components
+/// (connected over edges, part by part) are compared if both scenes have the same ones in order, with equal
+/// areas and positions. Otherwise compares the wholes. O(n).
 Turned turned_round(const Scene& a, const Scene& b);
 
 } // namespace facetmill::report

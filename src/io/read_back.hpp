@@ -41,7 +41,7 @@ struct ReadBack {
 /// or their triangles) and of lines must match. Vertices used by faces, and ends of lines, must lie within
 /// the tolerance of float32 or the grid of their counterparts, in both directions. Throws output
 /// (E-READBACK) otherwise. Changes to closedness, manifoldness, orientation, and degenerate or duplicate
-/// faces are reported in `losses` and are no errors. written: the codec's result; only faces it counts as
+/// faces are reported in `losses`, without an error. written: the codec's result; only faces it counts as
 /// dropped may be missing.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
                    const Written& written = {});

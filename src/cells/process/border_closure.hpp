@@ -12,7 +12,7 @@ struct Collar {
 };
 
 /// Assumes that the rest is a closed manifold surface, except where it meets the part. The collar meets the
-/// part the same way: each vertex has the same number of face fans, and faces are connected if the rest's
+/// part in the same way. Each vertex has the same number of face fans, and faces are connected if the rest's
 /// edges connect them. A part with its collar is therefore closed, manifold or an open sheet exactly as in
 /// the whole. The collar's points are arbitrary: none coincides with a vertex, and no face is degenerate
 /// (except by chance).

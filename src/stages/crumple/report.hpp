@@ -36,15 +36,15 @@ void declare_crumple_report(DeclareFields<CrumpleReport>& d);
 /// Warns of an amplitude larger than the edges: the surface stays connected, but faces intersect. mean_edge:
 /// of the part before the displacement, in world space.
 void warn_of_tangles(const std::string& part, double mean_edge, double amplitude, Context& context);
-/// Warns when avoiding intersections, which rounds positions to float32, moves a vertex by more than 1 % of
-/// the amplitude: far from the origin float32 is coarse.
+/// Warns if avoiding intersections moves a vertex by more than 1 % of the amplitude. It rounds positions to
+/// float32, which is coarse far from the origin.
 void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, double amplitude,
                       Context& context);
 /// Warns when shares were lowered in large steps to bound the work.
 void warn_of_coarse_steps(const AvoidResult& r, Context& context);
 /// Warns of concave quads, which cannot be split n x n without folds.
 void warn_of_folds(const CrumpledPart& part, Context& context);
-/// Warns when parts are so near each other that their faces may have come to meet.
+/// Warns if parts are so close that their faces may now intersect.
 void warn_of_parts(const Scene& scene, Context& context);
 
 } // namespace facetmill::crumple_stage

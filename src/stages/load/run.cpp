@@ -138,8 +138,8 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
     return {};
 }
 
-/// Gives the warnings of a full read for files that state another unit or up axis than given, or no unit
-/// although other files state it.
+/// Gives the warnings of a full read about units and up axes. They concern files that state another value
+/// than given, or no unit although other files state it.
 void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
                          Unit unit, Context& context) {
     if (paths.size() < 2 && !settings.unit && !settings.up)

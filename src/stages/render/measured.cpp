@@ -20,7 +20,7 @@ bool any_has(const Scene& scene, const std::string& attribute,
     });
 }
 
-/// Of the drawn parts, each name once.
+/// The attribute names of the drawn parts, each once.
 std::vector<std::string> attribute_names(const Scene& scene,
                                          const std::function<bool(const Part&)>& selects) {
     std::vector<std::string> names;

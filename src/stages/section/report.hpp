@@ -34,10 +34,10 @@ struct SectionReport {
 };
 void declare_section_report(DeclareFields<SectionReport>& d);
 
-/// The sums over the drawing. For a stack (spacing above 0, world units), also the areas times the spacing
-/// next to the volume of the selected parts (none: a part is not closed). Warns of contours that are open
-/// (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or self-crossing
-/// (W-SECTION-CROSSES).
+/// The sums over the drawing. For a stack (spacing above 0, world units), also the areas times the spacing.
+/// The volume of the selected parts appears next to these (none: a part is not closed). Warns of contours
+/// that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or
+/// self-crossing (W-SECTION-CROSSES).
 SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
                         std::optional<double> volume, Context& context);
 

@@ -50,9 +50,10 @@ class KnownFailures {
         std::size_t fresh = 0;           ///< new locations
         std::vector<std::uint64_t> keys; ///< the new locations, as far as their keys are known
     };
-    /// A failure is waived if the check failed before, no location is new, and the value is no worse: equal,
-    /// or a number no farther from the expected range. Locations beyond the listed keys are new if their
-    /// count grows, or (at least one) if their combined hash changes.
+    /// A failure is waived if the check failed before, no location is new, and the value is no worse. A
+    /// value is no worse if it is equal, or a number no farther from the expected range. Locations beyond
+    /// the listed keys are new if their count grows. If only their combined hash changes, at least one is
+    /// new.
     Verdict judge(const Failure& failure) const;
 
     /// The known failures that no longer occur, given the current failures.
