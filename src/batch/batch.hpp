@@ -48,9 +48,8 @@ struct Settings {
     std::string pipeline_text; ///< the text that invalidates results when it changes, except comments
     std::filesystem::path output_dir;
     std::vector<std::filesystem::path> others; ///< files of the summary, which no asset may write
-    std::vector<std::filesystem::path>
-        read;                 ///< files read in addition to the assets' inputs: the pipeline, lists, a table
-    int jobs = 0;             ///< assets in parallel, and threads; 0: see run
+    std::vector<std::filesystem::path> read;   ///< other files read: the pipeline, lists, a table
+    int jobs = 0;                              ///< assets in parallel, and threads; 0: see run
     std::uint64_t memory = 0; ///< bytes for all assets in parallel; 0: three quarters of the available memory
     bool keep_going = false;  ///< continue after a failure
     bool prune = false;       ///< remove outputs whose source no longer exists

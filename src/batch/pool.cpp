@@ -25,8 +25,7 @@ bool Pool::take_slot(bool& has_token) {
 }
 
 bool Pool::begin(Begun& begun) {
-    constexpr std::chrono::milliseconds between_looks(
-        20); // polling, because a returned token gives no signal
+    constexpr std::chrono::milliseconds between_looks(20); // no signal announces a token
     std::unique_lock lock(guard_);
     while (true) {
         if (stopped_ || (waiting_.empty() && running_ == 0)) return false;

@@ -182,10 +182,8 @@ class BatchRun {
     Outcome run_asset(const Work& work, std::optional<Done>& done) {
         Problems problems;
         const auto plan = settings_.plan(work.asset, problems);
-        problems.throw_if_any(
-            ErrorKind::usage); // the first planning succeeded, so the pipeline has changed since
-        std::vector<Stamp>
-            before; // taken before the run, so that files changed during the run count as changed
+        problems.throw_if_any(ErrorKind::usage); // the pipeline has changed since the first planning
+        std::vector<Stamp> before;               // so that files changed during the run count as changed
         for (const auto& input : work.inputs)
             if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
         std::vector<Diagnostic> warnings;

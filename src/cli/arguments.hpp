@@ -24,8 +24,7 @@ struct Argument {
     std::string heading{}; ///< in --help; empty: the default heading
     std::string value{};   ///< the name of its value in --help and messages: "FILE.png"; empty: by its type
     std::vector<std::string> choices{};
-    std::vector<std::string> (*suggestions)() =
-        nullptr; ///< the words that completions offer; other values are valid too
+    std::vector<std::string> (*suggestions)() = nullptr; ///< for completions; other values are valid too
     std::optional<std::pair<int, int>> range{};
     bool at_least_0 = false;
 

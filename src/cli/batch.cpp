@@ -216,8 +216,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     common.timings.clear();
     const auto of_all = plan_settings(common, line, problems);
     problems.throw_if_any(ErrorKind::usage);
-    confine_calls_only(
-        common.sandbox); // planning reads the headers of all assets before the other files are known
+    confine_calls_only(common.sandbox); // planning reads all headers first
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
     const auto assets = assets_of(options, line, options.prune);

@@ -33,8 +33,7 @@ io::ReadSettings read_settings(const std::vector<std::string>& asset_roots) {
 void allow_input(AllowedFiles& allowed, const fs::path& input) {
     if (input == "-") return;
     std::error_code ignored;
-    if (fs::is_symlink(fs::symlink_status(input, ignored)))
-        allowed.read.push_back(input); // a link may lead anywhere
+    if (fs::is_symlink(fs::symlink_status(input, ignored))) allowed.read.push_back(input); // anywhere
     fs::path folder = input.parent_path();
     // The path before the wildcards.
     while (is_glob(folder.string())) folder = folder.parent_path();

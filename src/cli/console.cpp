@@ -112,8 +112,7 @@ class Bar : public Progress {
     double filled_ = 0, until_ = 0; ///< fractions of the bar before and after the stage
     std::string what_;
     Stopwatch watch_;
-    std::atomic<double> share_ = 0,
-                        told_ = 0; ///< the fraction of the stage, and the time of its last update in seconds
+    std::atomic<double> share_ = 0, told_ = 0; ///< of the stage; time of its update in seconds
     bool drawn_ = false, over_ = false;
     std::mutex guard_; ///< protects the members above
     std::condition_variable wake_;

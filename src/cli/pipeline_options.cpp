@@ -436,8 +436,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     few.finish();
     summarise(record, console);
     if (!options.explain) tell_recalled(trace, console);
-    const bool writable =
-        record.exit_code != static_cast<int>(ErrorKind::output); // otherwise already reported
+    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else already said
     if (!options.timings.empty() && writable) {
         const std::string text = options.timings.ends_with(".html")
                                      ? report::to_html_with_times(record, view)

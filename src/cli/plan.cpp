@@ -48,8 +48,7 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     if (options.json) text = pipeline::describe_json(plan, headers).dump(2) + "\n";
     if (!files_only && !options.json) text = pipeline::describe(plan, headers);
     if (!cells.why.empty() && !files_only && !options.json) text += fmt::format("\nmemory: {}\n", cells.why);
-    files_only || options.json ? print(text)
-                               : show(text); // file names are for programs, so they are not escaped
+    files_only || options.json ? print(text) : show(text); // file names are for programs
     return 0;
 }
 

@@ -53,10 +53,9 @@ struct SizeOnDisk {
 };
 
 struct Comparison {
-    std::vector<Difference> lines;            ///< including equal ones
-    std::optional<DeviationResult> deviation; ///< none if geometry is ignored
-    const char *geometry_a = "nothing",
-               *geometry_b = "nothing"; ///< the kind of geometry: surface, points, nothing
+    std::vector<Difference> lines;                               ///< including equal ones
+    std::optional<DeviationResult> deviation;                    ///< none if geometry is ignored
+    const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< surface, points, nothing
     std::vector<LeftOut> left_out;
     std::set<std::string> ignored;
     Properties properties_a, properties_b;

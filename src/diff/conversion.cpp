@@ -229,8 +229,7 @@ void tell_units(const UnitFactor& units, const Given& given, const Origin& origi
 /// Whether the rotation changes the up axis from `from` to `to`, and the files do not state otherwise.
 bool is_of_up_axes(const AxisTurn& turn, UpAxis from, UpAxis to, const Origin& origin) {
     const UpAxis a = origin.a.up, b = origin.b.up;
-    if (a != UpAxis::unknown && b != UpAxis::unknown)
-        return false; // it was already applied by the statements
+    if (a != UpAxis::unknown && b != UpAxis::unknown) return false; // the statements already apply
     return turn == up_turn(from, to) && (a == UpAxis::unknown || a == from) &&
            (b == UpAxis::unknown || b == to);
 }

@@ -10,8 +10,7 @@ namespace facetmill::report {
 /// Whether the second scene, or some of its components, are inside out relative to the first.
 struct Turned {
     bool round = false;
-    std::string
-        note; ///< the number of components and the first component; empty if only the wholes were compared
+    std::string note; ///< the number of components and the first; empty if the wholes were compared
 };
 
 /// Uses the sign of the volume, and for open surfaces the direction of the summed area vectors. Components

@@ -59,9 +59,7 @@ class Input {
     const std::string& name() const { return name_; }           ///< for messages and the report
     const std::filesystem::path& path() const { return path_; } ///< empty for streams
     Span bytes() const { return bytes_; }
-    Span stored() const {
-        return stored_;
-    } ///< as the file holds them: still compressed if the file is compressed
+    Span stored() const { return stored_; } ///< as in the file: still compressed if it is
     /// The same file with other bytes, for example decoded text.
     Input with(Bytes bytes) const;
     /// The same file without its first bytes.

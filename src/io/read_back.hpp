@@ -33,8 +33,7 @@ struct ReadBack {
     /// Whether float32 rounding, and not the grid, moved points by more than a millionth of the diagonal,
     /// because coordinates are far from the origin.
     bool too_far_for_floats() const;
-    Json json()
-        const; ///< vertices, faces, lines if any, position_error, closed, edge_manifold, vertex_manifold, ...
+    Json json() const; ///< vertices, faces, lines if any, position_error, closed, edge_manifold, ...
 };
 
 /// Decodes the file and compares it with the scene (in the file's convention). The number of faces (polygons

@@ -1,6 +1,7 @@
 #pragma once
 // Simplification of a mesh larger than memory: first each cell, then two to four cells joined, and so on up
 // to the whole.
+//
 // Vertices and edges shared with cells outside the node are held during its simplification. They become free
 // at a node above, where all their cells are joined. No seams remain visible, closed surfaces stay closed
 // and manifold surfaces stay manifold. Nodes and their targets depend on the mesh and the target alone.
@@ -13,8 +14,7 @@ namespace facetmill::cells {
 struct HierarchyResult {
     Mesh mesh;
     AttributeChanges changes;
-    double error = 0; ///< the largest error of the cells plus the error of each join above: an upper bound
-                      ///< over all paths
+    double error = 0; ///< bounds any path: the cells' largest error plus each join's
     SimplifyResult::Stop stop = SimplifyResult::Stop::nothing;
     SimplifyResult::Blocked blocked;
     std::size_t collapses = 0, turned = 0, cells = 0, levels = 0;

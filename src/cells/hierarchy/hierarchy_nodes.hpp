@@ -11,8 +11,7 @@ namespace facetmill::cells {
 /// A unit of work: a leaf of the tree, several leaves, or the joined results of up to four stations below.
 struct Station {
     std::uint32_t node = 0;
-    std::uint32_t leaf = Tree::no_node,
-                  end_leaf = Tree::no_node; ///< from the first up to, excluding, the last
+    std::uint32_t leaf = Tree::no_node, end_leaf = Tree::no_node; ///< from first to one past last
     std::vector<std::size_t> children;
     std::size_t level = 0;   ///< 0: the root
     std::uint64_t faces = 0; ///< of the input mesh

@@ -78,7 +78,7 @@ class PartitionKeeper {
         if (auto taken = take(why)) {
             folder_.tell(fmt::format("{} reused from '{}'", counted(taken->tree().leaves.size(), "cell"),
                                      folder_.path().string()));
-            if (means_.job && means_.job->makes_cells()) // a workflow must see files newer than the inputs
+            if (means_.job && means_.job->makes_cells()) // must be newer than the inputs
                 for (const char* name : kept_files) folder_.touch(name);
             return taken;
         }

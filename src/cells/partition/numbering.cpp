@@ -14,8 +14,7 @@ std::size_t Numbering::Hash::operator()(const Vertex& v) const {
 }
 
 Numbering::Numbers Numbering::next(const Cell& cell) {
-    if (leaf_ >
-        0) { // vertices with a home below the common node of this leaf and the previous leaf are complete
+    if (leaf_ > 0) { // vertices with a home below the leaves' common node are done
         const std::size_t common = tree_.common_depth(leaf_ - 1, leaf_);
         for (std::size_t depth = common + 1; depth < known_.size(); ++depth) known_[depth].clear();
     }

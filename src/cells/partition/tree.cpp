@@ -70,7 +70,7 @@ Grid::Grid(const Box& bounds, std::uint32_t resolution) : origin_(bounds.min) {
 std::size_t Grid::cell_of(const Vec3& p) const {
     std::array<std::size_t, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = (p[axis] - origin_[axis]) * per_unit_; // NaN and values outside are clamped
+        const double x = (p[axis] - origin_[axis]) * per_unit_; // NaN and values outside clamp
         at[axis] = x >= size_[axis] - 1 ? size_[axis] - 1 : x > 0 ? static_cast<std::size_t>(x) : 0;
     }
     return (at[2] * size_[1] + at[1]) * size_[0] + at[0];

@@ -16,6 +16,7 @@ struct Collar {
 /// edges connect them. A part with its collar is therefore closed, manifold or an open sheet exactly as in
 /// the whole. The collar's points are arbitrary: none coincides with a vertex, and no face is degenerate
 /// (except by chance).
+///
 /// part: [faces] nonzero for faces of the part; the mesh also has all other faces with a vertex of these.
 /// sheet: [faces] for the others, the number of their component over edges of the rest. If the rest does not
 /// meet the part, the collar is a separate tetrahedron.

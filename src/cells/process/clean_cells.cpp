@@ -113,8 +113,7 @@ class RestOfMesh final : public RimVisitor {
             around[v] = around_.has(mesh.positions[v]);
         }
         std::vector<Index> rest;
-        std::vector<std::uint8_t> beside(mesh.face_count(),
-                                         0); // of the rest: a vertex is near an unsound position
+        std::vector<std::uint8_t> beside(mesh.face_count(), 0); // of the rest: has a vertex in around_
         for (Index f = 0; f < mesh.face_count(); ++f) {
             bool in_part = false;
             for (const Index v : mesh.face_wedges(f)) {
@@ -394,9 +393,8 @@ class CellCleaning {
     std::unique_ptr<Partition> placed_; ///< of the numbered source
     PlaceSet unsound_, around_;
     GatheredFaces faces_;
-    Piece whole_; ///< the gathered faces
-    std::size_t spared_ =
-        0; ///< vertices minus positions at unsound positions, because clean counts these welds
+    Piece whole_;            ///< the gathered faces
+    std::size_t spared_ = 0; ///< vertices minus positions at unsound positions, which clean counts
     Box bounds_;
     double area_ = 0;         ///< after the transform, of the faces cleaned so far
     double unsound_area_ = 0; ///< of the faces at unsound positions, before cleaning

@@ -1,5 +1,6 @@
 #pragma once
 // clean for a mesh in cells.
+//
 // The effect of clean on a vertex depends on the faces around it. It does nothing if these form a single fan
 // of faces with nonzero area, where each edge has two faces in opposite directions. A scan of the cells
 // finds all other positions. The faces at these are loaded and cleaned in memory, and the remaining faces

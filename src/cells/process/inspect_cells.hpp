@@ -1,5 +1,6 @@
 #pragma once
 // The properties of a mesh in cells, equal to the properties of the mesh in memory.
+//
 // Every edge and vertex is counted when all of its faces are known (cells/partition/cell_border_walk.hpp).
 // This is inside a cell, or, on a border between cells, at the tree node where all cells with it meet.
 

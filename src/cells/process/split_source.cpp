@@ -33,8 +33,7 @@ void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<
                        std::vector<std::uint64_t>& names) {
     const std::size_t points = how.grid == 0 ? 1 : static_cast<std::size_t>(how.grid) - 1;
     for (const auto& [a, b] : build_edges(whole).edges) {
-        const bool up =
-            names[a] < names[b]; // from the lower to the higher name, which is the same in every cell
+        const bool up = names[a] < names[b]; // from the lower name, as in every cell
         const std::uint64_t low = names[up ? a : b], high = names[up ? b : a];
         const std::uint64_t edge = hashed(hashed(how.pieces(), low), high);
         for (std::size_t i = 0; i < points; ++i)

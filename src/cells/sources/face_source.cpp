@@ -147,8 +147,7 @@ std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, cons
     RowWriter writer(means.scratch, extra, single ? io::ply::Type::float32 : io::ply::Type::float64);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         take_convention(inputs[i], settings, contents);
-        const FaceSource::File file =
-            open_again(inputs[i]); // closed after reading, because the files may be very many
+        const FaceSource::File file = open_again(inputs[i]); // closed after reading: files may be many
         contents.files.push_back({inputs[i], readers[i]->read(file.file, writer, !extra.empty()), nullptr});
         if (contents.files.back().sha256.empty()) return nullptr;
         require_as_opened({file});

@@ -108,10 +108,9 @@ class RowReader {
     virtual ~RowReader() = default;
     /// Vertex attributes of the file that rows can hold.
     std::vector<io::ply::Property> extra{};
-    io::ply::Type coordinate =
-        io::ply::Type::float64;                 ///< the type of the file's coordinates: float32 or float64
-    std::vector<std::string> dropped{};         ///< after read: dropped contents, for messages
-    std::vector<FaceSource::File> neighbours{}; ///< after read: neighbours that were read
+    io::ply::Type coordinate = io::ply::Type::float64; ///< the file's type: float32 or float64
+    std::vector<std::string> dropped{};                ///< after read: dropped contents, for messages
+    std::vector<FaceSource::File> neighbours{};        ///< after read: neighbours that were read
     /// file: the input for reading. with_extra: whether the writer's rows hold `extra`. Returns the file's
     /// digest; none: see stl_rows. Throws as io::read_scene.
     virtual std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out,

@@ -1,6 +1,7 @@
 #pragma once
 // Cells as a tileset of 3D Tiles. Each cell becomes a small pyramid (geometry/pyramid). The roots are joined
 // two to four at a time and simplified, up to a single tile.
+//
 // Vertices at positions shared with outside tiles are held in a tile at every level. They are free once all
 // of their tiles are joined. The tiles of every cut therefore fit together, as in a pyramid made in memory.
 

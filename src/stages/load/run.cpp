@@ -142,8 +142,7 @@ std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
 /// than given, or no unit although other files state it.
 void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
                          Unit unit, Context& context) {
-    if (paths.size() < 2 && !settings.unit && !settings.up)
-        return; // a single file without overrides needs no check
+    if (paths.size() < 2 && !settings.unit && !settings.up) return; // a single file needs no check
     for (const auto& path : paths) {
         const io::Input input = cells::open_mapped(path);
         const io::FileHeader stated = io::file_header(input, {});

@@ -64,7 +64,7 @@ bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
     if (name == "TANGENT") return !needs.tangents;
     if (a.role == Role::morph_vector) return false;
     if (a.name == "COLOR_0") return is_white(a);
-    if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1) return false; // beyond nine: unknown
+    if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1) return false; // beyond nine
     return !needs.uvs.contains(a.name.back() - '0');
 }
 

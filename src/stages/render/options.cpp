@@ -234,8 +234,7 @@ PictureSettings common_settings(const RenderOptions& o, const Scene& scene, cons
     s.width = static_cast<int>(o.width);
     s.height = static_cast<int>(o.height);
     s.viewpoint = o.view;
-    if (o.from)
-        s.from = *o.from / largest_component(*o.from); // because squares of the smallest numbers are 0
+    if (o.from) s.from = *o.from / largest_component(*o.from); // squares of tiny numbers are 0
     if (o.perspective) s.perspective = o.perspective->radians;
     s.at = o.at;
     s.zoom = o.zoom.value_or(o.at ? 4 : 1);

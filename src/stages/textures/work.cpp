@@ -15,8 +15,7 @@ namespace {
 
 using io::Pixels;
 
-constexpr std::size_t block =
-    4; ///< sides of KTX2 images in glTF must be multiples of it (KHR_texture_basisu)
+constexpr std::size_t block = 4; ///< KTX2 sides in glTF are multiples of it (KHR_texture_basisu)
 
 std::string format_of(const io::Bytes& bytes) {
     const std::string type = io::media_type(bytes);
@@ -130,8 +129,7 @@ ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before,
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
     ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);
-    if (use.fallback && format == "webp")
-        format = before.format; // readers that need the fallback do not support WebP
+    if (use.fallback && format == "webp") format = before.format; // its readers do not support WebP
     std::string why;
     bool warn = false;
     if (format == "ktx2") {
