@@ -14,7 +14,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// CLI11's, whose usage line knows only the arguments that are declared.
+/// CLI11's formatter, whose usage line knows only the declared arguments.
 class Help : public CLI::Formatter {
   public:
     explicit Help(std::string the_rest) : the_rest_(std::move(the_rest)) {}
@@ -29,14 +29,14 @@ class Help : public CLI::Formatter {
     std::string the_rest_;
 };
 
-/// What is wrong with a number that must be 0 or more, or nothing.
+/// The error for a negative number, or empty.
 std::string negative(const std::string& text) {
     const auto number = parse_real(text);
     if (number && *number >= 0) return {};
     return fmt::format("expected a number of 0 or more, found '{}'", text);
 }
 
-/// Refuses a text that is none of the choices. CLI11's own check would be told in its words.
+/// Refuses a text that is not a choice. CLI11's own check has different messages.
 CLI::Validator one_of(const Argument& a) {
     return CLI::Validator(
         [called = a.names, choices = a.choices](const std::string& text) -> std::string {
@@ -48,7 +48,7 @@ CLI::Validator one_of(const Argument& a) {
         fmt::format("{{{}}}", fmt::join(a.choices, ",")));
 }
 
-/// For each value between the commas, what is checked of one: one of the choices, if there are any.
+/// Checks each value between commas: it must be a choice, if the argument has choices.
 CLI::Validator for_each_value(const Argument& a) {
     const CLI::Validator each = one_of(a);
     const bool any = a.choices.empty();
@@ -64,7 +64,7 @@ CLI::Validator for_each_value(const Argument& a) {
         any ? "" : each.get_description());
 }
 
-/// Values that came as one word each, value by value.
+/// Splits comma-separated words into values.
 std::vector<std::string> separated(const std::vector<std::string>& words) {
     std::vector<std::string> values;
     for (const std::string& word : words)
@@ -106,7 +106,7 @@ void declare(CLI::App& app, const Argument& a) {
         option->group(a.heading);
 }
 
-/// What is wrong where an option stands without its value, or nothing.
+/// The error for an option without its value, or empty.
 std::string lacking_value(const Arguments& arguments, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         const Argument* a = words[i].starts_with("-") ? arguments.find(words[i]) : nullptr;
@@ -158,7 +158,7 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     app.allow_extras();
     app.set_help_flag("-h,--help", "Print this help and exit.");
     for (const auto& a : all_) declare(app, a);
-    std::vector<std::string> reversed(words.rbegin(), words.rend()); // as CLI11 takes them
+    std::vector<std::string> reversed(words.rbegin(), words.rend()); // in the order that CLI11 expects
     try {
         app.parse(reversed);
     } catch (const CLI::CallForHelp&) {

@@ -1,6 +1,6 @@
 #pragma once
-// The arguments of a command as it declares them. What reads them (CLI11) is met in arguments.cpp only, so
-// that no command is compiled with it.
+// The declared arguments of a command. Only arguments.cpp includes the parser (CLI11), so that commands
+// compile without it.
 
 #include <cstdint>
 #include <functional>
@@ -21,10 +21,10 @@ struct Argument {
     Target target;
     std::string help;
     bool needed = false, is_hidden = false, at_commas = false, in_one_word = false;
-    std::string heading{}; ///< in --help; empty: the general one
-    std::string value{};   ///< what --help and messages call its value: "FILE.png"; empty: by its type
+    std::string heading{}; ///< in --help; empty: the default heading
+    std::string value{};   ///< the name of its value in --help and messages: "FILE.png"; empty: by its type
     std::vector<std::string> choices{};
-    std::vector<std::string> (*suggestions)() = nullptr; ///< what completions offer; others are taken, too
+    std::vector<std::string> (*suggestions)() = nullptr; ///< for completions; other values are valid too
     std::optional<std::pair<int, int>> range{};
     bool at_least_0 = false;
 
@@ -60,7 +60,8 @@ struct Argument {
         at_least_0 = true;
         return *this;
     }
-    /// A list whose values are one argument, so that what follows it is another's; none of them is empty.
+    /// A list whose values are a single argument, so that the next argument is not part of it; values may
+    /// not be empty.
     Argument& separated_by_commas_alone() {
         at_commas = in_one_word = true;
         return *this;
@@ -73,37 +74,38 @@ struct Argument {
     bool is_flag() const { return std::holds_alternative<bool*>(target); }
 };
 
-/// Takes a value that must be the name of a file to write, with this ending, so that an input that follows
-/// the option is not taken for it and overwritten. The target throws usage (the id), which shows the example.
+/// A value that must name a file to write with this ending. An input after the option can thus not be taken
+/// for the value and overwritten. The target throws usage (the id), which shows the example.
 Argument::Target written_file(const std::string& option, const std::string& ending, const std::string& id,
                               const std::string& example, std::function<void(const std::string&)> take);
 
-/// What parsing found besides values.
+/// The result of parsing besides values.
 struct Parsed {
     bool help_wanted = false;
-    std::string help;                ///< the text of --help, when it is wanted
-    std::vector<std::string> extras; ///< what belongs to no argument
+    std::string help;                ///< the text of --help, if requested
+    std::vector<std::string> extras; ///< words that belong to no argument
 };
 
-/// A value that is none of its argument's choices: what() says so, with all of them.
+/// An invalid choice: what() gives the error with all choices.
 struct NotAChoice : std::invalid_argument {
     NotAChoice(const std::string& why, std::string found, std::string meant)
         : std::invalid_argument(why), value(std::move(found)), hint(std::move(meant)) {}
-    std::string value, hint; ///< the hint names the nearest choice; empty: none is near
+    std::string value, hint; ///< the hint names the nearest choice; empty: none is similar
 };
 
 class Arguments {
   public:
-    /// Declares one; refine what is returned at once, the next declaration may move it.
+    /// Declares an argument. Use the returned reference at once, because the next declaration may move the
+    /// argument.
     Argument& add(std::string names, Argument::Target target, std::string help);
-    /// As they were declared, positional ones too.
+    /// In declaration order, including positional arguments.
     const std::vector<Argument>& all() const { return all_; }
     /// The long names of options, without their dashes.
     std::vector<std::string> long_names() const;
     /// The option of this name ("-j", "--threads"), or null.
     const Argument* find(const std::string& name) const;
-    /// Reads words into the targets. the_rest: what the usage line of --help names behind them. Throws
-    /// std::invalid_argument, with the reason, when they cannot be read; NotAChoice is one.
+    /// Reads words into the targets. the_rest: the text after the options in the usage line of --help.
+    /// Throws std::invalid_argument with the reason for invalid words; NotAChoice for invalid choices.
     Parsed parse(const std::string& command, const std::string& about, std::vector<std::string> words,
                  const std::string& the_rest = {}) const;
 
@@ -111,7 +113,7 @@ class Arguments {
     std::vector<Argument> all_;
 };
 
-/// -j,--threads, from 1 to 4096. help: for the one of this command.
+/// -j,--threads, from 1 to 4096. help: the help text of this command.
 void add_threads_option(Arguments& arguments, int& threads, const char* help);
 
 } // namespace facetmill::cli

@@ -1,4 +1,4 @@
-// facetmill batch: one pipeline over many assets, in one process.
+// facetmill batch: runs a pipeline over many assets in a single process.
 
 #include "base/text/readable_numbers.hpp"
 #include "batch/jobserver.hpp"
@@ -59,7 +59,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_warning_options(arguments, options.common);
 }
 
-/// A line that is drawn anew when an asset has ended: how far the batch is, and how long it will take.
+/// A line that is redrawn whenever an asset ends: progress of the batch and remaining time.
 class BatchBar {
   public:
     explicit BatchBar(const Console& console) : shown_(console.redraws()) {}
@@ -92,7 +92,7 @@ class BatchBar {
     bool shown_;
 };
 
-/// What is told of an asset when it has ended, all at once.
+/// Prints the messages of a finished asset together.
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Console& console) {
     WarningLimiter few(console);
     if (!out.kept)
@@ -118,7 +118,7 @@ void write_summary(const batch::Summary& summary, const PipelineOptions& options
     if (!options.timings.empty()) write(options.timings, batch::timings_text(summary));
 }
 
-/// Tells the summary and writes it.
+/// Prints and writes the summary.
 void tell_summary(const batch::Summary& summary, const PipelineOptions& options, const Folders& places,
                   const Console& console) {
     for (const auto& warning : summary.warnings) console.diagnostic(warning);
@@ -159,7 +159,7 @@ batch::Listener listener_for(const PipelineOptions& options, const Folders& plac
     return listener;
 }
 
-/// What the batch is to do, but for how an asset is planned.
+/// The settings of the batch, except the planner of an asset.
 batch::Settings batch_settings(const BatchOptions& options, const CommandLine& line, const Folders& places) {
     batch::Settings settings;
     settings.jobs = options.common.threads;
@@ -181,8 +181,8 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     return settings;
 }
 
-/// What the assets and the batch itself read and write. The output folder has the journal, and what only a
-/// run can name.
+/// The files that the assets and the batch itself read and write. The output folder has the journal, and
+/// outputs that only a run can name.
 AllowedFiles allowed_for(const std::vector<batch::Work>& works, const batch::Settings& settings,
                          const BatchOptions& options) {
     AllowedFiles allowed;
@@ -212,11 +212,11 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
         }
     }
     PipelineOptions common = options.common;
-    common.reports.clear(); // those of the options are the summary's
+    common.reports.clear(); // the option's reports belong to the summary
     common.timings.clear();
     const auto of_all = plan_settings(common, line, problems);
     problems.throw_if_any(ErrorKind::usage);
-    confine_calls_only(common.sandbox); // the headers of all assets are read before it is known what else is
+    confine_calls_only(common.sandbox); // planning reads all headers first
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
     const auto assets = assets_of(options, line, options.prune);

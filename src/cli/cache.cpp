@@ -1,4 +1,4 @@
-// facetmill cache: what is in the cache of results, and how it gets smaller.
+// facetmill cache: shows and shrinks the cache of results.
 
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"

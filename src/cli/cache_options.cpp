@@ -15,7 +15,7 @@ void add_cache_options(Arguments& arguments, CacheOptions& options) {
 
 namespace {
 
-/// Whether the user asked for a cache, and does not just have one.
+/// Whether the user requested a cache, and does not use it by default.
 bool is_asked_for(const CacheOptions& options) { return options.on || cache::is_named(); }
 
 bool is_left_out(const CacheOptions& options) {
@@ -26,7 +26,7 @@ bool is_left_out(const CacheOptions& options) {
 
 std::optional<std::filesystem::path> cache_folder(const CacheOptions& options) {
     auto folder = is_left_out(options) ? std::nullopt : cache::folder();
-    if (folder && !cache::make_folders(*folder)) return {}; // the store tells why
+    if (folder && !cache::make_folders(*folder)) return {}; // the store reports the reason
     return folder;
 }
 
@@ -44,7 +44,7 @@ std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::
     if (!folder) return nullptr;
     const auto limit = cache::size_limit();
     std::function<void(const Diagnostic&)> tell = [&console, allowed, asked, tells_all](const Diagnostic& d) {
-        // Nobody who did not ask for a cache wants to know why there is none.
+        // Users who did not request a cache need no message about a missing cache.
         const bool wanted = asked || tells_all || d.severity != Severity::warning;
         if (wanted && !is_allowed(d, allowed)) console.diagnostic(d);
     };

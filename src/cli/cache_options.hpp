@@ -1,5 +1,5 @@
 #pragma once
-// The options that say whether a run uses the cache, and the cache that they say.
+// The cache options of a run, and the cache that they select.
 
 #include "cache/store.hpp"
 #include "cli/command.hpp"
@@ -13,14 +13,14 @@ struct CacheOptions {
 /// --cache and --no-cache.
 void add_cache_options(Arguments& arguments, CacheOptions& options);
 
-/// The folder of the store for a run, which is made when it is not there; none for no store, or where it
-/// cannot be made. For the sandbox.
+/// The folder of the run's store, created if missing. None without a store, or if creating it fails. For the
+/// sandbox.
 std::optional<std::filesystem::path> cache_folder(const CacheOptions& options);
 
-/// The store for a run: by default there is one. Null with --no-cache, FACETMILL_CACHE=off, where no usual
-/// place is (cache::folder), and with CI=true unless --cache or FACETMILL_CACHE ask for it. It tells what
-/// hinders it (W-CACHE) where they do or with tells_all, unless the id is allowed, and notes always. Throws
-/// usage when both options are given, and when --cache finds no place.
+/// The store for a run, by default enabled. Null with --no-cache, FACETMILL_CACHE=off, or without a default
+/// folder (cache::folder). Also null with CI=true unless --cache or FACETMILL_CACHE request it. Problems are
+/// reported (W-CACHE) if the cache was requested or with tells_all, unless the id is allowed; notes are
+/// always reported. Throws usage if both options are given, and if --cache finds no folder.
 std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
                                         const Console& console, bool tells_all = false);
 

@@ -1,4 +1,4 @@
-// facetmill check: are the pipelines right? Of the inputs that exist it reads the headers, no more.
+// facetmill check: validates pipelines. It reads only the headers of existing inputs.
 
 #include "cli/pipeline_options.hpp"
 

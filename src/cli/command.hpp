@@ -1,5 +1,5 @@
 #pragma once
-// A command of the command line: one file each, one entry in commands().
+// Commands of the command line: one file each, with an entry in commands().
 
 #include "cli/arguments.hpp"
 #include "cli/console.hpp"
@@ -11,7 +11,7 @@
 
 namespace facetmill::cli {
 
-/// The name of the text that a CommandLine is.
+/// The name of a CommandLine's text in messages.
 inline constexpr const char* command_line_name = "command line";
 
 /// The arguments as a text that messages can point into: "facetmill run a.yaml --ouput-dir out".
@@ -20,9 +20,9 @@ class CommandLine {
     explicit CommandLine(std::vector<std::string> arguments);
     const std::vector<std::string>& arguments() const { return arguments_; }
     Mark mark(std::size_t argument) const;
-    /// The mark of the first argument that starts with this text, or of the line as a whole.
+    /// The mark of the first argument that starts with this text, or of the whole line.
     Mark find(const std::string& start) const;
-    /// The mark of this value of an option, an argument of its own or after "=", or of the line as a whole.
+    /// The mark of an option's value, as a separate argument or after "=", or of the whole line.
     Mark value(const std::string& text) const;
 
   private:
@@ -31,7 +31,7 @@ class CommandLine {
     Mark whole_;
 };
 
-/// What a command's work gets.
+/// The input of a command.
 struct Invocation {
     const CommandLine& line;
     std::size_t rest =
@@ -40,14 +40,15 @@ struct Invocation {
 
 struct Command {
     std::string name, about;
-    std::string examples; ///< worked examples and whatever else --help says at its end
-    /// What stands behind the options, as the usage line of --help shows it: these are read only up to the
-    /// first other word. Empty: options may stand anywhere.
+    std::string examples; ///< examples and further text for the end of --help
+    /// The text after the options in the usage line of --help; options are then only read up to the first
+    /// other word. Empty: options may be anywhere.
     std::string the_rest{};
-    /// Declares the arguments; what it returns is called after they are read, for the exit code.
+    /// Declares the arguments. The returned function runs the command after parsing, and returns the exit
+    /// code.
     std::function<std::function<int(const Invocation&)>(Arguments&, Console&)> declare;
-    bool rest_is_stages = false; ///< pipe: what it takes are stages
-    const char* stage = nullptr; ///< whose options it takes, which --help then tells; or null
+    bool rest_is_stages = false; ///< pipe: its other arguments are stages
+    const char* stage = nullptr; ///< the stage whose options the command also takes and --help lists; or null
 };
 
 /// In the order of --help.
@@ -74,11 +75,11 @@ Command completions_command();
 /// --quiet, -v, --log.
 void add_message_options(Arguments& arguments, Console& console);
 
-/// The whole program. Throws Error; the exit code is returned. quiet, colours and so on are left in console
-/// for whoever catches.
+/// Runs the whole program and returns the exit code. Throws Error. Leaves quiet, colours and so on in
+/// console for the caller.
 int program(std::vector<std::string> arguments, Console& console);
 
-/// Version; with --json also the libraries, and what this system has for the sandbox.
+/// The version; with --json also the libraries, and the sandbox support of this system.
 std::string version_text(bool json);
 
 } // namespace facetmill::cli

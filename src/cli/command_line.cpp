@@ -6,7 +6,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// The argument as one would type it.
+/// The argument in shell notation.
 std::string typed(const std::string& argument) {
     const auto plain = [](unsigned char c) {
         return std::isalnum(c) || c >= 0x80 ||
@@ -59,7 +59,7 @@ Mark CommandLine::value(const std::string& text) const {
         if (!argument.starts_with("-") || !argument.ends_with("=" + text)) continue;
         Mark mark = marks_[i];
         const int before = static_cast<int>(argument.size() - text.size());
-        if (mark.length != static_cast<int>(argument.size())) return mark; // in quotes
+        if (mark.length != static_cast<int>(argument.size())) return mark; // quoted
         mark.column += before;
         mark.length -= before;
         return mark;

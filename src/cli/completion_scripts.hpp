@@ -1,12 +1,12 @@
 #pragma once
-// What the completions do in each shell. The tables of words that they look things up in are written by
-// completions.cpp. Among the words, <files> stands for files.
+// The completion functions of each shell. completions.cpp writes the word tables that they use. In the
+// tables, <files> means file names.
 
 namespace facetmill::cli {
 
-/// For bash and zsh: prints the words, each with a tab and a help, that may stand in place of the one that is
-/// typed; files where nothing is printed, or where <files> is. _facetmill_table prints the rows of a table,
-/// _facetmill_is_stage knows the stages.
+/// For bash and zsh: prints the possible words, each with a tab and a help text. Files are offered if no
+/// words are printed, or with <files>. _facetmill_table prints the rows of a table, _facetmill_is_stage
+/// knows the stages.
 inline constexpr const char* candidates_sh = R"SH(
 # $1: the word that is typed; then the words before it, without facetmill itself.
 _facetmill_candidates() {

@@ -1,4 +1,4 @@
-// facetmill completions: what a shell offers while a command is typed, from the declarations.
+// facetmill completions: shell completions from the declarations.
 
 #include "base/message_ids.hpp"
 #include "base/text/words.hpp"
@@ -17,7 +17,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// A row of a table: files are offered beside its words (where there are no words, they are always).
+/// A row that offers files besides the words; without words, files are always offered.
 constexpr const char* files_row = "<files>";
 
 constexpr const char* completions_examples = R"(Examples
@@ -31,10 +31,10 @@ struct Word {
 };
 using Words = std::vector<Word>;
 
-/// Words by what they may follow: "commands", "options command run", "values stage clip --keep".
+/// Words by context: "commands", "options command run", "values stage clip --keep".
 using Tables = std::vector<std::pair<std::string, Words>>;
 
-/// The first sentence, in one line.
+/// The first sentence on a single line.
 std::string brief_help(std::string help) {
     help = help.substr(0, std::min(help.find(". "), help.find('\n')));
     if (help.ends_with('.')) help.pop_back();
@@ -54,7 +54,7 @@ Words plain(const std::vector<std::string>& texts) {
     return words;
 }
 
-/// What a bare argument of the command may be.
+/// The possible values of a bare argument of the command.
 Words values_of_command(const std::string& command, const Argument& argument) {
     Words words = plain(argument.choices);
     if (argument.names == "PIPELINE") {
@@ -133,7 +133,7 @@ Tables all_tables() {
     return tables;
 }
 
-/// In single quotes, which the shells escape in two ways.
+/// The text in single quotes, which the shells escape in two ways.
 std::string in_quotes(std::string_view text, bool fish) {
     std::string out = "'";
     for (const char c : text)

@@ -33,9 +33,9 @@ io::ReadSettings read_settings(const std::vector<std::string>& asset_roots) {
 void allow_input(AllowedFiles& allowed, const fs::path& input) {
     if (input == "-") return;
     std::error_code ignored;
-    if (fs::is_symlink(fs::symlink_status(input, ignored))) allowed.read.push_back(input); // to anywhere
+    if (fs::is_symlink(fs::symlink_status(input, ignored))) allowed.read.push_back(input); // anywhere
     fs::path folder = input.parent_path();
-    // The part before the wildcards.
+    // The path before the wildcards.
     while (is_glob(folder.string())) folder = folder.parent_path();
     allowed.read.push_back(folder.empty() ? "." : folder);
 }
@@ -45,7 +45,7 @@ void allow_output(AllowedFiles& allowed, const fs::path& output) {
     if (io::is_stream(output)) return allowed.written.push_back(output);
     const fs::path folder = output.parent_path();
     allowed.written.push_back(folder.empty() ? "." : folder);
-    // A link is followed: what it leads to is written in its own folder.
+    // Writing follows a link, so its target's folder is written.
     std::error_code ignored;
     if (!fs::is_symlink(fs::symlink_status(output, ignored))) return;
     const fs::path target = io::followed(output).parent_path();
@@ -54,7 +54,7 @@ void allow_output(AllowedFiles& allowed, const fs::path& output) {
 
 namespace {
 
-/// What is known only at run time: a text with an expression that has no value yet.
+/// Allows files known only at run time: a text with an expression without a value yet.
 void allow_deferred(AllowedFiles& allowed, const Value& value, const Folders& places) {
     for (const auto& item : value.items) allow_deferred(allowed, item, places);
     for (const auto& entry : value.entries) allow_deferred(allowed, entry.value, places);
@@ -131,7 +131,7 @@ void start_programs(const pipeline::Plan& plan) {
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console) {
     if (options.off) return;
     if (offered_protections().files > 0) {
-        static io::EarlyFolders folders; // they are removed at the end, unless something was written there
+        static io::EarlyFolders folders; // removed at the end, unless files were written to them
         std::error_code ignored;
         for (const auto& path : allowed.written)
             if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) folders.make(path);
@@ -143,7 +143,7 @@ void confine(AllowedFiles allowed, const SandboxOptions& options, const Console&
 }
 
 void confine_calls_only(const SandboxOptions& options) {
-    io::start_ktx_workers(); // whether a plan needs them is not known yet
+    io::start_ktx_workers(); // a later plan may need them
     if (!options.off) confine_calls();
 }
 

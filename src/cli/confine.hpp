@@ -1,5 +1,5 @@
 #pragma once
-// The sandbox of a run: what of its plan says which files it needs. See platform/sandbox.hpp.
+// The sandbox of a run, with the files that its plan needs. See platform/sandbox.hpp.
 
 #include "cli/console.hpp"
 #include "io/codec.hpp"
@@ -17,29 +17,29 @@ struct SandboxOptions {
 /// --no-sandbox.
 void add_sandbox_option(Arguments& arguments, SandboxOptions& options);
 
-/// --asset-root, which may be repeated.
+/// --asset-root, repeatable.
 void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders);
 
-/// How files are read where it named these folders.
+/// The read settings with these asset roots.
 io::ReadSettings read_settings(const std::vector<std::string>& asset_roots);
 
-/// Adds an input: itself, and its folder, where its neighbours are.
+/// Adds an input and its folder, which holds its neighbours.
 void allow_input(AllowedFiles& allowed, const std::filesystem::path& input);
-/// Adds an output: its folder, for its temporary beside it; a stream itself.
+/// Adds an output: its folder, because of the temporary file in it; for a stream only the stream.
 void allow_output(AllowedFiles& allowed, const std::filesystem::path& output);
-/// Adds all that the plan names, with what it reads and writes beside: includes, reports, baselines. Of what
-/// only the run knows (a foreach over parts) the folder of the part of the path that is known.
+/// Adds all files that the plan names, with its includes, reports and baselines. For names known only at run
+/// time (a foreach over parts), adds the folder of the known part of the path.
 void allow_plan(AllowedFiles& allowed, const pipeline::Plan& plan);
 
-/// Starts the processes that run other programs for the plan, while there may be new ones: ktx, where a stage
-/// is asked for ktx2.
+/// Starts helper processes for external programs before the sandbox forbids new processes: ktx, if a stage
+/// needs KTX2.
 void start_programs(const pipeline::Plan& plan);
 
-/// Gives up all that is not allowed, and calls of the system that no run needs, unless the options say
-/// otherwise. Called before there are threads. Makes the folders of outputs that are not there, which go
-/// again when nothing is written there. Tells what is on with --verbose.
+/// Drops access to all other files and to unneeded system calls, unless the options disable the sandbox.
+/// Call it before starting threads. Creates missing output folders, and removes them at the end if they stay
+/// empty. Reports the active restrictions with --verbose.
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console);
-/// ... of calls only: for what goes on to read files that are not known yet.
+/// The same for system calls only, for commands that read further files not yet known.
 void confine_calls_only(const SandboxOptions& options);
 
 } // namespace facetmill::cli

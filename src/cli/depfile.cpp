@@ -16,8 +16,8 @@ std::string make_escaped(const std::string& path, bool target) {
             throw Error(ErrorKind::output, "E-DEPFILE",
                         "a depfile cannot name a path with a line break: " + path,
                         "rename the file: neither Make nor Ninja can spell it");
-        // A colon would end the targets, and a % among them make a pattern. Backslashes before one of these
-        // would escape it, so they are doubled; elsewhere they are plain.
+        // Make ends the targets at a colon, and takes a % in a target for a pattern. Backslashes before an
+        // escaped character are doubled; elsewhere they are plain.
         if (c == ' ' || c == '#' || c == '\t' || c == ':' || (c == '%' && target))
             text.append(backslashes + 1, '\\');
         if (c == '$') text += '$';
@@ -32,7 +32,7 @@ std::string depfile_text(const std::string& target, const std::vector<std::strin
     for (const auto& input : inputs) text += " \\\n  " + make_escaped(input, false);
     text += "\n";
     for (const auto& input : inputs)
-        // With a % it would be a pattern for Make, and escaped it would be another file for Ninja.
+        // Unescaped, a % would be a pattern for Make; escaped, it would be another file for Ninja.
         if (input.find('%') == input.npos) text += make_escaped(input, true) + ":\n";
     return text;
 }
@@ -41,7 +41,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files of a run as Make and Ninja can name them: standard input and output are none.
+/// The files of a run as Make and Ninja name them, without standard input and output.
 class Paths {
   public:
     void add(const std::string& path) {
@@ -62,7 +62,7 @@ fs::path folder_of_absent(const fs::path& file) {
     return file.is_absolute() || near.empty() ? folder : near;
 }
 
-/// What the target may be, the best first.
+/// The possible targets, the best first.
 std::vector<std::string> targets_of(const report::RunRecord& record, const std::string& depfile) {
     Paths paths;
     for (const bool mesh : {true, false})
@@ -70,14 +70,14 @@ std::vector<std::string> targets_of(const report::RunRecord& record, const std::
             if (!mesh || !file.read_back.is_null()) paths.add(file.path);
     for (const auto& report : record.reports) paths.add(report);
     auto all = paths.all();
-    all.push_back(depfile); // a gate writes nothing; its rule is for the depfile itself
+    all.push_back(depfile); // a gate writes no files, so its rule is for the depfile itself
     return all;
 }
 
-/// An output beside which a file is missing is not older than the folder that both are in, or it would be
-/// made again each time.
+/// Makes an output newer than the folder of a missing file next to it, because otherwise the rule would run
+/// again each time.
 void make_newer_than_folders(const report::RunRecord& record, std::optional<fs::file_time_type> kept_before) {
-    constexpr std::chrono::milliseconds tick(20); // times of files come from a clock that is as late as this
+    constexpr std::chrono::milliseconds tick(20); // file times come from a clock with this granularity
     const auto is_kept = [&](const std::string& path) {
         std::error_code ignored;
         return kept_before && fs::last_write_time(path, ignored) < *kept_before - tick;
@@ -90,7 +90,7 @@ void make_newer_than_folders(const report::RunRecord& record, std::optional<fs::
             std::error_code ignored;
             return fs::equivalent(input.path, path, ignored);
         };
-        std::error_code ignored; // then it is made again, no more
+        std::error_code ignored; // a failure only causes a needless run
         if (fs::is_regular_file(path, ignored) && !is_kept(path) &&
             std::none_of(record.inputs.begin(), record.inputs.end(), is_this))
             fs::last_write_time(path, now, ignored);

@@ -1,4 +1,4 @@
-// facetmill diff: two mesh files side by side, or two folders of them.
+// facetmill diff: compares two mesh files, or two folders of mesh files.
 
 #include "base/text/markup.hpp"
 #include "cli/command.hpp"
@@ -46,7 +46,7 @@ std::vector<std::string> stated_units() {
     return names;
 }
 
-/// Takes the file of --html or --markdown among the reports.
+/// Adds the file of --html or --markdown to the reports.
 Argument::Target report_named(const std::shared_ptr<DiffOptions>& options, const std::string& option,
                               const std::string& ending) {
     return written_file(option, ending, "E-REPORT",
@@ -54,7 +54,7 @@ Argument::Target report_named(const std::shared_ptr<DiffOptions>& options, const
                         [=](const std::string& path) { options->reports.push_back(path); });
 }
 
-/// Refuses, before anything is read, what is no report of a comparison.
+/// Refuses invalid comparison reports before reading any file.
 void check_reports(const DiffOptions& options, const CommandLine& line) {
     for (const auto& path : options.reports) {
         std::error_code none_there;
@@ -86,7 +86,7 @@ void write_reports(const DiffOptions& options, const ComparedFiles& files, const
     }
 }
 
-/// Of two files.
+/// The comparison of two files.
 int diff_of_files(const DiffOptions& options, const CommandLine& line, const Console& console) {
     CommandSteps steps(console, 1);
     steps.next("compare");

@@ -11,7 +11,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// The file with those that it names.
+/// The size of the file with its neighbours.
 report::SizeOnDisk size_of(const std::string& name, io::Span bytes, const io::ReadLog& log) {
     report::SizeOnDisk size;
     const auto add = [&](const std::string& path, std::uint64_t count, io::Span contents) {
@@ -30,7 +30,7 @@ report::SizeOnDisk size_of(const std::string& name, io::Span bytes, const io::Re
     return size;
 }
 
-/// A length on the command line, in A's units or in percent.
+/// A length from the command line, in A's units or in percent.
 std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& text, const std::string& option,
                                                           Unit unit, const CommandLine& line) {
     if (text.empty()) return {};
@@ -49,7 +49,7 @@ std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& tex
     return report::ComparisonSettings::Limit{length.amount / metres(unit), false};
 }
 
-/// Reads a file; what its reader could not keep is noted, so that it is not taken for the same.
+/// Reads a file and records data that its reader could not keep, so that the files do not count as the same.
 Scene read(const std::string& name, bool is_a, const DiffOptions& options, report::Comparison& notes,
            const Console& console) {
     io::ReadLog log;
@@ -63,7 +63,7 @@ Scene read(const std::string& name, bool is_a, const DiffOptions& options, repor
     return scene;
 }
 
-/// What a file does not state is as the command line says.
+/// Sets the unit and axis from the command line if the file does not state them.
 void state(Scene& scene, bool is_a, const DiffOptions& options) {
     const auto stated = [&](const std::vector<std::string>& said) {
         return said.empty() ? std::string() : is_a ? said.front() : said.back();
@@ -73,7 +73,7 @@ void state(Scene& scene, bool is_a, const DiffOptions& options) {
         scene.up = up == "y" ? UpAxis::y : UpAxis::z;
 }
 
-/// Whether the scene is one part that is called like its file: a format without names.
+/// Whether the scene is a single part named after its file, because the format has no names.
 bool is_named_by_file(const Scene& scene, const std::string& file) {
     const std::string own = file == "-" ? "standard input" : std::filesystem::path(file).stem().string();
     return scene.parts.size() == 1 && scene.parts[0].name == own;

@@ -1,5 +1,5 @@
 #pragma once
-// What `facetmill diff` does with one pair of files, and with two folders of them.
+// The comparison of a pair of files, and of two folders, for `facetmill diff`.
 
 #include "cli/command.hpp"
 #include "cli/confine.hpp"
@@ -13,32 +13,33 @@ struct DiffOptions {
     std::string a, b, maximum, rms, mean;
     std::vector<std::string> ignored;
     report::ComparisonSettings settings;
-    std::size_t samples = SIZE_MAX;      ///< of the deviation, which averages them all then; or not given
-    std::vector<std::string> units, ups; ///< of files that state none: of both, or of A and of B
-    std::vector<std::string> reports;    ///< pages and Markdown files to write
-    std::vector<std::string> others;     ///< those of --report, before they are among these
+    std::size_t samples = SIZE_MAX;      ///< for the deviation; the default averages all samples
+    std::vector<std::string> units, ups; ///< for files that do not state them: for both, or for A and B
+    std::vector<std::string> reports;    ///< HTML and Markdown files to write
+    std::vector<std::string> others;     ///< files of --report, before they are added to reports
     std::vector<std::string> asset_roots;
     bool json = false, all = false;
     int threads = 0;
     SandboxOptions sandbox;
 };
 
-/// A pair that was read and compared, the second scene in the convention of the first.
+/// A compared pair; the second scene is in the convention of the first.
 struct ComparedFiles {
     Scene a, b;
     report::Comparison comparison;
 };
-/// Throws as a file is read: missing, malformed, usage for a limit in a unit that the first file has not.
+/// Throws as reading a file: missing, malformed. Throws usage for a limit with a unit if the first file has
+/// no unit.
 ComparedFiles compared_files(const DiffOptions& options, const std::string& a, const std::string& b,
                              const CommandLine& line, const Console& console);
 
-/// Warns of textures that pictures do without, each once.
+/// Warns of textures missing from pictures, each once.
 void tell_not_drawn(const std::vector<Diagnostic>& not_drawn, const Console& console);
 
-/// Where the pages of the pairs are: "changes.html" -> "changes".
+/// The folder of the pairs' pages: "changes.html" -> "changes".
 std::filesystem::path folder_of_pages(const std::string& index);
-/// Compares the files below both folders one pair after the other, prints, writes the reports, and returns
-/// the exit code: the gravest of those of the pairs.
+/// Compares the files below both folders pair by pair, prints the result and writes the reports. Returns the
+/// worst exit code of the pairs.
 int diff_of_folders(const DiffOptions& options, const CommandLine& line, const Console& console);
 
 } // namespace facetmill::cli

@@ -1,4 +1,4 @@
-// facetmill diff of two folders.
+// facetmill diff for two folders.
 
 #include "batch/batch.hpp"
 #include "cli/command_steps.hpp"
@@ -17,14 +17,14 @@ namespace {
 
 using report::FolderPair;
 
-/// The index that pages stand beside; empty: none.
+/// The index page; empty: none. The pages of pairs are in a folder next to it.
 std::string index_of(const DiffOptions& options) {
     const auto found = std::find_if(options.reports.begin(), options.reports.end(),
                                     [](const std::string& path) { return path.ends_with(".html"); });
     return found == options.reports.end() ? std::string() : *found;
 }
 
-/// "sub/a.glb" -> "changes/sub/a.glb.html", from the folder of the index.
+/// "sub/a.glb" -> "changes/sub/a.glb.html", relative to the folder of the index.
 std::string page_of(const std::string& index, const std::string& path) {
     return (folder_of_pages(index).filename() / (path + ".html")).generic_string();
 }

@@ -1,4 +1,4 @@
-// facetmill docs: the manual, from the executable alone.
+// facetmill docs: the manual, embedded in the executable.
 
 #include "base/text/spelling.hpp"
 #include "base/text/words.hpp"
@@ -49,7 +49,7 @@ std::string topic_list() {
            "\nfacetmill explain lists the ids of errors and warnings, facetmill formats the formats.\n";
 }
 
-/// The guides, pages and stages that a word occurs in.
+/// The guides, pages and stages that contain a word.
 std::string topics_with(const std::string& word) {
     std::vector<std::string> names;
     for (const Topic& topic : topics()) {

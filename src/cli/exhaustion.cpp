@@ -14,14 +14,14 @@ namespace facetmill::cli {
 namespace {
 
 constexpr std::size_t reserve_bytes = std::size_t{1} << 20;
-/// Messages and destructors ask for no more at a time (those of JSON values ask for a list of what is in
-/// them, and may not throw).
+/// The largest request of messages and destructors. Destructors of JSON values allocate a list of their
+/// contents, and may not throw.
 constexpr std::size_t small_bytes = std::size_t{1} << 16;
 
 std::atomic<void*> reserve{nullptr};
 
 bool small_requests_succeed() {
-    void* volatile probe = std::malloc(small_bytes); // volatile: a compiler may leave out the pair
+    void* volatile probe = std::malloc(small_bytes); // volatile, because a compiler may remove the pair
     std::free(probe);
     return probe != nullptr;
 }
@@ -32,7 +32,7 @@ void end_for_memory() {
 
 std::terminate_handler usual_end = nullptr;
 
-/// Where nothing catches: before main, or where a destructor throws.
+/// Handles uncaught exceptions: before main, or from a destructor.
 [[noreturn]] void on_terminate() {
     try {
         if (const auto why = std::current_exception()) std::rethrow_exception(why);
@@ -44,7 +44,7 @@ std::terminate_handler usual_end = nullptr;
     std::abort();
 }
 
-/// Before the registries of stages and codecs are made, which is before main.
+/// Runs before the registries of stages and codecs are built, which is before main.
 struct BeforeRegistries {
     BeforeRegistries() { usual_end = std::set_terminate(on_terminate); }
 };
@@ -54,7 +54,7 @@ void on_failed_request() {
     if (small_requests_succeed()) throw std::bad_alloc();
     if (void* const given = reserve.exchange(nullptr)) {
         std::free(given);
-        return; // the request is tried again
+        return; // the allocator tries the request again
     }
     end_for_memory();
     throw std::bad_alloc();

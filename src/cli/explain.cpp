@@ -1,4 +1,4 @@
-// facetmill explain: what the id of an error or warning means, and what to do.
+// facetmill explain: the meaning of an error or warning id, and the remedy.
 
 #include "base/text/spelling.hpp"
 #include "cli/command.hpp"
@@ -24,7 +24,7 @@ struct ExplainOptions {
 const MessageId& message_asked_for(const std::string& text, const CommandLine& line) {
     const std::string id = docs::id_of(text);
     if (const auto* known = message_id(id)) return *known;
-    std::vector<std::string> ids; // of the same letter, when one is given
+    std::vector<std::string> ids; // only ids with the same letter, if given
     for (const auto& m : message_ids())
         if (!id.starts_with("W-") || m.is_warning()) ids.emplace_back(m.id);
     throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no error or warning '{}'", text),

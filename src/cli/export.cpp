@@ -1,4 +1,4 @@
-// facetmill export: the runs of many assets as a workflow of Ninja, Make or Snakemake.
+// facetmill export: the runs of many assets as a workflow for Ninja, Make or Snakemake.
 
 #include "cells/partition/kept_partition.hpp"
 #include "cli/assets.hpp"
@@ -37,10 +37,10 @@ Examples
 struct ExportOptions : AssetOptions {
     std::string engine;
     int shard = 1;
-    int cell_jobs = 0; ///< 0: as many as suit the input
+    int cell_jobs = 0; ///< 0: chosen by the size of the input
 };
 
-/// A run as one would type it.
+/// The command line of a run.
 std::vector<std::string> arguments_of(const ExportOptions& options, const pipeline::PlanSettings& own) {
     std::vector<std::string> arguments{"run", options.pipeline};
     const auto give = [&](const char* option, const std::string& name, const std::string& value) {
@@ -52,7 +52,7 @@ std::vector<std::string> arguments_of(const ExportOptions& options, const pipeli
         arguments.push_back(preset);
     }
     for (const auto& [name, value] : own.defines)
-        if (!own.defined_in.contains(name)) give("-D", name, value); // else the preset has it
+        if (!own.defined_in.contains(name)) give("-D", name, value); // otherwise the preset defines it
     for (const auto& [name, value] : own.sets) give("--set", name, value);
     for (const auto& id : options.common.strict)
         arguments.push_back(id == "*" ? "--strict" : "--strict=" + id);
@@ -71,9 +71,9 @@ std::vector<std::string> arguments_of(const ExportOptions& options, const pipeli
     return arguments;
 }
 
-/// The pipeline, where it is a file that is there when the jobs run.
+/// The pipeline, if it is a file that still exists when the jobs run.
 std::vector<std::string> pipeline_as_input(const ExportOptions& options) {
-    std::error_code ignored; // a pipe of the shell is gone when the job runs
+    std::error_code ignored; // a shell's pipe is gone when the job runs
     if (is_pipeline_file(options.pipeline) && !std::filesystem::is_fifo(options.pipeline, ignored))
         return {options.pipeline};
     return {};
@@ -88,8 +88,8 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
     return job;
 }
 
-/// One run, as jobs that meet in --keep-cells: one that makes the cells, those that simplify, and the run
-/// itself. Each writes the files that it declares, and no other job does.
+/// Divides a run into jobs that share --keep-cells: a job that makes the cells, the simplifying jobs, and
+/// the run itself. Each job writes the files that it declares, and no other job writes them.
 std::vector<Job> cell_jobs(const ExportOptions& options, const CommandLine& line,
                            const pipeline::PlanSettings& settings, Problems& problems) {
     const auto plan = plan_of(options.pipeline, settings, problems);
@@ -131,7 +131,7 @@ std::vector<Job> cell_jobs(const ExportOptions& options, const CommandLine& line
     return jobs;
 }
 
-/// What is wrong with options that divide one run, or that do not.
+/// Adds errors for options that divide a run, and for conflicting options without them.
 void check_cells(const ExportOptions& options, const CommandLine& line, Problems& problems) {
     const auto& sources = options.sources;
     if (options.common.kept_cells.empty()) {
@@ -168,7 +168,7 @@ int export_work(ExportOptions& options, const CommandLine& line, const Console& 
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings;
     set_planner(settings, options, of_all);
-    settings.rehearse = true; // a job that lacks a declared file is never done
+    settings.rehearse = true; // a job that lacks a declared file counts as failed
     confine({.read_all = true}, options.common.sandbox, console);
     if (!options.common.kept_cells.empty()) {
         const auto jobs = cell_jobs(options, line, of_all, problems);

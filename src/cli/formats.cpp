@@ -1,4 +1,4 @@
-// facetmill formats: what can be read and written.
+// facetmill formats: the formats that facetmill reads and writes.
 
 #include "base/json.hpp"
 #include "cli/command.hpp"

@@ -46,7 +46,7 @@ struct InfoOptions {
     SandboxOptions sandbox;
 };
 
-/// What is told of a file.
+/// The information about a file.
 struct FileInfo {
     Scene scene;
     Properties properties;
@@ -58,7 +58,7 @@ struct FileInfo {
     }
 };
 
-/// A number as JSON has it.
+/// The number in JSON notation.
 std::string number_text(double number) { return Json(number).dump(); }
 
 std::string value_text(const Property& property, const Properties& properties) {
@@ -116,7 +116,7 @@ std::string component_text(const report::Component& component) {
     return text;
 }
 
-/// A line for each of the largest components, where there are several.
+/// A line for each of the largest components, if the mesh has several.
 std::string components_text(const FileInfo& info) {
     if (info.components.size() < 2) return {};
     std::string text = row("components_detail", "the largest first");
@@ -127,7 +127,7 @@ std::string components_text(const FileInfo& info) {
     return more > 0 ? text + fmt::format("    and {} more\n", more) : text;
 }
 
-/// "1240 triangle, 12 degenerate": what there is of each kind.
+/// The nonzero counts: "1240 triangle, 12 degenerate".
 std::string kinds_text(const FaceKinds& kinds) {
     std::string text;
     for (const Field& field : face_kinds_fields().all) {
@@ -145,8 +145,8 @@ std::string point_text(const Vec3& p) {
     return fmt::format("[{},{},{}]", number_text(p.x), number_text(p.y), number_text(p.z));
 }
 
-/// Of what has no faces (a cloud of points, lines), whether it is closed and the like need no line, nor do
-/// zeros beside that of the faces.
+/// Without faces (point clouds, lines), closedness and similar properties need no line, nor do zeros except
+/// the number of faces.
 bool applies(const Property& property, const Properties& properties) {
     if (properties.faces > 0 || property.name == "faces") return true;
     const auto value = property.get(properties);
@@ -177,7 +177,7 @@ Json json_of(const FileInfo& info) {
     return json;
 }
 
-/// The picture that reports show, larger; of several files beside each other.
+/// Writes a larger version of the report's picture; several files appear side by side.
 void write_picture(const std::vector<Picture>& pictures, const std::string& path) {
     constexpr std::size_t max_in_a_row = 4;
     const Picture sheet = sheet_of(pictures, std::min(pictures.size(), max_in_a_row));
@@ -188,7 +188,7 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
     PictureSettings settings;
     settings.width = 800;
     settings.height = 600;
-    settings.point = 3; // as the stage does
+    settings.point = 3; // the default of the stage
     std::vector<Diagnostic> warnings;
     io::MaterialResolver reader;
     settings.materials = reader.materials(scene, warnings);

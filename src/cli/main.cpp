@@ -1,4 +1,4 @@
-// The only place that catches exceptions, and the exit codes.
+// Catches all exceptions that reach the top, and maps them to exit codes.
 
 #include "base/error.hpp"
 #include "base/out_of_memory.hpp"

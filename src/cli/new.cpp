@@ -1,4 +1,4 @@
-// facetmill new: a pipeline to begin with.
+// facetmill new: writes a starter pipeline.
 
 #include "base/text/spelling.hpp"
 #include "cli/command.hpp"

@@ -36,8 +36,8 @@ Examples
   facetmill pipe --save part.yaml load part.stl ! write part.glb       (then: facetmill run part.yaml)
 )";
 
-/// Writes the pipeline as a file that run reproduces: what it reads is made relative to the file, what it
-/// writes stays relative to the working directory, as run takes it.
+/// Writes the pipeline as a file that run reproduces. Inputs become relative to the file. Outputs stay
+/// relative to the working directory, as run expects.
 void save(Value document, const std::vector<std::string>& reports, const std::string& target) {
     const auto here = std::filesystem::current_path();
     if (target != "-")
@@ -49,13 +49,13 @@ void save(Value document, const std::vector<std::string>& reports, const std::st
         all.items.push_back(Value::scalar(report));
     }
     const std::string text = pipeline::emit_yaml(document);
-    Problems unreadable; // a path need not be UTF-8, a pipeline must be
+    Problems unreadable; // a path need not be UTF-8, but a pipeline must be
     pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{target, text}), unreadable);
     unreadable.throw_if_any(ErrorKind::usage);
     io::write_now(target, std::as_bytes(std::span(text)));
 }
 
-/// A stage's own help: facetmill pipe clip --help.
+/// Whether a stage's own help is requested: facetmill pipe clip --help.
 bool help_wanted(const Invocation& invocation) {
     const auto& all = invocation.line.arguments();
     for (std::size_t i = invocation.rest + 1; i < all.size(); ++i)
@@ -76,7 +76,7 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Argum
     settings.name = "pipe";
     if (!save_to.empty()) settings.others.push_back({save_to, invocation.line.find("--save"), true});
     const Value document = parse_pipe(invocation.line, invocation.rest, problems, &own);
-    if (problems.any_errors()) { // a report is due; what is wrong with no pipeline at all is not
+    if (problems.any_errors()) { // a report needs a pipeline; syntax errors have none
         Problems others;
         refused({pipeline::make_plan({}, settings, others)}, problems, console);
         return static_cast<int>(ErrorKind::usage);

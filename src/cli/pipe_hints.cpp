@@ -24,7 +24,8 @@ bool lists(const Json& schema, const std::string& word) {
     return schema.contains("anyOf") && lists(schema["anyOf"], word);
 }
 
-/// Whether some stage has an option of that name with that word among its values: so the pair is no prose.
+/// Whether a stage has an option of that name with that word among its values, so that the pair is not
+/// prose.
 bool is_option_with(const std::string& name, const std::string& word) {
     return std::any_of(stages().begin(), stages().end(), [&](const StageInfo& stage) {
         const Option* option = stage.options->find(name);
@@ -32,7 +33,7 @@ bool is_option_with(const std::string& name, const std::string& word) {
     });
 }
 
-/// Rewrites one hint from left to right.
+/// Rewrites a hint from left to right.
 class Rewriter {
   public:
     explicit Rewriter(std::string_view hint) : hint_(hint) {}
@@ -52,7 +53,7 @@ class Rewriter {
         std::string name, value; ///< dotted
     };
 
-    /// "${" or "$${" at the place, which a shell would take for its own.
+    /// Rewrites "${" or "$${" at the current position, because a shell would expand it.
     bool rewrite_expression() {
         std::size_t brace = at_;
         while (brace < hint_.size() && hint_[brace] == '$') ++brace;
@@ -63,7 +64,7 @@ class Rewriter {
         return true;
     }
 
-    /// "word: value" at the place; false when it is none that pipe writes in another way.
+    /// Rewrites "word: value" at the current position; false if pipe has no other notation for it.
     bool rewrite_pair() {
         std::size_t end = at_;
         while (end < hint_.size() && is_word_character(hint_[end])) ++end;
@@ -92,7 +93,7 @@ class Rewriter {
         return true;
     }
 
-    /// A map in braces at p, which then is behind it; names are dotted below the prefix.
+    /// Reads a map in braces at p and moves p past it; names are dotted below the prefix.
     bool take_map(std::size_t& p, const std::string& prefix, std::vector<Argument>& arguments) const {
         ++p; // {
         while (p < hint_.size()) {
@@ -119,7 +120,7 @@ class Rewriter {
         return false;
     }
 
-    /// Of a value in a map: a list goes as far as its bracket.
+    /// The end of a value in a map: a list extends to its bracket.
     std::size_t value_end(std::size_t p) const {
         if (hint_[p] != '[') return hint_.find_first_of(",}", p);
         const std::size_t bracket = hint_.find(']', p);

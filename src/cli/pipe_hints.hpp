@@ -1,14 +1,14 @@
 #pragma once
-// Hints as facetmill pipe takes them: stages and options are named in YAML, as pipelines have them.
+// Rewrites hints for facetmill pipe, because hints name stages and options in YAML.
 
 #include <string>
 #include <string_view>
 
 namespace facetmill::cli {
 
-/// "load: {path: a.stl, unit: mm}" as "load a.stl --unit mm", "when: {faces: {min: 1}}" as "--when.faces.min
-/// 1", "(faces: 10)" as "(--faces 10)", "keep: back" as "--keep back" where an option has this word as a
-/// value, and ${x} as @{x}; all else of the hint as it is.
+/// Rewrites "load: {path: a.stl, unit: mm}" as "load a.stl --unit mm", "when: {faces: {min: 1}}" as
+/// "--when.faces.min 1", and "(faces: 10)" as "(--faces 10)". "keep: back" becomes "--keep back" if an
+/// option has this value, and ${x} becomes @{x}. The rest of the hint stays unchanged.
 std::string in_pipe_syntax(std::string_view hint);
 
 } // namespace facetmill::cli

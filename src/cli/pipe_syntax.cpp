@@ -14,7 +14,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// The options of a stage by dotted name: "plane.normal". Null when there is none.
+/// The option of a stage by dotted name: "plane.normal". Null if it does not exist.
 const Option* find_dotted(const Declaration& declaration, std::string_view name) {
     const auto dot = name.find('.');
     const Option* option = declaration.find(name.substr(0, dot));
@@ -22,7 +22,7 @@ const Option* find_dotted(const Declaration& declaration, std::string_view name)
     return option->fields ? find_dotted(*option->fields, name.substr(dot + 1)) : nullptr;
 }
 
-/// An option that takes several texts.
+/// An option for several texts.
 Option list_of_texts() {
     Option list;
     list.kind = OptionKind::list;
@@ -35,13 +35,13 @@ bool is_bracket(const std::string& a) { return a == "[" || a == "]"; }
 bool is_option(const std::string& a) { return a.size() > 2 && a.starts_with("--"); }
 bool is_step(const std::string& a) { return stage_named(a) || is_control_item(a); }
 
-/// What other languages take for true and false, so that it stands alone behind a switch.
+/// Other languages' words for true and false, which may follow a flag.
 bool is_foreign_truth(const std::string& a) {
     return a == "yes" || a == "no" || a == "on" || a == "off" || a == "y" || a == "n";
 }
 bool is_common(std::string_view key) { return is_common_key(key) || key == "join"; }
 
-/// Reads the arguments from left to right; every function leaves at_ behind what it read.
+/// Reads the arguments from left to right; every function leaves at_ after the part that it read.
 class Parser {
   public:
     Parser(const CommandLine& line, std::size_t first, Problems& problems, const Arguments* own)
@@ -56,7 +56,7 @@ class Parser {
     }
 
   private:
-    /// "--timings load a.stl": the option of pipe took the name of the first stage as its value.
+    /// Detects "--timings load a.stl": the option of pipe took the name of the first stage as its value.
     void refuse_swallowed_stage() {
         if (!own_ || at_ < 3 || at_ >= all_.size() || is_step(all_[at_]) || !is_step(all_[at_ - 1])) return;
         const std::string& option = all_[at_ - 2];
@@ -68,7 +68,7 @@ class Parser {
             fmt::format("{} VALUE {} {}", option, stage, all_[at_]));
     }
 
-    /// Stages up to the end or a closing bracket.
+    /// Reads stages up to the end or a closing bracket.
     Value steps() {
         Value list = Value::list({}, mark());
         while (true) {
@@ -78,7 +78,7 @@ class Parser {
             } else
                 list.items.push_back(step());
             if (done() || all_[at_] == "]") return list;
-            if (is_separator(all_[at_])) ++at_; // else it is missing, and that was said
+            if (is_separator(all_[at_])) ++at_; // otherwise the missing separator is already reported
         }
     }
 
@@ -132,7 +132,7 @@ class Parser {
         return item;
     }
 
-    /// "-- -2mm" as in a shell: the word behind two dashes is a value, whatever it begins with.
+    /// "-- -2mm" as in a shell: the word after two dashes is a value, whatever it begins with.
     void bare_behind_dashes(std::vector<Value>& bare, const Option* primary) {
         ++at_;
         if (at_end_of_step()) return wrong("a value is missing behind '--'");
@@ -140,8 +140,8 @@ class Parser {
         ++at_;
     }
 
-    /// Whether the bare word is a stage that a ! should stand before. The first value of an option that holds
-    /// words or files may be called so, and so may a file that is there.
+    /// Whether the bare word is a stage without a ! before it. It may instead be the first value of an
+    /// option for words or files, or an existing file.
     bool is_forgotten_separator(const Option* primary, bool first) const {
         const std::string& word = all_[at_];
         if (!is_step(word)) return false;
@@ -156,7 +156,7 @@ class Parser {
         return !(first && takes_words) && !std::filesystem::exists(word, ignored);
     }
 
-    /// An option of pipe itself that stands behind a stage, with its value: says where it belongs.
+    /// Skips an option of pipe itself after a stage, with its value, and reports where it belongs.
     bool skip_own_option(const StageInfo* stage) {
         const std::string& word = all_[at_];
         if (!own_ || !stage || word.size() < 2 || !word.starts_with("-")) return false;
@@ -173,7 +173,7 @@ class Parser {
         return true;
     }
 
-    /// "-u mm" as other programs have it: options of stages have long names only.
+    /// Refuses "-u mm", because stage options have only long names.
     bool skip_short_option(const StageInfo& stage) {
         const std::string& word = all_[at_];
         if (word.size() != 2 || !std::isalpha(static_cast<unsigned char>(word[1]))) return false;
@@ -190,8 +190,8 @@ class Parser {
         return true;
     }
 
-    /// "ratio=10%", "ratio:10%" and "-ratio" as other programs have them, unless a file is called so, or may
-    /// be: "draco=1.glb".
+    /// Refuses "ratio=10%", "ratio:10%" and "-ratio", the notations of other programs. A word that is, or
+    /// may be, a file name is accepted: "draco=1.glb".
     bool skip_misspelt_option(const StageInfo& stage) {
         const std::string& word = all_[at_];
         if (is_option(word)) return false;
@@ -213,8 +213,8 @@ class Parser {
         return true;
     }
 
-    /// Whether the bare value of the stage is a path, and the word ends in a suffix as files do. A file that
-    /// is called as the option itself, "path=a.glb", is nothing that anybody wants.
+    /// Whether the stage's bare value is a path, and the word has a file suffix. A file with the option's
+    /// own name, "path=a.glb", is unlikely.
     static bool may_be_file(const StageInfo& stage, const std::string& name, const std::string& word) {
         const Option* primary = stage.options->primary();
         if (!primary || name == primary->name) return false;
@@ -223,13 +223,13 @@ class Parser {
         return suffix.size() > 1 && std::isalpha(static_cast<unsigned char>(suffix[1]));
     }
 
-    /// Whether an option of this name is one of the stage, or a common key.
+    /// Whether the stage has an option of this name, or it is a common key.
     static bool takes(const StageInfo& stage, const std::string& name) {
         return is_common(name.substr(0, name.find('.'))) || find_dotted(*stage.options, name) ||
                find_dotted(*stage.options, with_underscores(name));
     }
 
-    /// What a second bare value may be where one is taken.
+    /// The hint for a second bare value if only a single value is allowed.
     static std::string hint_of_second(const StageInfo& stage, const std::string& word) {
         if (is_foreign_truth(word)) return "an option is switched by true and false: --draco, --draco=false";
         if (takes(stage, word)) return fmt::format("did you mean '--{}'?", word);
@@ -238,7 +238,7 @@ class Parser {
         return "stages are separated by ! or +";
     }
 
-    /// Gives a stage its bare values: alone, or as the primary option beside the others.
+    /// Sets the bare values of a stage: alone, or as the primary option with the other options.
     void set_bare(Value& value, std::vector<Value> bare, const StageInfo* stage, const Mark& where) {
         const Option* primary = stage ? stage->options->primary() : nullptr;
         Value one = bare[0];
@@ -287,7 +287,7 @@ class Parser {
         if (std::string name = with_underscores(key); !known && stage && find_dotted(*stage->options, name)) {
             key = std::move(name);
             known = find_dotted(*stage->options, key);
-        } // as other programs spell them
+        } // the notation of other programs
         const bool negated =
             !known && key.starts_with("no-") && stage && find_dotted(*stage->options, key.substr(3));
         if (negated) {
@@ -302,7 +302,7 @@ class Parser {
         if (negated)
             value = Value::scalar("false", key_mark);
         else if (equals == argument.npos && wants_value(key, known)) {
-            if (all_[at_] == "--") ++at_; // as in front of a bare value
+            if (all_[at_] == "--") ++at_; // as before a bare value
             if (at_end_of_step()) return wrong("a value is missing behind '--'");
             value = given(all_[at_], key, known, mark());
             ++at_;
@@ -325,15 +325,16 @@ class Parser {
         return pipe_value(text, &list, where, problems_);
     }
 
-    /// Whether the next argument is the option's value. A truth takes only true or false; so does a property.
+    /// Whether the next argument is the option's value. Flags and properties that are truths take only true
+    /// or false.
     bool wants_value(const std::string& key, const Option* known) const {
         if (at_end_of_step() || is_option(all_[at_]) || is_bracket(all_[at_])) return false;
         const bool truth = is_truth(key, known);
         return !truth || all_[at_] == "true" || all_[at_] == "false";
     }
 
-    /// Whether true and false are all that a value of the key may be: a flag of a stage, a group that is
-    /// switched on by true (--draco), or a property that is a truth.
+    /// Whether the key accepts only true and false. Such keys are flags of a stage, groups with a boolean
+    /// short form (--draco), and properties that are truths.
     static bool is_truth(const std::string& key, const Option* known) {
         if (known && known->fields) return known->fields->short_form == ShortForm::truth;
         if (known && known->kind != OptionKind::bound) return known->kind == OptionKind::boolean;
@@ -341,7 +342,7 @@ class Parser {
         return key == "join" || (property && property->truth());
     }
 
-    /// A key without a value: true, where that may be meant.
+    /// A key without a value: true, if the option allows it.
     Value flag(const std::string& key, const Option* known, const Mark& where) {
         if (known && known->kind != OptionKind::group && known->kind != OptionKind::assertions &&
             !is_truth(key, known) && !known->may_be_true)
@@ -349,8 +350,8 @@ class Parser {
         return Value::scalar("true", where);
     }
 
-    /// A group takes a bare value and options beside it, in either order: --holes planar --holes.edges 9.
-    /// Gives the bare value that is there its name, or returns the key by its.
+    /// A group accepts a bare value and options, in either order: --holes planar --holes.edges 9. This gives
+    /// an existing bare value its name, or returns the full key of a new bare value.
     static std::string nested_key(Value& map, const std::string& key, const Declaration& declaration) {
         const auto dot = key.find('.');
         const std::string head = key.substr(0, dot);
@@ -366,7 +367,7 @@ class Parser {
         return key;
     }
 
-    /// A value, as the option for several would have read it.
+    /// Converts a value to the form of the option for several values.
     Value as_list(Value value, const Option& several) {
         if (value.is_scalar())
             value = pipe_value(value.text, &several, value.mark, problems_);
@@ -377,8 +378,9 @@ class Parser {
         return Value::list({std::move(value)}, mark);
     }
 
-    /// An option for one value beside one for several (plane, planes): when it is given again, or beside the
-    /// other, all go to the other. Changes key and value then, and returns the option that they are of.
+    /// An option may have a form for a single value and a form for several (plane, planes). If the first
+    /// repeats, or both occur, all values go to the second. This changes key and value, and returns the
+    /// option that they now belong to.
     const Option* gathered(Value& map, std::string& key, Value& value, const Option* known,
                            const Declaration& declaration) {
         const Option* several = known && known->name == key ? declaration.find(key + "s") : nullptr;
@@ -396,7 +398,7 @@ class Parser {
         return several;
     }
 
-    /// Puts a value at a dotted key; a repeatable option gathers its values.
+    /// Sets a value at a dotted key; a repeatable option collects its values.
     void add(Value& map, const std::string& key, Value value, const Mark& key_mark, const Option* known) {
         const auto dot = key.find('.');
         const std::string head = key.substr(0, dot);
@@ -485,7 +487,7 @@ class Parser {
     /// include finish.yaml --with.ratio=10%
     Value include_step(const Mark& where) {
         Value item = Value::map({{"include", where, Value{}}}, where);
-        Value options = Value::map({{"include", where, Value{}}}, where); // as a stage would have them
+        Value options = Value::map({{"include", where, Value{}}}, where); // in the form of a stage
         for (++at_; !at_end_of_step();) {
             const std::string& word = all_[at_];
             if (word.starts_with("--with.")) {
@@ -517,7 +519,7 @@ class Parser {
             wrong(fmt::format("brackets are nested more than {} levels deep", deepest),
                   "put the inner stages into a file, and include it");
             too_deep_ = true;
-            at_ = all_.size(); // the rest is not read
+            at_ = all_.size(); // skip the rest
             return Value::list({}, mark());
         }
         const Mark opening = mark();
@@ -542,7 +544,7 @@ class Parser {
         }
     }
 
-    /// A common key of a branch or foreach; at_ ends on its last argument.
+    /// Reads a common key of a branch or foreach; at_ ends on its last argument.
     void option_of_block(Value& item) {
         const std::string argument = all_[at_].substr(2);
         const std::string key = argument.substr(0, argument.find_first_of(".="));
@@ -570,14 +572,14 @@ class Parser {
         problems_.add(mark(), "E-PIPE", std::move(message), std::move(hint));
     }
 
-    /// Of brackets, and of dots in a key: a branch takes three of the 64 levels that a pipeline file may
-    /// have.
+    /// The limit for brackets, and for dots in a key. A branch takes three of the 64 levels that a pipeline
+    /// file may have.
     static constexpr int deepest = 20;
 
     const CommandLine& line_;
     const std::vector<std::string>& all_;
     std::size_t at_;
-    int depth_ = 0; ///< brackets that are open
+    int depth_ = 0; ///< open brackets
     bool too_deep_ = false;
     Problems& problems_;
     const Arguments* own_;

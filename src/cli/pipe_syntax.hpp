@@ -1,16 +1,15 @@
 #pragma once
-// The one-liner as a document: "load a.stl ! relax 3 ! write a.glb" becomes the tree that the same pipeline
-// in YAML becomes, with marks that point into the command line. What stages and options there are, the plan
-// judges.
+// Parses the one-liner into a document: "load a.stl ! relax 3 ! write a.glb" becomes the same tree as the
+// pipeline in YAML. Its marks point into the command line. The plan validates stages and options.
 
 #include "cli/command.hpp"
 #include "options/declaration.hpp"
 
 namespace facetmill::cli {
 
-/// The stages from argument first on, as a document of format 1. Problems of the one-liner's own syntax
-/// (E-PIPE) are added, also of a missing ! between stages, and of options of pipe itself (own; null: none are
-/// known) that stand behind a stage.
+/// Parses the stages from argument `first` on into a document of format 1. Adds problems of the one-liner's
+/// syntax (E-PIPE), for example a missing ! between stages. Options of pipe itself (own; null: unknown)
+/// after a stage are also problems.
 Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems,
                  const Arguments* own = nullptr);
 

@@ -50,8 +50,8 @@ bool comma_list(const Option& option) {
     return option.repeatable && option.one != OptionKind::path && option.one != OptionKind::vector;
 }
 
-/// Whether the text is to be read as YAML: a map where one may stand, or lists in a list. A path may begin
-/// and end with such signs, too.
+/// Whether the text is YAML: a map if the option allows it, or nested lists. A path may begin and end with
+/// the same characters.
 bool is_flow(const std::string& text, const Option* option) {
     if (text.starts_with('{') && text.ends_with('}')) {
         return !option || option->fields || may_be_map(option->one);
@@ -61,7 +61,7 @@ bool is_flow(const std::string& text, const Option* option) {
            option->one != OptionKind::path;
 }
 
-/// All of a value is at that place; percentages are spelled out.
+/// Sets the mark of the whole value, and expands percentages.
 void settle_flow(Value& value, const Mark& mark) {
     value.mark = mark;
     if (value.is_scalar() && !value.quoted) value.text = percent(value.text);

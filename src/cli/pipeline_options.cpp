@@ -108,7 +108,7 @@ void add_cell_options(Arguments& arguments, PipelineOptions& options) {
 
 namespace {
 
-/// "cells", or "3/16": the third of 16. Throws usage (E-ARGUMENT).
+/// "cells", or "3/16": the third of 16 jobs. Throws usage (E-ARGUMENT).
 cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
     cells::CellJob job;
     if (text == "cells") return job;
@@ -203,7 +203,7 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
     return pairs;
 }
 
-/// A misspelled id would switch a gate off without a word.
+/// A misspelled id would silently disable a gate.
 void check_ids(const std::vector<std::string>& given, const std::string& option, const CommandLine& line,
                Problems& problems) {
     const auto ids = warning_ids();
@@ -272,7 +272,7 @@ std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pi
 
 namespace {
 
-/// The line that runs it with the same values; empty where some are of a preset.
+/// The command line that runs it with the same values; empty if a preset sets any.
 std::string command_for(const std::string& pipeline, const pipeline::PlanSettings& settings) {
     if (!settings.defined_at.empty()) return {};
     std::string line = "facetmill run " + for_shell(pipeline);
@@ -296,14 +296,14 @@ pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings setti
 
 namespace {
 
-/// The record with its outputs and reports as they are found from the working directory.
+/// The record with the paths of outputs and reports relative to the working directory.
 report::RunRecord located(report::RunRecord record, const Folders& places) {
     for (auto& file : record.outputs) file.path = places.output(file.path).string();
     for (auto& report : record.reports) report = places.output(report).string();
     return record;
 }
 
-/// What was done, for people or as an object. Warnings and errors have been told where they arose.
+/// Prints the result, as text or as an object. Warnings and errors were already printed.
 void summarise(const report::RunRecord& record, const Console& console) {
     Json outputs = Json::array();
     for (const auto& file : record.outputs) outputs.push_back(file.path);
@@ -343,7 +343,7 @@ void tell_stage(const report::StageRecord& stage, const std::string& asset, cons
 
 namespace {
 
-/// The outputs that are no inputs.
+/// The outputs except files that are also inputs.
 std::vector<fs::path> newly_written(const report::RunRecord& record) {
     std::set<fs::path> inputs;
     for (const auto& input : record.inputs) inputs.insert(io::identity(input.path));
@@ -353,7 +353,7 @@ std::vector<fs::path> newly_written(const report::RunRecord& record) {
     return written;
 }
 
-/// Where stages took no time, this says why.
+/// Reports results from the cache, which explain stages that took no time.
 void tell_recalled(const pipeline::Trace& trace, const Console& console) {
     const auto recalled = std::count_if(trace.begin(), trace.end(), [](const pipeline::TracedStep& step) {
         return step.way == pipeline::TracedStep::Way::recalled;
@@ -425,7 +425,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     few.finish();
     summarise(record, console);
     if (!options.explain) tell_recalled(trace, console);
-    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else said already
+    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else already said
     if (!options.timings.empty() && writable) {
         const std::string text = options.timings.ends_with(".html")
                                      ? report::to_html_with_times(record, view)
@@ -435,7 +435,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
                       options.restat ? std::optional(started) : std::nullopt);
-    for (auto& stage : record.stages) destroy(stage.result); // of many parts, it is large
+    for (auto& stage : record.stages) destroy(stage.result); // it is large for scenes of many parts
     return record.exit_code;
 }
 
@@ -477,7 +477,7 @@ void plan_each(const std::vector<std::string>& pipelines, const PipelineOptions&
         try {
             const auto plan = plan_of(pipeline, settings, of_this);
             if (!of_this.any_errors()) look(pipeline, plan);
-        } catch (const Error& error) { // the others are looked at all the same
+        } catch (const Error& error) { // the others are still checked
             of_inputs.push_back(error);
         }
         if (of_this.size() > 0) problems.add(Error(ErrorKind::usage, of_this.all()));

@@ -1,5 +1,5 @@
 #pragma once
-// The options that run, plan, pipe and check share, and how a PIPELINE argument becomes a plan.
+// The options shared by run, plan, pipe and check, and the planning of a PIPELINE argument.
 
 #include "cli/cache_options.hpp"
 #include "cli/confine.hpp"
@@ -11,7 +11,7 @@ namespace facetmill::cli {
 
 struct PipelineOptions {
     std::vector<std::string> defines, sets; ///< "name=value", as given
-    std::vector<std::string> presets;       ///< files of params, a later one before an earlier one
+    std::vector<std::string> presets;       ///< files of params; a later file overrides an earlier one
     std::vector<std::string> reports, strict, allowed;
     std::vector<std::string> asset_roots;
     std::string output_dir, depfile, depfile_target, timings;
@@ -27,72 +27,71 @@ struct PipelineOptions {
 
 /// -D, --preset, --set and --asset-root.
 void add_param_options(Arguments& arguments, PipelineOptions& options);
-/// ... and --update-baseline.
+/// The same and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
 /// --partition.
 void add_partition_option(Arguments& arguments, PipelineOptions& options);
-/// ... with --memory, --scratch and --keep-cells: meshes larger than memory.
+/// --partition with --memory, --scratch and --keep-cells: meshes larger than memory.
 void add_cell_options(Arguments& arguments, PipelineOptions& options);
-/// What they ask for. Throws usage (E-ARGUMENT).
+/// The settings by these options. Throws usage (E-ARGUMENT).
 pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);
-/// Bytes: "8GB", "8G", "50%" of what is there; 0 of an empty text. Throws usage (E-ARGUMENT).
+/// Bytes: "8GB", "8G", "50%" of the available memory; 0 for an empty text. Throws usage (E-ARGUMENT).
 std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
 /// --no-sync.
 void add_sync_option(Arguments& arguments, PipelineOptions& options);
 /// --strict, --allow, --check-invariants.
 void add_warning_options(Arguments& arguments, PipelineOptions& options);
 /// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow, --cache, --no-cache,
-/// --explain,
-/// --restat, --no-sync.
+/// --explain, --restat, --no-sync.
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
-/// Settings for a plan: values split at "=", with problems that point into the command line.
+/// Settings for a plan: splits values at "="; problems point into the command line.
 pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
                                      Problems& problems);
 
-/// Whether that is a file, and no ready pipeline or standard input. A file that cannot be looked at is one:
-/// opening it tells why.
+/// Whether the text names a file, and not a ready pipeline or standard input. An inaccessible file counts,
+/// because opening it reports the reason.
 bool is_pipeline_file(const std::string& pipeline);
 
-/// The text of a file, of standard input ("-"), or of a ready pipeline by name, and what it is called. Throws
-/// missing when there is none.
+/// The text and name of a file, of standard input ("-"), or of a ready pipeline. Throws missing if it does
+/// not exist.
 std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);
 
-/// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Problems are added; a file
-/// that cannot be read throws missing.
+/// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Adds problems; throws
+/// missing for a file that cannot be read.
 pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems);
 
-/// Whether there are errors. Then tells all problems, writes the reports of these plans, as far as they are
-/// known, and names them; the exit code is that of usage.
+/// Whether there are errors. If so, prints all problems, and writes and names the reports of these plans as
+/// far as known; the exit code is usage.
 bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
 
-/// One event a stage that has ended, with --log json. asset: of a batch, or empty.
+/// Prints an event for each finished stage with --log json. asset: in a batch, else empty.
 void tell_stage(const report::StageRecord& stage, const std::string& asset, const Console& console);
 
-/// Says what lengths of a stage were resolved to.
+/// Prints the resolved lengths of a stage.
 void tell_resolved(const report::StageRecord& stage, const Console& console);
 
-/// The sandbox of a run of these plans, before the first one starts.
+/// Enters the sandbox for runs of these plans, before the first run starts.
 void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions& options,
                 const Console& console);
 
-/// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
-/// pipeline_file: what the plan came from, for the depfile; empty when there is none. written: gets the
-/// outputs, but for files that were read and already had their bytes.
+/// Runs a plan with messages and progress. Writes the depfile on success. Returns the exit code.
+/// pipeline_file: the plan's file, for the depfile; empty if it has none. written: receives the outputs,
+/// except input files that already had the same bytes.
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
                       const std::string& pipeline_file,
                       std::vector<std::filesystem::path>* written = nullptr);
 
-/// Plans each pipeline, whatever becomes of the others; params need no value. look: gets each plan without
-/// errors; it may throw what is wrong with an input. Then as settle, for all of them.
+/// Plans each pipeline independently; params need no value. look: receives each plan without errors, and may
+/// throw for an invalid input. Finally calls settle for all problems.
 void plan_each(const std::vector<std::string>& pipelines, const PipelineOptions& options,
                const CommandLine& line, const Console& console,
                const std::function<void(const std::string& pipeline, const pipeline::Plan&)>& look);
 
-/// Shows warnings; throws usage when there are errors.
+/// Prints warnings; throws usage if there are errors.
 void settle(const Problems& problems, const Console& console);
 
-/// Throws all of these errors as one, with the kind of the first; nothing when there are none.
+/// Throws all of these errors as a single error with the kind of the first; does nothing if empty.
 void settle(const std::vector<Error>& errors);
 
 } // namespace facetmill::cli

@@ -1,4 +1,4 @@
-// facetmill plan: everything resolved, nothing run.
+// facetmill plan: resolves everything and runs nothing.
 
 #include "cli/pipeline_options.hpp"
 #include "pipeline/rehearsal.hpp"
@@ -34,10 +34,10 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     const bool files_only = options.inputs || options.outputs;
     start_programs(plan);
     confine({.read_all = true}, options.common.sandbox, console);
-    // The names of what is read alone need no stage to run.
+    // Names of inputs need no run of the stages.
     const auto headers =
         options.inputs && !options.outputs ? pipeline::read_headers(plan) : pipeline::rehearsed_headers(plan);
-    if (!files_only) settle(pipeline::input_errors(plan, headers)); // names are known all the same
+    if (!files_only) settle(pipeline::input_errors(plan, headers)); // names are known even with errors
     if (const auto warning = pipeline::without_effect(plan); warning && !files_only)
         console.diagnostic(*warning);
     const auto cells = pipeline::plan_cells(plan, cell_settings(options.common, line));
@@ -48,7 +48,7 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     if (options.json) text = pipeline::describe_json(plan, headers).dump(2) + "\n";
     if (!files_only && !options.json) text = pipeline::describe(plan, headers);
     if (!cells.why.empty() && !files_only && !options.json) text += fmt::format("\nmemory: {}\n", cells.why);
-    files_only || options.json ? print(text) : show(text); // names of files are for programs
+    files_only || options.json ? print(text) : show(text); // file names are for programs
     return 0;
 }
 

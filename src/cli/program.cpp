@@ -73,8 +73,8 @@ std::string help_text() {
     return text + help_end;
 }
 
-/// What was meant by a word that is no command: a mesh file, a word of other tools, a ready pipeline, or a
-/// command.
+/// A hint for a word that is not a command: a mesh file, a word of other tools, a ready pipeline, or a
+/// similar command.
 std::string hint_for(const std::vector<std::string>& words, const std::vector<std::string>& names) {
     const std::string& name = words[0];
     if (name == "convert" || name.find_first_of("./\\") != name.npos)
@@ -87,14 +87,14 @@ std::string hint_for(const std::vector<std::string>& words, const std::vector<st
     return suggestion(name, names);
 }
 
-/// An option, then perhaps the command that it is of.
+/// A hint for an option before its command.
 std::string option_first(const std::vector<std::string>& words, const std::vector<std::string>& names) {
     const auto command = std::find_first_of(words.begin() + 1, words.end(), names.begin(), names.end());
     return fmt::format("options come after the command: facetmill {} {} ...",
                        command == words.end() ? "run" : *command, words[0]);
 }
 
-/// The stage whose help is wanted as if it were a command, or null.
+/// The stage whose help is requested as if it were a command, or null.
 const StageInfo* help_of_stage(const std::vector<std::string>& words) {
     const auto is_command = [&](const Command& c) { return c.name == words[0]; };
     const bool wanted = std::any_of(words.begin() + 1, words.end(),
@@ -121,15 +121,15 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
 }
 
 std::string option_hint(const Command& command, const Arguments& arguments, const std::string& given) {
-    // Without the dashes, which would make any two options seem alike.
+    // Without dashes, because these would make any two options similar.
     const std::string near =
         nearest(given.substr(std::min(given.size(), given.find_first_not_of('-'))), arguments.long_names());
     return near.empty() ? fmt::format("see facetmill {} --help", command.name)
                         : fmt::format("did you mean '--{}'?", near);
 }
 
-/// For a value too many. To a command that takes a pipeline, stages may have been given as pipe takes them
-/// (batch a.obj ! simplify 50%), or meshes as they stand (batch p.yaml *.obj).
+/// A hint for an extra value. For commands that take a pipeline, it may be stages in pipe's notation (batch
+/// a.obj ! simplify 50%), or plain mesh files (batch p.yaml *.obj).
 std::string hint_for(const Command& command, const Arguments& arguments, const std::string& extra,
                      const CommandLine& line) {
     const auto& words = line.arguments();
@@ -151,8 +151,8 @@ std::string hint_for(const Command& command, const Arguments& arguments, const s
     return fmt::format("see facetmill {} --help", command.name);
 }
 
-/// What belongs to no argument. What begins with a dash is an unknown option; anything else is one value too
-/// many.
+/// Refuses words that belong to no argument: an unknown option begins with a dash, and other words are extra
+/// values.
 void refuse_extras(const Command& command, const Arguments& arguments, const std::vector<std::string>& extras,
                    const CommandLine& line) {
     Problems problems;
@@ -167,13 +167,13 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
         problems.add(line.find(extra), "E-ARGUMENT",
                      fmt::format("'{}' does not take '{}'", command.name, extra),
                      hint_for(command, arguments, extra, line));
-        break; // what follows is of its kind
+        break; // the remaining words are of the same kind
     }
     problems.throw_if_any(ErrorKind::usage);
 }
 
-/// --strict alone means all warnings; else the next argument would be taken for its value. --quiet with a
-/// value is --allow.
+/// --strict alone means all warnings; otherwise the parser would take the next argument for its value.
+/// --quiet with a value is --allow.
 std::vector<std::string> expanded(std::vector<std::string> words, bool takes_the_rest,
                                   const CommandLine& line) {
     const auto refuse_separate_id = [&](std::size_t i) {
@@ -192,7 +192,7 @@ std::vector<std::string> expanded(std::vector<std::string> words, bool takes_the
     return words;
 }
 
-/// How many of the words are options that come before the first stage of a pipe.
+/// The number of words that are options before the first stage of a pipe.
 std::size_t leading_options(const Arguments& arguments, const std::vector<std::string>& words) {
     std::size_t i = 0;
     while (i < words.size() && words[i].size() > 1 && words[i].starts_with("-")) {

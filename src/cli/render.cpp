@@ -1,4 +1,4 @@
-// facetmill render: a picture of a mesh file, by the stage of that name.
+// facetmill render: renders a picture of a mesh file with the stage of that name.
 
 #include "cli/pipe_syntax.hpp"
 #include "cli/pipeline_options.hpp"
@@ -35,7 +35,7 @@ std::string name_of(const std::string& word) {
     return word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
 }
 
-/// Takes the command's own options out of the words that follow the mesh: what is left is the stage's.
+/// Moves the command's own options out of the words after the mesh; the remaining words belong to the stage.
 std::vector<std::string> take_own(const Arguments& arguments, std::vector<std::string>& words) {
     std::vector<std::string> own, rest;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -63,7 +63,7 @@ void parse_own(const Arguments& arguments, std::vector<std::string> words) {
     }
 }
 
-/// Nothing is between load and render that the scene could deviate by.
+/// Refuses a comparison with the loaded scene, because no stage between load and render changes it.
 void require_other_mesh(const pipeline::Plan& plan) {
     const auto& step = plan.steps.back();
     if (step.stage->compares_with_load())
@@ -87,7 +87,7 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
                         ? "render needs a mesh file before its options"
                         : "render needs -o FILE.png",
                     "for example facetmill render part.stl -o part.png", invocation.line.mark(0));
-    // The one-liner that it stands for, which messages then show.
+    // The equivalent one-liner, which messages show.
     std::vector<std::string> words_of_pipe{"pipe",   "load",   words.front(), "!",
                                            "render", "--path", options.output};
     auto rest = words.begin() + 1;

@@ -1,4 +1,4 @@
-// facetmill run: the pipelines in order, all planned before the first one starts.
+// facetmill run: runs pipelines in order, after planning all of them.
 
 #include "base/text/words.hpp"
 #include "cli/pipeline_options.hpp"
@@ -26,7 +26,7 @@ Examples
   facetmill run scan.yaml -D input=scan.ply --watch (again whenever scan.yaml or scan.ply changes)
 )";
 
-/// Two pipelines of one run must not write the same file: the second would replace what the first one made.
+/// Two pipelines of a run must not write the same file, because the second would replace the first's output.
 void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problems) {
     std::set<std::filesystem::path> seen;
     for (auto& plan : plans) {
@@ -40,7 +40,7 @@ void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problem
     }
 }
 
-/// Options that name one file take one pipeline.
+/// Options that name a single file need a single pipeline.
 void check_single(const std::vector<std::string>& pipelines, const PipelineOptions& options,
                   const CommandLine& line, Problems& problems) {
     const std::pair<const char*, bool> of_one[] = {{"--depfile", !options.depfile.empty()},
@@ -71,7 +71,7 @@ Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOption
     return all;
 }
 
-/// on_written: gets the files that each run has written, where others follow; else empty.
+/// on_written: receives the written files of each run if others follow; else empty.
 int run_all(const std::vector<std::string>& pipelines, const Planned& all, const PipelineOptions& options,
             const Console& console, const std::function<void(const std::filesystem::path&)>& on_written) {
     if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);
@@ -88,8 +88,8 @@ int run_all(const std::vector<std::string>& pipelines, const Planned& all, const
     return worst;
 }
 
-/// What the plans read and this run does not write: else a run would be the reason of the next. With errors
-/// only what needs no look into files.
+/// Watches the inputs of the plans, except files that this run writes, because a run would otherwise trigger
+/// the next. With errors, only inputs that need no access to files.
 void watch_inputs(const Planned& all, Watch& watch) {
     std::vector<pipeline::Headers> headers(all.plans.size());
     for (std::size_t i = 0; i < all.plans.size(); ++i) {
@@ -117,7 +117,8 @@ void refuse_streams(const std::vector<pipeline::Plan>& plans) {
             if (!file.written && file.path == "-") refuse_stream("an input", file.where);
 }
 
-/// The exit code of the body; an Error, of a file that is gone, is told: it may come back.
+/// The exit code of body. An Error, for example of a missing file, is printed, because the file may come
+/// back.
 template <class Body>
 int code_of(const Console& console, Body&& body) {
     try {
@@ -128,12 +129,12 @@ int code_of(const Console& console, Body&& body) {
     }
 }
 
-/// Runs, and again whenever something that is read changes. A signal ends it, as it ends any run.
+/// Runs, and runs again whenever an input changes. A signal ends it like any run.
 [[noreturn]] void run_and_watch(const std::vector<std::string>& pipelines, const PipelineOptions& options,
                                 const CommandLine& line, const Console& console) {
     if (std::find(pipelines.begin(), pipelines.end(), "-") != pipelines.end())
         refuse_stream("a pipeline", line.find("--watch"));
-    confine_calls_only(options.sandbox); // which files the next plan names is not known yet
+    confine_calls_only(options.sandbox); // the files of the next plan are not yet known
     Watch last;
     for (std::size_t number = 1;; ++number) {
         Watch watch;
@@ -148,7 +149,7 @@ int code_of(const Console& console, Body&& body) {
             refuse_streams(planned->plans);
             watch_inputs(*planned, watch);
         }
-        // What a plan that failed would read is what the last one read, as far as is known.
+        // The inputs of a failed plan are unknown, so the last plan's inputs are watched.
         if (!planned || planned->problems.any_errors()) watch.add_all(last);
         // Some names of outputs are known only now.
         const auto on_written = [&](const auto& file) { watch.leave_out(file); };

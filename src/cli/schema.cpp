@@ -1,4 +1,4 @@
-// facetmill schema: the published JSON Schemas.
+// facetmill schema: prints the published JSON Schemas.
 
 #include "docs/schema.hpp"
 #include "batch/batch.hpp"

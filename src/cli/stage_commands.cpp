@@ -12,7 +12,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// Tells files from what the stage takes.
+/// Separates files from the stage's own arguments.
 class StageWords {
   public:
     explicit StageWords(const StageInfo& stage) : stage_(stage) {}
@@ -37,7 +37,8 @@ class StageWords {
             else
                 taken_ += (names_result(stage_, word) ? " --path " : " ") + for_shell(word);
         }
-        // Without -o the last of several files is the one to write; a shape has no other.
+        // Without -o, the last file is the output, if the input does not need it. A stage that loads needs
+        // no input.
         const std::size_t to_load = stage_.loads ? 0 : 1;
         if (out_.empty() && !stage_.tells && !stage_.checks && meshes_.size() > to_load) {
             out_ = meshes_.back();
@@ -59,7 +60,7 @@ class StageWords {
     }
 
   private:
-    /// Under the name that it has here; null when it has none.
+    /// Adds the option under its name in the stage; null if it does not exist.
     const Option* add_option(const std::string& word) {
         const auto end = std::min(word.find('='), word.size());
         std::string name = word.substr(2, end - 2);
@@ -69,8 +70,8 @@ class StageWords {
         return stage_.options->find(name);
     }
 
-    /// Whether the next file is a value of the stage itself: one that it loads, or that it writes after one
-    /// is loaded.
+    /// Whether the next file is a value of the stage itself: a file that it loads, or that it writes after a
+    /// mesh is loaded.
     bool takes_file() const {
         const Option* primary = stage_.options->primary();
         return (stage_.loads || !meshes_.empty()) && primary && primary->one == OptionKind::path;

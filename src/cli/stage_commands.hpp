@@ -1,5 +1,5 @@
 #pragma once
-// A stage typed as if it were a command: facetmill validate --watertight part.stl.
+// Hints for a stage typed as a command: facetmill validate --watertight part.stl.
 
 #include "stage/stage.hpp"
 
@@ -9,12 +9,12 @@
 
 namespace facetmill::cli {
 
-/// Whether a bare word is a file such as outline.svg, for a stage whose bare value is something else and that
-/// writes one.
+/// Whether a bare word is an output file such as outline.svg, for a stage that writes files but whose bare
+/// value is something else.
 bool names_result(const StageInfo& stage, const std::string& word);
 
-/// What to write for words whose first means the stage and that go on as other programs have it, with files
-/// and options: "facetmill pipe load part.stl ! validate --closed; facetmill validate --help lists its
+/// The command to type instead, for words that begin with a stage and continue with files and options as in
+/// other programs: "facetmill pipe load part.stl ! validate --closed; facetmill validate --help lists its
 /// options".
 std::string as_pipe(std::string_view stage, const std::vector<std::string>& words);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The topics of `facetmill docs`, which are its list, its suggestions and its completions.
+// The topics of `facetmill docs`, for its list, suggestions and completions.
 
 #include <string>
 #include <string_view>
@@ -14,8 +14,7 @@ struct Topic {
     std::string_view text{}; ///< of a guide or a page, in Markdown
 };
 
-/// Guides, pages, commands and stages, in the order of the list; of two that have one name the first is
-/// meant.
+/// Guides, pages, commands and stages, in the order of the list; for equal names, the first wins.
 std::vector<Topic> topics();
 
 } // namespace facetmill::cli

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most = 10;
 
 std::string kind_of(const Diagnostic& d) {
-    constexpr std::string_view made_of = "--strict makes "; // and the id of the warning
+    constexpr std::string_view made_of = "--strict makes "; // followed by the id of the warning
     const auto at = d.id == "E-STRICT" ? d.message.find(made_of) : std::string::npos;
     const std::string of = at == std::string::npos
                                ? std::string()
@@ -34,7 +34,7 @@ void WarningLimiter::tell(const Diagnostic& diagnostic) {
 void WarningLimiter::finish() {
     for (auto& [name, kind] : kinds_) {
         if (kind.count <= most) continue;
-        if (kind.count > most + 1) { // one alone takes no more room than that it is left out
+        if (kind.count > most + 1) { // a single omitted warning takes no more room than the note about it
             kind.last.message = fmt::format("{} more like these", grouped(kind.count - most));
             kind.last.hint = "a report lists them all: --report run.json";
         }

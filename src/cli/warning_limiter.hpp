@@ -1,5 +1,5 @@
 #pragma once
-// Of a scene of 10,000 parts, a warning about each would fill the terminal.
+// Limits similar warnings, because a scene of 10,000 parts would fill the terminal.
 
 #include "cli/console.hpp"
 
@@ -8,14 +8,14 @@
 
 namespace facetmill::cli {
 
-/// Tells errors and warnings. Of those that are alike (one id, one place in the pipeline) the first ten, and
-/// how many more there are; with --log json all.
+/// Prints errors and warnings. Of similar ones (same id and same place in the pipeline) it prints the first
+/// ten and the number of others; with --log json all.
 class WarningLimiter {
   public:
     explicit WarningLimiter(const Console& console) : console_(console) {}
 
     void tell(const Diagnostic& diagnostic);
-    /// Tells what was left out so far, and begins anew.
+    /// Prints the counts of omitted warnings, and starts over.
     void finish();
 
   private:
@@ -25,7 +25,7 @@ class WarningLimiter {
     };
     const Console& console_;
     std::map<std::string, Kind>
-        kinds_; ///< by severity, id and place; what --strict makes of warnings by theirs
+        kinds_; ///< by severity, id and place; errors from --strict by the place of their warnings
 };
 
 } // namespace facetmill::cli

@@ -15,7 +15,7 @@ Watch::Stamp Watch::stamp_of(const fs::path& file) {
     std::error_code error;
     const auto time = fs::last_write_time(file, error);
     if (error) return {};
-    const auto size = fs::file_size(file, error); // a folder has none
+    const auto size = fs::file_size(file, error); // folders have no size
     return std::pair(time, error ? 0 : size);
 }
 
@@ -57,7 +57,7 @@ fs::path Watch::wait() const {
         found = now();
     }
     const auto differs =
-        std::find_if(found.begin(), found.end(), [this](const auto& one) { // it has all of files_
+        std::find_if(found.begin(), found.end(), [this](const auto& one) { // it contains all of files_
             const auto known = files_.find(one.first);
             return known == files_.end() || known->second != one.second;
         });

@@ -1,5 +1,5 @@
 #pragma once
-// Files that are looked at until one of them changes: for run --watch.
+// Watches files until any of them changes, for run --watch.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,21 +11,21 @@
 
 namespace facetmill::cli {
 
-/// By time and size, a few times a second: that works on every file system, and whatever writes the file.
+/// Polls time and size a few times a second, which works on every file system and for every writer.
 class Watch {
   public:
-    /// A file that is written: it is looked at neither as a file, were it added before or after, nor as a
-    /// match of a pattern.
+    /// Ignores an output, as a file and as a match of a pattern, whether it is added before or after.
     void leave_out(const std::filesystem::path& file);
-    /// As it is now; a file that is known already stays as it was. It need not be there.
+    /// Adds a file in its current state; a file that is already known keeps its recorded state. It need not
+    /// exist.
     void add(const std::filesystem::path& file);
-    /// A match that was not added is a change.
+    /// A new match counts as a change.
     void add_pattern(const std::filesystem::path& pattern) { patterns_.push_back(pattern); }
-    /// What another looks at, as it is now.
+    /// Adds the files of another Watch in their current state.
     void add_all(const Watch& other);
     std::size_t size() const { return files_.size(); }
-    /// Waits until a file has changed, come or gone since it was added, and then until all stay as they are
-    /// for a moment, so that what is being written is whole. Returns the first that has.
+    /// Waits until a file changes, appears or disappears, and then until all files are stable for a moment,
+    /// so that writers finish. Returns the first changed file.
     std::filesystem::path wait() const;
 
   private:

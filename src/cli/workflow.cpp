@@ -22,7 +22,7 @@ std::string heading() {
                        docs::release());
 }
 
-/// " run scan.yaml -D ...", of each run.
+/// " run scan.yaml -D ...", for each run.
 std::vector<std::string> command_lines(const Job& job) {
     std::vector<std::string> all;
     for (const auto& arguments : job.runs) {
@@ -32,14 +32,14 @@ std::vector<std::string> command_lines(const Job& job) {
     return all;
 }
 
-/// How an engine spells a text that the shell is to get.
+/// How an engine quotes a text for the shell.
 using Spelling = std::string (*)(const std::string&);
 
-/// The job for an engine: its runs by the program, as one command of a shell.
+/// The job's runs as a single shell command for an engine.
 using CommandOf = std::string (*)(const Job&, const std::string& program, Spelling);
 
-/// Runs that all take place, whichever fails; the status is that of the last that failed, in s, which
-/// `at_end` leaves with.
+/// Chains the runs so that all of them run, whichever fails. The shell variable s holds the status of the
+/// last failure, and `at_end` exits with it.
 std::string chain(const Job& job, const std::string& program, Spelling spell, const std::string& at_end) {
     std::string text = "s=0;";
     for (const auto& run : command_lines(job))
@@ -52,7 +52,7 @@ std::string plain_command(const Job& job, const std::string& program, Spelling s
                                 : chain(job, program, spell, "exit $s");
 }
 
-/// What a run that failed has written (its report) stays, and is out of date.
+/// The outputs of a failed run (its report) stay, but must count as out of date.
 std::string make_command(const Job& job, const std::string& program, Spelling spell) {
     std::string outputs;
     for (const auto& output : job.outputs) outputs += " " + for_shell(output);
@@ -64,7 +64,7 @@ std::string snakemake_command(const Job& job, const std::string& program, Spelli
     return chain(job, program, spell, "exit $s");
 }
 
-/// A line of Make or Ninja, whose variables begin with a dollar sign.
+/// A line for Make or Ninja, where a dollar sign begins a variable.
 std::string with_dollars_doubled(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -96,8 +96,8 @@ void check_outputs(const std::vector<Job>& jobs) {
                         "give the pipeline a report: \"${input.stem}.json\", or use facetmill batch");
 }
 
-/// Linux takes 131072 bytes in one argument, as which a shell gets its command. Some are left for what an
-/// engine adds, and in each run for the path of the program.
+/// Linux limits an argument to 131072 bytes, and the shell gets its command as a single argument. Reserves
+/// space for the engine's additions, and in each run for the program's path.
 void check_lengths(const std::vector<Job>& jobs, CommandOf command) {
     constexpr std::size_t most = 131'072 - 512, of_program = 40;
     const auto as_it_is = [](const std::string& text) { return text; };
@@ -119,7 +119,8 @@ void check_jobs(const std::vector<Job>& jobs, CommandOf command) {
     check_lengths(jobs, command);
 }
 
-/// Names with these cannot be spelled: all inputs that have one, or else all outputs.
+/// Refuses names with characters that the engine cannot represent: reports all such inputs, or else all such
+/// outputs.
 void check_names(const std::vector<Job>& jobs, const char* engine, std::string_view odd, const char* hint) {
     for (const auto paths : {&Job::inputs, &Job::outputs}) {
         Problems problems;
@@ -152,7 +153,7 @@ std::uint64_t megabytes_of(const Job& job) {
 std::string make_target(const std::string& path) { return make_escaped(path, true); }
 std::string make_input(const std::string& path) { return make_escaped(path, false); }
 
-/// JSON has names in UTF-8 only.
+/// Names in JSON must be UTF-8.
 std::string as_json(const Json& all) {
     try {
         return all.dump(1);
@@ -193,14 +194,14 @@ Lanes lanes_of(const std::vector<Job>& jobs, const Resources& resources) {
     std::uint64_t largest = 1, largest_small = 0;
     for (const Job& job : jobs) largest = std::max(largest, job.memory);
     if (largest <= resources.memory / slots) return {slots, 0, largest};
-    // Half of the memory for each kind.
+    // Half of the memory for each kind of job.
     Lanes lanes{slots, 1, resources.memory / 2 / slots};
     for (const Job& job : jobs)
         if (job.memory <= lanes.small_up_to) largest_small = std::max(largest_small, job.memory);
     lanes.large =
         std::clamp<std::size_t>(resources.memory / 2 / largest, 1, std::max<std::size_t>(2, slots) - 1);
     lanes.small = std::max<std::size_t>(1, slots - lanes.large);
-    if (largest_small == 0) // there are none
+    if (largest_small == 0) // no small jobs
         lanes.large = std::clamp<std::size_t>(resources.memory / largest, 1, slots);
     return lanes;
 }
@@ -213,7 +214,7 @@ std::string in_words(const Resources& r) {
                        counted(static_cast<std::size_t>(r.threads), "thread"), sized(r.memory));
 }
 
-/// Pools for Ninja, whose -j counts jobs and knows neither threads nor memory.
+/// Pools for Ninja, whose -j counts jobs without their threads and memory.
 std::string ninja_pools(const Lanes& lanes, const Resources& resources) {
     std::string text = fmt::format("# Jobs at a time, for {}.\npool small\n  depth = {}\n",
                                    in_words(resources), lanes.small);
@@ -248,7 +249,7 @@ std::string make_workflow(const std::vector<Job>& jobs, const Resources& resourc
     for (const auto& job : jobs) {
         const std::string outputs = joined(job.outputs, make_target);
         all += " \\\n " + joined(job.outputs, make_input);
-        // "&:" is one rule for all of them: GNU make 4.3.
+        // "&:" groups targets into a single rule: GNU make 4.3.
         rules += fmt::format("\n# {}, about {} MB\n{} &:{}\n\t{}\n",
                              counted(static_cast<std::size_t>(resources.threads), "thread"),
                              megabytes_of(job), outputs.substr(1), joined(job.inputs, make_input),
@@ -265,7 +266,7 @@ std::string make_workflow(const std::vector<Job>& jobs, const Resources& resourc
 
 std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources) {
     check_jobs(jobs, snakemake_command);
-    // It takes braces for a wildcard, and has no way to say that they are none.
+    // Snakemake takes braces for wildcards and cannot escape them here.
     check_names(jobs, "Snakemake", "{}", "rename the file");
     Json all = Json::array();
     for (std::size_t i = 0; i < jobs.size(); ++i) {

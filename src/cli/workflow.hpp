@@ -1,6 +1,6 @@
 #pragma once
-// Runs of many assets as a workflow of another engine: a job for each asset or for several, with what it
-// reads, writes and needs.
+// Runs of many assets as a workflow for another engine: a job per asset or group of assets, with its inputs,
+// outputs and resources.
 
 #include <cstdint>
 #include <string>
@@ -10,32 +10,32 @@ namespace facetmill::cli {
 
 struct Job {
     std::string name;                           ///< for people
-    std::vector<std::vector<std::string>> runs; ///< of facetmill, one after the other: their arguments
-    std::vector<std::string> inputs, outputs;   ///< files; at least one output a run
+    std::vector<std::vector<std::string>> runs; ///< the arguments of consecutive runs of facetmill
+    std::vector<std::string> inputs, outputs;   ///< files; at least one output per run
     std::uint64_t memory = 0;                   ///< an estimate, in bytes
 };
 
-/// Jobs of up to `size` of these each, in their order. One that fails lets the others of its shard run.
+/// Groups up to `size` jobs into a job, in order. A failing run does not stop the other runs of its group.
 /// Throws usage (E-EXPORT) for a job without outputs.
 std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size);
 
-/// What jobs that run at a time may take.
+/// The resources of parallel jobs.
 struct Resources {
     int threads = 1; ///< of each job
     int cores = 1;
     std::uint64_t memory = 0; ///< bytes
 };
 
-/// How many jobs may run at a time: those that need little memory, and those that need much, which is all by
-/// itself where a single one is more than there is.
+/// The number of parallel jobs that need little memory, and that need much. A job that needs more than all
+/// memory runs alone.
 struct Lanes {
     std::size_t small = 1, large = 0;
     std::uint64_t small_up_to = 0; ///< bytes; jobs that need more are large
 };
 Lanes lanes_of(const std::vector<Job>& jobs, const Resources& resources);
 
-/// Throws usage (E-EXPORT) for a job without outputs and for a shard whose command is
-/// longer than a shell takes, output (E-DEPFILE) for a name with a line break, which these cannot spell.
+/// Throws usage (E-EXPORT) for a job without outputs, and for a group whose command exceeds the shell's
+/// limit. Throws output (E-DEPFILE) for a name with a line break, which these engines cannot represent.
 std::string ninja_workflow(const std::vector<Job>& jobs, const Resources& resources);
 std::string make_workflow(const std::vector<Job>& jobs, const Resources& resources);
 std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources);

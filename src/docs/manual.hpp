@@ -1,5 +1,5 @@
 #pragma once
-// The manual's pages: the files of docs/, embedded when facetmill is built (cmake/Embed.cmake).
+// The manual's pages: the files of docs/, embedded at build time (cmake/Embed.cmake).
 
 #include <string>
 #include <string_view>
@@ -12,13 +12,13 @@ struct ManualPage {
     std::string_view text; ///< Markdown; the first line is "# TITLE"
 };
 
-/// How to do something; sorted by name.
+/// How-to guides, sorted by name.
 const std::vector<ManualPage>& guides();
-/// The other pages; sorted by name.
+/// All other pages, sorted by name.
 const std::vector<ManualPage>& manual_pages();
-/// The manual page of pipeline files, in roff; its name is that of the page.
+/// The roff manual page of pipeline files; its name is the page's name.
 const ManualPage& pipeline_man_page();
-/// The first line, without its mark.
+/// The first line without the heading mark.
 std::string title_of(const ManualPage& page);
 
 } // namespace facetmill::docs

@@ -1,5 +1,5 @@
 #pragma once
-// The ready pipelines: the files of pipelines/, embedded when facetmill is built (cmake/Embed.cmake).
+// The ready pipelines: the files of pipelines/, embedded at build time (cmake/Embed.cmake).
 
 #include <string>
 #include <string_view>

@@ -7,7 +7,7 @@ namespace facetmill::docs {
 
 namespace {
 
-/// A text for a cell of a table: no bars, no line breaks.
+/// Text for a table cell, without bars and line breaks.
 std::string cell(std::string_view text) {
     std::string out;
     for (const char c : text) {

@@ -1,5 +1,5 @@
 #pragma once
-// The release and the libraries it was built with, as CMake found them (cmake/Versions.cmake).
+// The release and its libraries, as CMake found them at build time (cmake/Versions.cmake).
 
 #include <string_view>
 #include <vector>

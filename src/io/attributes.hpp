@@ -51,7 +51,7 @@ inline constexpr std::uint64_t no_key = UINT64_MAX;
 
 struct Wedges {
     std::vector<Index> corners;      ///< [corners] -> wedge
-    std::vector<Index> wedge_vertex; ///< [wedges] -> vertex; empty when there are no seams
+    std::vector<Index> wedge_vertex; ///< [wedges] -> vertex; empty without seams
     std::vector<std::uint64_t> keys; ///< [wedges]; no_key for vertices that no corner uses
 };
 

@@ -45,7 +45,7 @@ struct Decodings {
 
 struct ReadSettings {
     Weld weld = Weld::automatic;
-    std::optional<Unit> unit; ///< overrides what the format says
+    std::optional<Unit> unit; ///< overrides the file's unit
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
     bool lines = false;            ///< lines go to the log instead of being parts

@@ -20,7 +20,7 @@ std::string_view skip_parting(std::string_view line) {
     return line;
 }
 
-/// Reads a number from the start of the line; false if there is no number.
+/// Reads a number from the start of the line; false without a number.
 bool take_number(std::string_view& line, double& value) {
     const std::string_view rest = skip_parting(line);
     const char *at = rest.data(), *end = rest.data() + rest.size();

@@ -219,8 +219,7 @@ void warn_of_point_materials(Written& written, const Scene& scene, const char* f
 }
 
 void warn_of_parts(Written& written, const Scene& scene, const char* format) {
-    std::vector<std::string> names,
-        lines; // lines have their own list because files hold them apart from faces
+    std::vector<std::string> names, lines; // files hold lines apart from faces
     for (const auto& part : scene.parts)
         if (part.mesh.vertex_count() > 0)
             (part.mesh.line_count() > 0 ? lines : names).push_back(one_line(part.name));

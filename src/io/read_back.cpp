@@ -341,9 +341,10 @@ double position_error(const Flat& wanted, const Flat& found, const Tolerances& t
     return farthest(wanted.used(), found.used(), tolerances.most);
 }
 
-/// The largest displacement that the format allows. It adds float32 rounding of the largest coordinate
-/// (twice, because of a node's transform), half a grid step in every direction (Draco or quantized
-/// positions), and the rounding of instance transforms. transforms: the file has the parts' own coordinates.
+/// The largest displacement that the format allows. Three terms add up. The first is float32 rounding of the
+/// largest coordinate, twice, because of a node's transform. The second is half a grid step in every
+/// direction (Draco or quantized positions). The third is the rounding of instance transforms. transforms:
+/// the file has the parts' own coordinates.
 Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
     double largest = 0;

@@ -33,15 +33,14 @@ struct ReadBack {
     /// Whether float32 rounding, and not the grid, moved points by more than a millionth of the diagonal,
     /// because coordinates are far from the origin.
     bool too_far_for_floats() const;
-    Json json()
-        const; ///< vertices, faces, lines if any, position_error, closed, edge_manifold, vertex_manifold, ...
+    Json json() const; ///< vertices, faces, lines if any, position_error, closed, edge_manifold, ...
 };
 
 /// Decodes the file and compares it with the scene (in the file's convention). The number of faces (polygons
 /// or their triangles) and of lines must match. Vertices used by faces, and ends of lines, must lie within
 /// the tolerance of float32 or the grid of their counterparts, in both directions. Throws output
 /// (E-READBACK) otherwise. Changes to closedness, manifoldness, orientation, and degenerate or duplicate
-/// faces are reported in `losses` and are no errors. written: the codec's result; only faces it counts as
+/// faces are reported in `losses`, without an error. written: the codec's result; only faces it counts as
 /// dropped may be missing.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
                    const Written& written = {});

@@ -1,6 +1,6 @@
 #pragma once
-// Units and up axes stated in comments, for formats without them: "# unit: mm" and "# up: z" in OBJ and OFF,
-// "comment unit: mm" in PLY, and the same words in the header of binary STL.
+// Units and up axes stated in comments, for formats without them. OBJ and OFF use "# unit: mm" and "# up:
+// z", PLY uses "comment unit: mm". The header of binary STL has the same words.
 
 #include "io/codec.hpp"
 #include "io/convert.hpp"

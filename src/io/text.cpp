@@ -131,7 +131,7 @@ void Text::skip_other_blanks() {
         if (is_blank(*at_)) {
             ++at_;
         } else if (*at_ == '\\' && at_ + 1 < end_ && is_line_end(at_[1])) {
-            ++at_; // a line that goes on
+            ++at_; // a continued line
             pass_line_end();
         } else if (comment_ && *at_ == comment_) {
             while (at_ < end_ && !is_line_end(*at_)) ++at_;

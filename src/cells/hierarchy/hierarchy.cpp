@@ -14,18 +14,17 @@ namespace facetmill::cells {
 
 namespace {
 
-// Measured: the memory that simplify takes at its peak for each triangle that it is given, and what the
-// process has beside.
+// Measured: the peak memory of simplify per input triangle, and the process's base memory.
 constexpr std::uint64_t bytes_of_face = 300, bytes_of_process = std::uint64_t{28} << 20;
-// The same where there are more vertices than a surface that hangs together has.
+// The same for meshes with more vertices than a connected surface has.
 constexpr std::uint64_t bytes_of_face_alone = 200, bytes_of_vertex = 200;
-// ... and where all is in memory, with the deviation measured.
+// The same with the whole mesh in memory and the deviation measured.
 constexpr std::uint64_t bytes_in_core = 200;
 
-/// Faces that are kept at a node over its part of the target, so that those above may choose: the nodes
-/// nearest to the root keep less.
+/// A node keeps more faces than its part of the target, so that nodes above can choose. Nodes near the root
+/// keep less.
 constexpr std::uint64_t slack[] = {1, 2, 4};
-/// ... and for each vertex that is held, since those need faces of their own.
+/// Extra faces per held vertex, because held vertices need faces of their own.
 constexpr std::uint64_t faces_of_held = 3;
 
 std::uint64_t target_of(std::uint64_t faces, const SimplifySettings& settings) {
@@ -85,7 +84,7 @@ class Hierarchy {
             [&](std::size_t s) { settle(s); });
     }
 
-    /// Of a leaf's faces; of those above what was noted there.
+    /// A leaf's area comes from its faces; nodes above use the recorded area.
     double area_of(std::size_t station, const Cell& cell) const {
         const Station& s = hierarchy_nodes_[station];
         if (s.is_leaf()) return surface_size(cell.mesh, transform_, false).area;
@@ -94,7 +93,7 @@ class Hierarchy {
         return area;
     }
 
-    /// Bytes that simplifying the station takes.
+    /// The memory needed to simplify the station, in bytes.
     std::uint64_t bytes_given(std::size_t station) const {
         const Station& s = hierarchy_nodes_[station];
         if (s.is_leaf())
@@ -104,7 +103,7 @@ class Hierarchy {
                left_.vertices_below(station) * bytes_of_vertex;
     }
 
-    /// Throws limit (E-MEMORY) where cells did not get small enough to be joined.
+    /// Throws limit (E-MEMORY) if cells did not shrink enough to be joined.
     void require_room(std::size_t station) const {
         const std::uint64_t needed = bytes_of_process + bytes_given(station);
         if (hierarchy_nodes_[station].is_leaf() || needed <= means_.memory) return;
@@ -126,7 +125,7 @@ class Hierarchy {
         left_.put(station, reduced(std::move(r.mesh), r.sources, cell), work);
     }
 
-    /// What was done at the station, with that below it.
+    /// The work at the station and below it.
     StationWork work_with(std::size_t station, double area, const SimplifyResult& r) const {
         StationWork work;
         work.area = area;
@@ -147,7 +146,7 @@ class Hierarchy {
         return s.is_leaf() ? partition_.cell(s.leaf) : left_.joined_at(station, partition_.tree());
     }
 
-    /// The cell's mesh is taken.
+    /// Moves the cell's mesh out.
     SimplifyResult simplified(std::size_t station, Cell& cell) const {
         const Station& s = hierarchy_nodes_[station];
         SimplifySettings settings = settings_;
@@ -163,7 +162,7 @@ class Hierarchy {
                                       : static_cast<std::size_t>(std::ceil(share)) *
                                                 slack[std::min<std::size_t>(s.level, 2)] +
                                             faces_of_held * held;
-        // Attributes weigh by the diagonal of the mesh, which is that of the whole.
+        // Attribute weights scale with the diagonal of the mesh; they must use the whole mesh's diagonal.
         const double own = cell.mesh.bounds().diagonal(), whole = own > 0 ? diagonal_ / own : 1;
         for (double* weight : {&settings.weights.normal, &settings.weights.colour, &settings.weights.skin})
             *weight *= whole;
@@ -174,7 +173,7 @@ class Hierarchy {
     const SimplifySettings& settings_;
     const CellResources& means_;
     const Transform& transform_;
-    std::vector<Station> hierarchy_nodes_; ///< the root is the last
+    std::vector<Station> hierarchy_nodes_; ///< the root is last
     LeftCells left_;
     std::uint64_t target_;
     double diagonal_;

@@ -14,7 +14,7 @@ namespace facetmill::cells {
 
 namespace {
 
-/// What is below each node of the tree.
+/// Faces and leaves below each node of the tree.
 struct BelowNodes {
     std::vector<std::uint64_t> faces;      ///< [nodes]
     std::vector<std::uint32_t> first_leaf; ///< [nodes]
@@ -37,7 +37,7 @@ struct BelowNodes {
 
 class StationMaker {
   public:
-    /// together: see hierarchy_nodes_of; 0: each leaf by itself.
+    /// together: see hierarchy_nodes_of; 0: a station per leaf.
     StationMaker(const Partition& partition, std::uint64_t together)
         : tree_(partition.tree()), below_(partition), together_(together) {
         add(0, 0, together > 0 && height_of(0) % 2 == 1);
@@ -82,20 +82,20 @@ class StationMaker {
     std::uint64_t together_;
 };
 
-/// What goes before a cell. left: of LeftCells.
+/// The record before a cell. left: an entry of LeftCells.
 void archive_left(auto& archive, auto& left) {
     archive(left.vertices, left.faces, left.work.error, left.work.area, left.work.collapses,
             left.work.turned);
 }
 
-/// Of those vertices that have a home: most are inner ones, of which names say nothing.
+/// The vertices with a home. Most vertices are inner, and their names are not needed.
 struct HomesOfSome {
     std::vector<Index> vertices;
     std::vector<std::uint64_t> names;
     std::vector<std::uint8_t> homes;
 };
 
-/// A cell as it is written and read. The mesh's corners are taken.
+/// Writes a cell in packed form. Moves the mesh's corners out.
 void write_cell(cache::ByteWriter& writer, Cell cell) {
     HomesOfSome some;
     for (Index v = 0; v < cell.home.size(); ++v) {
@@ -136,7 +136,7 @@ Cell read_cell(cache::ByteReader& reader) {
 
 constexpr std::string_view kept_begin = "facetmill-simplified.";
 
-/// How the names of what was made with this key begin.
+/// The start of the file names of results with this key.
 std::string kept_name_begin(const std::string& key) {
     constexpr std::size_t digits = 16;
     return fmt::format("{}{}.", kept_begin, key.substr(0, digits));
@@ -162,7 +162,7 @@ std::size_t levels_of(const std::vector<Station>& hierarchy_nodes) {
 
 namespace {
 
-/// Where the tree of stations is cut for jobs: those of a level, and cells above it.
+/// The stations at which the tree is cut into jobs: the stations of a level, and cells above it.
 std::vector<std::size_t> tops_of(const std::vector<Station>& hierarchy_nodes, std::size_t level) {
     std::vector<std::size_t> tops;
     for (std::size_t s = 0; s + 1 < hierarchy_nodes.size(); ++s)
@@ -180,7 +180,7 @@ std::string stamp_of(const CellJob& job) { return "facetmill-" + name_of(job); }
 
 std::vector<std::uint8_t> hierarchy_nodes_of_job(const std::vector<Station>& hierarchy_nodes,
                                                  const CellJob& job) {
-    constexpr std::size_t tops_per_job = 2; // so that none has much more to do than another
+    constexpr std::size_t tops_per_job = 2; // several per job balance the work
     std::size_t level = 1;
     while (level + 1 < levels_of(hierarchy_nodes) &&
            tops_of(hierarchy_nodes, level).size() < tops_per_job * job.of)
@@ -215,7 +215,7 @@ void settle_below_root(const std::vector<Station>& hierarchy_nodes, const std::v
                 try {
                     for (std::size_t i = next++; i < some.size(); i = next++) settle(some[i]);
                 } catch (...) {
-                    next = some.size(); // the others end, too
+                    next = some.size(); // stops the other threads
                     throw;
                 }
             },
@@ -276,7 +276,7 @@ std::vector<std::uint8_t> LeftCells::take_up(const std::vector<std::uint8_t>& am
         kept_->remove(name);
         ++others;
     }
-    for (std::size_t s = hierarchy_nodes_.size() - 1; s-- > 0;) { // those above before those below
+    for (std::size_t s = hierarchy_nodes_.size() - 1; s-- > 0;) { // parents before children
         if (!among[s]) continue;
         ++all;
         if (wanted[s]) {

@@ -8,7 +8,8 @@ namespace facetmill::cells {
 
 namespace {
 
-/// A key that other leaves have too. No byte of it is padding: files that are kept depend on the mesh alone.
+/// A key that several leaves have. It has no padding bytes, because kept files must depend on the mesh
+/// alone.
 struct Shared {
     std::uint64_t key;
     std::uint64_t depth;
@@ -28,7 +29,7 @@ std::vector<T> records_of(io::Span bytes) {
 
 } // namespace
 
-/// All leaves that have the same key meet in one of some buckets that fit into memory.
+/// Distributes keys into buckets that fit into memory; equal keys of all leaves share a bucket.
 Borders::Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
                  std::uint64_t estimate,
                  const std::function<std::vector<std::uint64_t>(std::uint32_t)>& keys_of)
@@ -60,7 +61,7 @@ Borders::Borders(const Tree& tree, const std::filesystem::path& scratch, std::ui
     shared_.flush();
 }
 
-/// Those that several leaves have. Returns how many keys there are. all: in order.
+/// Records keys of several leaves. Returns the number of distinct keys. all: sorted.
 std::uint64_t Borders::share(const Tree& tree, const std::vector<Owned>& all) {
     std::uint64_t count = 0;
     for (auto first = all.begin(); first != all.end();) {

@@ -12,14 +12,14 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr const char* looked_at = "looked_at"; ///< [vertices] 1: it had its turn
+constexpr const char* looked_at = "looked_at"; ///< [vertices] 1: already visited
 
 class RimWalk {
   public:
     RimWalk(const Partition& partition, const CellResources& means, RimVisitor& visitor)
         : partition_(partition), means_(means), visitor_(visitor) {}
 
-    /// The faces of the node that have a vertex which cells outside of it share.
+    /// The faces of the node with a vertex that cells outside the node share.
     Cell rim_of(std::uint32_t number) {
         const Tree::Node& node = partition_.tree().nodes[number];
         Cell cell;

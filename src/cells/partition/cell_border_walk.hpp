@@ -1,6 +1,6 @@
 #pragma once
-// The cells of a mesh one after another, and the faces at their borders where cells come together: so that
-// each vertex and edge is looked at once, where all of its faces are known.
+// Visits the cells of a mesh in order, and the faces at their borders where cells meet. Each vertex and edge
+// is thus visited once, when all of its faces are known.
 
 #include "cells/partition/partition.hpp"
 #include "geometry/inspect/connectivity.hpp"
@@ -10,20 +10,19 @@ namespace facetmill::cells {
 class RimVisitor {
   public:
     virtual ~RimVisitor() = default;
-    /// Each cell as it is read, with all of its faces. Attributes that it gives the mesh go with the faces.
+    /// Called for each cell with all of its faces. Attributes that it adds to the mesh stay with the faces.
     virtual void read(Cell& cell) = 0;
-    /// The faces of two nodes that have become one.
+    /// Called for the merged faces of two nodes.
     virtual void meet(Mesh&) {}
-    /// Faces that are known together. turns: [vertices] see connectivity_of
+    /// Called for faces that are known together. turns: [vertices] see connectivity_of
     virtual void look(const Mesh& mesh, const std::vector<Turn>& turns) = 0;
-    /// What it takes for each face that it looks at, the face included.
+    /// Memory per visited face in bytes, including the face.
     virtual std::uint64_t bytes_per_face() const { return 200; }
 };
 
-/// Goes up the tree: what goes up are only the faces that have a vertex which cells outside of the node
-/// share. The mesh has no attributes but those that the visitor gave it. Throws output (E-SCRATCH); limit
-/// (E-MEMORY) where the faces at borders are more than memory takes, as those of one vertex that a million
-/// faces have.
+/// Walks up the tree. Only faces with a vertex that cells outside the node share move up, with only the
+/// attributes that the visitor added. Throws output (E-SCRATCH); limit (E-MEMORY) if the faces at borders
+/// exceed memory, for example at a vertex of a million faces.
 void walk_cell_borders(const Partition& partition, const CellResources& means, RimVisitor& visitor);
 
 } // namespace facetmill::cells

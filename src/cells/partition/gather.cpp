@@ -14,7 +14,7 @@ namespace facetmill::cells {
 
 namespace {
 
-/// Vertices in the order of their names.
+/// Sorts vertices by their names.
 void sort_vertices(Cell& cell) {
     std::vector<Index> order(cell.names.size()), number(cell.names.size());
     std::iota(order.begin(), order.end(), Index{0});

@@ -23,7 +23,7 @@ Json block_json(const Block& block) {
         {"offset", block.offset}, {"bytes", block.size}, {"digest", fmt::format("{:016x}", block.digest)}};
 }
 
-/// Throws Json::exception, std::logic_error for what block_json did not make.
+/// The inverse of block_json. Throws Json::exception, std::logic_error for other JSON.
 Block block_from(const Json& json) {
     return {json.at("offset").get<std::uint64_t>(), json.at("bytes").get<std::uint64_t>(),
             std::stoull(json.at("digest").get<std::string>(), nullptr, 16)};
@@ -40,7 +40,7 @@ Json box_json(const Box& box) {
     return {{"min", {box.min.x, box.min.y, box.min.z}}, {"max", {box.max.x, box.max.y, box.max.z}}};
 }
 
-/// What box_json made. Throws Json::exception for what it did not.
+/// The inverse of box_json. Throws Json::exception for other JSON.
 Box box_from(const Json& json) {
     const auto point = [&](const char* name) {
         const auto p = json.at(name).get<std::array<double, 3>>();
@@ -52,7 +52,7 @@ Box box_from(const Json& json) {
     return box;
 }
 
-/// The digest of all that is said beside it.
+/// The digest of the manifest without its digest.
 std::string digest_of(const Json& manifest) {
     Json rest = manifest;
     rest.erase("sha256");
@@ -78,8 +78,7 @@ class PartitionKeeper {
         if (auto taken = take(why)) {
             folder_.tell(fmt::format("{} reused from '{}'", counted(taken->tree().leaves.size(), "cell"),
                                      folder_.path().string()));
-            if (means_.job &&
-                means_.job->makes_cells()) // a workflow sees that they are newer than the inputs
+            if (means_.job && means_.job->makes_cells()) // must be newer than the inputs
                 for (const char* name : kept_files) folder_.touch(name);
             return taken;
         }
@@ -93,13 +92,13 @@ class PartitionKeeper {
 
     bool is_beside_others() const { return means_.job && !means_.job->makes_cells(); }
 
-    /// What the partition depends on.
+    /// The inputs that the partition depends on.
     Json origin() const {
         return {{"format", format_name}, {"version", format_version}, {"program", code_id()},
                 {"options", means_.key}, {"faces_of_cell", most_},    {"inputs", inputs_json(*source_)}};
     }
 
-    /// Why nothing is returned, in words; none where nothing is there.
+    /// Takes the kept partition. If it returns none, `why` is the reason, or empty if nothing was kept.
     std::unique_ptr<Partition> take(std::string& why) {
         const std::optional<io::Bytes> text = folder_.read(manifest_file);
         if (!text) return {};
@@ -121,13 +120,13 @@ class PartitionKeeper {
             return partition;
         } catch (const Json::exception&) {
         } catch (const std::logic_error&) {
-        } catch (const Error&) { // a file is not there, or cannot be read
+        } catch (const Error&) { // a file is missing or unreadable
         }
         if (why.empty()) why = fmt::format("cells in '{}' cannot be read", folder_.path().string());
         return {};
     }
 
-    /// The digests of the inputs, without reading those that are as they were.
+    /// Finds the digests of the inputs; inputs that have not changed are not read again.
     void find_digests() {
         const auto& files = source_->contents().files;
         if (std::none_of(files.begin(), files.end(), [](const auto& f) { return f.sha256.empty(); })) return;
@@ -139,7 +138,7 @@ class PartitionKeeper {
             source_->finish_digests();
     }
 
-    /// What of the origin is another, in words.
+    /// The difference of the origins, for messages.
     std::string difference(const Json& manifest) const {
         constexpr std::pair<const char*, const char*> told[] = {{"format", "another program"},
                                                                 {"version", "another program"},
@@ -182,7 +181,7 @@ class PartitionKeeper {
                                                                  SpillFile(opened(borders_file), borders))});
     }
 
-    /// Throws output (E-WRITE) when the file is not there.
+    /// Throws output (E-WRITE) if the file is missing.
     std::size_t count_damaged(const char* name, const std::vector<Block>& blocks) const {
         const BlockFile file(folder_.file(name), BlockFile::Named::as_it_is);
         return static_cast<std::size_t>(std::count_if(
@@ -223,7 +222,7 @@ class PartitionKeeper {
         const std::string text = manifest.dump(1) + "\n";
         folder_.write(manifest_file, {std::as_bytes(std::span(text))});
         if (!means_.job &&
-            manifest == same_origin_) // what others made of them, in a workflow, is not due again
+            manifest == same_origin_) // a workflow must not redo the results that others made of these cells
             for (const char* name : kept_files) folder_.set_time(name, written);
         return partition;
     }
@@ -233,8 +232,8 @@ class PartitionKeeper {
     const CellFolder& folder_;
     std::uint64_t most_;
     InputStamps stamps_;
-    bool knew_inputs_ = false; ///< their digests, without reading them
-    Json same_origin_;         ///< a manifest of the same origin, whose cells are damaged
+    bool knew_inputs_ = false; ///< the digests are known without reading the inputs
+    Json same_origin_;         ///< the manifest of the same origin with damaged cells
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// A partition that outlives the run that made it: its cells in files of a folder, and a manifest.
+// A partition that outlives its run: its cells in files of a folder, and a manifest.
 
 #include "cells/partition/partition.hpp"
 
@@ -7,19 +7,19 @@
 
 namespace facetmill::cells {
 
-/// The partition of the source, taken from means.kept where it is there, of the same program, inputs and
-/// options (means.key) and as it was written; else made, and kept there. Without such a folder it is made.
-/// A job that simplifies (means.job) makes none: throws output (E-SCRATCH), see make_cells_due; that a cell
-/// is as it was written is then seen when it is read.
+/// The partition of the source. Takes it from means.kept if it is intact and from the same program, inputs
+/// and options (means.key); otherwise makes it, and keeps it in that folder if set. A simplifying job
+/// (means.job) makes none: it throws output (E-SCRATCH), see make_cells_due. It checks cells only when it
+/// reads them.
 std::unique_ptr<Partition> kept_partition(std::shared_ptr<FaceSource> source, const CellResources& means,
                                           std::uint64_t most = faces_of_cell);
 
-/// The files that a kept partition has.
+/// The files of a kept partition.
 inline constexpr std::array<const char*, 3> kept_files{"facetmill-cells.json", "facetmill-cells.records",
                                                        "facetmill-cells.borders"};
 
-/// For a job beside others, which cannot make the cells that all of them read: removes the manifest, so that
-/// the job that makes them is due again. Throws output (E-SCRATCH).
+/// For a job in a group, which cannot remake the cells that all jobs read. Removes the manifest, so that the
+/// job that makes the cells runs again. Throws output (E-SCRATCH).
 [[noreturn]] void make_cells_due(const CellFolder& folder, const std::string& why);
 
 } // namespace facetmill::cells

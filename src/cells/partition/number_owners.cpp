@@ -8,7 +8,7 @@
 namespace facetmill::cells {
 
 std::uint64_t buckets_of_keys(std::uint64_t estimate, std::uint64_t memory) {
-    const std::uint64_t size = estimate * 2 * sizeof(Owned); // with those that are shared
+    const std::uint64_t size = estimate * 2 * sizeof(Owned); // including shared keys
     return 1 + size / std::max<std::uint64_t>(1, memory / 8);
 }
 
@@ -32,8 +32,8 @@ std::uint64_t NumberOwners::count() const {
 }
 
 std::vector<Owned> NumberOwners::leaves(std::size_t bucket, const std::vector<std::uint32_t>& leaf_of) const {
-    // A vertex of very many faces is there as often as they alternate between lists: what is there twice is
-    // dropped whenever it could be half of all.
+    // A vertex with many faces is recorded whenever its faces alternate between lists. Duplicates are
+    // dropped whenever they could be half of the entries.
     constexpr std::uint64_t part = (std::uint64_t{1} << 20) / sizeof(Other) * sizeof(Other);
     constexpr std::size_t few = 1 << 16;
     std::vector<Owned> all;

@@ -1,5 +1,6 @@
 #pragma once
-// Which lists of faces have a vertex, where vertices have numbers: seen while the faces are put into lists.
+// The lists of faces that contain each vertex, for numbered vertices; recorded while the faces are
+// distributed to lists.
 
 #include "cells/storage/block_file.hpp"
 
@@ -17,7 +18,7 @@ struct Owned {
     }
 };
 
-/// Into how many buckets keys are divided so that each fits into memory. estimate: of their number.
+/// The number of buckets of keys such that each fits into memory. estimate: the number of keys.
 std::uint64_t buckets_of_keys(std::uint64_t estimate, std::uint64_t memory);
 std::uint64_t bucket_of_key(std::uint64_t key, std::uint64_t buckets);
 
@@ -25,18 +26,17 @@ class NumberOwners {
   public:
     static constexpr std::uint32_t nobody = UINT32_MAX;
 
-    /// Whether memory is enough for so many numbers, beside what dividing a leaf takes, which is the same
-    /// for any memory.
+    /// Whether memory suffices for `numbers` numbers, besides the fixed memory for dividing a leaf.
     static bool fits(std::uint64_t numbers, std::uint64_t memory) {
         constexpr std::uint64_t dividing = std::uint64_t{64} << 20;
         const std::uint64_t third = memory / 3;
         return numbers * sizeof(std::uint32_t) <= std::max(memory / 6, third - std::min(third, dividing));
     }
-    /// Of numbers below `numbers`. buckets: see buckets_of_keys. memory: bytes, for everything that the
-    /// process does. Throws output (E-WRITE, E-SPACE).
+    /// For numbers below `numbers`. buckets: see buckets_of_keys. memory: bytes for the whole process.
+    /// Throws output (E-WRITE, E-SPACE).
     NumberOwners(std::uint64_t numbers, const std::filesystem::path& scratch, std::uint64_t buckets,
                  std::uint64_t memory);
-    /// A face of the list has the number.
+    /// Records that a face of the list has the number.
     void add(std::uint32_t number, std::uint32_t list) {
         std::uint32_t& first = first_[number];
         if (first == nobody)
@@ -44,22 +44,22 @@ class NumberOwners {
         else if (first != list)
             add_another(number, list);
     }
-    /// ... which may have been in another list before, that is none of leaf_of below.
+    /// Records a further list, if the number was first in another list.
     void add_another(std::uint32_t number, std::uint32_t list);
     void finish() { others_.flush(); }
 
-    std::uint64_t count() const; ///< of numbers that some list has
+    std::uint64_t count() const; ///< numbers in at least one list
     std::size_t buckets() const { return others_.lists(); }
-    /// The leaves of those numbers of the bucket that several lists have, each once, in order. leaf_of:
-    /// [lists] the leaf that has the list, or nobody.
+    /// The leaves of the bucket's numbers that several lists have, distinct and sorted. leaf_of: [lists] the
+    /// leaf of the list, or nobody.
     std::vector<Owned> leaves(std::size_t bucket, const std::vector<std::uint32_t>& leaf_of) const;
 
   private:
     struct Other {
         std::uint32_t number, list;
     };
-    std::vector<std::uint32_t> first_; ///< [numbers] a list that has it
-    std::vector<Other> latest_;        ///< that were added, so that few are added twice
+    std::vector<std::uint32_t> first_; ///< [numbers] a list with the number
+    std::vector<Other> latest_;        ///< recently added entries, to avoid most duplicates
     SpillFile others_;                 ///< by bucket
 };
 

@@ -9,12 +9,12 @@ namespace facetmill::cells {
 std::size_t Numbering::Hash::operator()(const Vertex& v) const {
     std::uint64_t hash = v.name;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        hash = hashed(hash, std::bit_cast<std::uint64_t>(v.position[axis] + 0.0)); // -0 is 0
+        hash = hashed(hash, std::bit_cast<std::uint64_t>(v.position[axis] + 0.0)); // -0 equals 0
     return static_cast<std::size_t>(hash);
 }
 
 Numbering::Numbers Numbering::next(const Cell& cell) {
-    if (leaf_ > 0) { // what is at home below the node of this leaf and the last is done with
+    if (leaf_ > 0) { // vertices with a home below the leaves' common node are done
         const std::size_t common = tree_.common_depth(leaf_ - 1, leaf_);
         for (std::size_t depth = common + 1; depth < known_.size(); ++depth) known_[depth].clear();
     }

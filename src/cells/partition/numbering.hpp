@@ -1,5 +1,5 @@
 #pragma once
-// Numbers for the vertices of all cells, each vertex once.
+// Numbers the vertices of all cells, each vertex once.
 
 #include "cells/partition/partition.hpp"
 
@@ -7,17 +7,17 @@
 
 namespace facetmill::cells {
 
-/// Numbers vertices while the cells go by, in the order of the leaves. Of those that cells share it knows
-/// only what cells to come may still have.
+/// Numbers vertices while the cells pass in the order of the leaves. It keeps only shared vertices that
+/// later cells may have.
 class Numbering {
   public:
     explicit Numbering(const Tree& tree) : tree_(tree) {}
 
     struct Numbers {
         std::vector<std::uint64_t> of; ///< [vertices]
-        std::vector<Index> fresh;      ///< those that no cell had before, ascending: numbers in a row
+        std::vector<Index> fresh;      ///< vertices new to all cells so far, ascending: consecutive numbers
     };
-    /// The cell must be that of the next leaf.
+    /// The cell must belong to the next leaf.
     Numbers next(const Cell& cell);
     std::uint64_t count() const { return count_; } ///< so far
 

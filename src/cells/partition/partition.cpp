@@ -18,11 +18,11 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr std::uint32_t resolution = 128; // of the grid: 2 million places, 8 MB
+constexpr std::uint32_t resolution = 128; // of the grid: 2 million cells, 8 MB
 
 } // namespace
 
-/// What is needed while faces are put into lists.
+/// The data needed while faces are distributed to lists.
 class Partition::Distribution {
   public:
     Distribution(FaceSource& source, const CellResources& means)
@@ -33,7 +33,7 @@ class Partition::Distribution {
     }
     const CellResources& means() const { return means_; }
 
-    /// Finds the tree. Returns how many faces there are.
+    /// Builds the tree. Returns the number of faces.
     std::uint64_t count(Tree& tree, std::uint64_t most) {
         std::uint64_t faces = 0;
         const ProgressScope share(0.05, 0.1);
@@ -49,7 +49,7 @@ class Partition::Distribution {
         return faces;
     }
 
-    /// Gives each face to a list, that of its leaf, and learns which of their vertices several lists have.
+    /// Adds each face to its leaf's list, and finds the vertices that several lists share.
     void give(SpillFile& records, std::uint64_t faces) {
         const std::uint64_t numbers = source_.vertex_numbers();
         if (numbers > 0 && NumberOwners::fits(numbers, means_.memory))
@@ -78,7 +78,7 @@ class Partition::Distribution {
 
     std::optional<NumberOwners>& owners() { return owners_; }
     void end_lists(std::size_t lists) { lists_ = lists; }
-    /// Whether a list is none of those that faces were given to: a leaf of the grid was divided.
+    /// Whether the list comes from a divided leaf of the grid, and so received no faces directly.
     bool is_divided(std::size_t list) const { return list >= lists_; }
 
   private:
@@ -119,7 +119,7 @@ void Partition::distribute(Distribution& work, std::uint64_t most) {
     if (faces_ == 0)
         throw Error(ErrorKind::malformed, "E-EMPTY", fmt::format("'{}' has no faces", source_->name()),
                     "points and lines are processed in memory: --partition never");
-    // Half of the waiting bytes is of lists that are full.
+    // Half of the waiting bytes belong to full lists.
     records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(work.means().memory / 16));
     work.give(records_, faces_);
     list_.resize(tree_.leaves.size());
@@ -127,9 +127,9 @@ void Partition::distribute(Distribution& work, std::uint64_t most) {
     work.end_lists(list_.size());
 }
 
-/// As below, of some faces of a list: those that are too many for that are halved in their order.
+/// Divides a range of a list's faces as below; a range too large for memory is first halved in its order.
 void Partition::divide(std::uint32_t node, std::size_t list, const Range& faces, std::uint64_t most) {
-    constexpr std::uint64_t at_once = 4; // times what a cell has: of one size, whatever the memory
+    constexpr std::uint64_t at_once = 4; // cells at once: fixed, so that the result does not depend on memory
     const std::uint64_t size = source_->record_size();
     if (faces.end - faces.begin <= at_once * most)
         return divide(node, records_.read(list, faces.begin * size, (faces.end - faces.begin) * size), most);
@@ -138,7 +138,7 @@ void Partition::divide(std::uint32_t node, std::size_t list, const Range& faces,
     divide(tree_.add(node), list, {middle, faces.end}, most);
 }
 
-/// Gives the faces of a node to leaves below it: by halves of their centres along the longest side.
+/// Distributes the faces of a node to leaves below it: halves their centres along the longest side.
 void Partition::divide(std::uint32_t node, io::Bytes records, std::uint64_t most) {
     const std::size_t size = source_->record_size(), n = records.size() / size;
     if (n <= most) {
@@ -182,7 +182,7 @@ void Partition::divide(std::uint32_t node, io::Bytes records, std::uint64_t most
     divide(tree_.add(node), std::move(high), most);
 }
 
-/// Divides leaves that the grid was too coarse for, and numbers all anew.
+/// Divides leaves for which the grid is too coarse, and renumbers all leaves.
 void Partition::refine(std::uint64_t most) {
     const Tree coarse = std::move(tree_);
     tree_ = {};
@@ -213,7 +213,7 @@ void Partition::refine(std::uint64_t most) {
     }
 }
 
-/// Finds vertices of several leaves.
+/// Finds vertices that several leaves share.
 void Partition::find_shared(Distribution& work) {
     const CellResources& means = work.means();
     if (!work.owners()) {

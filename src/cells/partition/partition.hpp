@@ -1,6 +1,6 @@
 #pragma once
-// A mesh of any size as cells on disk: whole faces, by a k-d tree over their centres, so nothing is cut and
-// there are no T-junctions; and which vertices cells have in common.
+// A mesh of any size as cells on disk, and the vertices that cells share. A k-d tree over face centres
+// assigns whole faces to cells, so no face is cut and T-junctions cannot occur.
 
 #include "cells/partition/borders.hpp"
 #include "cells/partition/cell_job.hpp"
@@ -10,37 +10,37 @@
 
 namespace facetmill::cells {
 
-/// Where temporary data goes, and how much memory may be taken.
+/// The folder of temporary data and the memory limit.
 struct CellResources {
     std::filesystem::path scratch;
-    std::uint64_t memory = 0; ///< bytes, for everything
-    /// Where cells are kept; none: they are temporary, too.
+    std::uint64_t memory = 0; ///< bytes, for the whole process
+    /// The folder of kept cells; null: cells are temporary.
     std::shared_ptr<const CellFolder> kept{};
-    std::string key{};            ///< of what was done so far: the program, inputs and options, 64 digits
-    std::optional<CellJob> job{}; ///< all there is to do, of which others do the rest
+    std::string key{};            ///< of the steps so far: the program, inputs and options, 64 digits
+    std::optional<CellJob> job{}; ///< none: the whole work; else other processes do the rest
 };
 
-/// A part of a mesh. Vertices that other parts have too stay known by name and position.
+/// A part of a mesh. Name and position identify vertices that it shares with other parts.
 struct Cell {
     static constexpr std::uint8_t inner = Borders::inner;
     Mesh mesh;                        ///< triangles
     std::vector<std::uint64_t> names; ///< [vertices] see Piece
-    /// [vertices] The depth of the node of the tree that all cells with this vertex have in common; inner:
-    /// only this cell has it. So within a node of a depth below it is shared with others outside.
+    /// [vertices] The depth of the lowest common node of all cells with this vertex; inner: only this cell
+    /// has it. A node deeper than that shares the vertex with cells outside.
     std::vector<std::uint8_t> home;
 };
 
-/// Faces that a cell has at the most, but where one place of a grid has more than memory takes.
+/// The maximum number of faces in a cell, except where a single grid cell has more than memory holds.
 inline constexpr std::uint64_t faces_of_cell = std::uint64_t{1} << 16;
 
 class Partition {
   public:
-    /// Scans the source and reads its faces twice. The cells depend on the mesh and `most` only, never on
+    /// Scans the source and reads its faces twice. The cells depend only on the mesh and `most`, not on
     /// memory.
     Partition(std::shared_ptr<FaceSource> source, const CellResources& means,
               std::uint64_t most = faces_of_cell);
 
-    /// What there is of a partition beside its source.
+    /// The data of a partition besides its source.
     struct Stored {
         Tree tree;
         std::uint64_t faces = 0;
@@ -48,8 +48,8 @@ class Partition {
         std::unique_ptr<Borders> borders;
     };
     Partition(std::shared_ptr<FaceSource> source, Stored stored);
-    /// Puts records and borders into files with names, where they are read from then on; the blocks are those
-    /// of the leaves.
+    /// Moves records and borders into named files and reads them from these files afterwards. Returns the
+    /// blocks of the leaves.
     void store(const std::filesystem::path& records, const std::filesystem::path& borders, bool sync,
                std::vector<Block>& record_blocks, std::vector<Block>& border_blocks);
 
@@ -60,10 +60,10 @@ class Partition {
     std::uint64_t faces_of(std::uint32_t leaf) const {
         return records_.size(list_[leaf]) / source_->record_size();
     }
-    std::uint64_t vertices() const { return borders_->count(); } ///< that faces use
-    /// The faces of a leaf, as the source has them. Any thread. Throws output (E-SCRATCH).
+    std::uint64_t vertices() const { return borders_->count(); } ///< used by faces
+    /// The faces of a leaf as the source's records. Thread-safe. Throws output (E-SCRATCH).
     io::Bytes records(std::uint32_t leaf) const { return records_.read(list_[leaf]); }
-    /// Any thread. Throws output (E-SCRATCH).
+    /// Thread-safe. Throws output (E-SCRATCH).
     Cell cell(std::uint32_t leaf) const;
 
   private:
@@ -81,15 +81,15 @@ class Partition {
     Tree tree_;
     std::uint64_t faces_ = 0;
     SpillFile records_;                ///< by list
-    std::vector<std::size_t> list_;    ///< [leaves] of records_
+    std::vector<std::size_t> list_;    ///< [leaves] their lists in records_
     std::unique_ptr<Borders> borders_; ///< by names of vertices
 };
 
-/// The cells as one, vertices that they share joined. depth: of the node that they make up together.
+/// Joins the cells and merges the vertices that they share. depth: of the node that they form together.
 Cell joined(std::vector<Cell> cells, std::uint8_t depth);
 
-/// What a cell became: a mesh with the names and homes of those vertices that are shared. sources: [vertices]
-/// of the mesh, those of the cell, or none.
+/// The cell after processing: the mesh, with the names and homes of its shared vertices. sources: [vertices
+/// of the mesh] the cell's vertices, or none.
 Cell reduced(Mesh mesh, const std::vector<Index>& sources, const Cell& from);
 
 } // namespace facetmill::cells

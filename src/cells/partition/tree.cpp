@@ -26,7 +26,7 @@ void Tree::make_leaf(std::uint32_t node) {
 
 bool Tree::restore(const std::vector<std::uint8_t>& depths) {
     *this = {};
-    std::vector<std::uint32_t> waiting{no_node}; // parents of nodes to come, the next last
+    std::vector<std::uint32_t> waiting{no_node}; // parents of the nodes to come; the next is last
     for (const std::uint8_t depth : depths) {
         if (waiting.empty()) return false;
         std::uint32_t node = add(waiting.back());
@@ -70,8 +70,7 @@ Grid::Grid(const Box& bounds, std::uint32_t resolution) : origin_(bounds.min) {
 std::size_t Grid::cell_of(const Vec3& p) const {
     std::array<std::size_t, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x =
-            (p[axis] - origin_[axis]) * per_unit_; // not a number, and beyond: the first and last
+        const double x = (p[axis] - origin_[axis]) * per_unit_; // NaN and values outside clamp
         at[axis] = x >= size_[axis] - 1 ? size_[axis] - 1 : x > 0 ? static_cast<std::size_t>(x) : 0;
     }
     return (at[2] * size_[1] + at[1]) * size_[0] + at[0];
@@ -85,7 +84,7 @@ Tree Grid::split(std::uint64_t most) {
     return tree;
 }
 
-/// The counts of the range by their place along an axis.
+/// The sums of the range's counts for each position along an axis.
 std::vector<std::uint64_t> Grid::slabs(const Range& r, std::size_t axis) const {
     std::vector<std::uint64_t> sums(r[2 * axis + 1] - r[2 * axis]);
     for (std::uint32_t z = r[4]; z < r[5]; ++z)

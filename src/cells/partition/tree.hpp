@@ -1,6 +1,6 @@
 #pragma once
-// A k-d tree by count: space is halved so that about as many faces are on either side, until no leaf has more
-// than a given number.
+// A k-d tree by count: each split puts about half of the faces on either side, until no leaf exceeds a given
+// number.
 
 #include "base/math/vec.hpp"
 
@@ -11,47 +11,47 @@
 
 namespace facetmill::cells {
 
-/// Nodes in the order of a walk that goes into a node before its children, the lower first; the root is
-/// number 0.
+/// Nodes in preorder, the lower child first; the root is number 0.
 struct Tree {
     static constexpr std::uint32_t no_node = UINT32_MAX;
     struct Node {
         std::uint32_t child[2] = {no_node, no_node}; ///< both or none
         std::uint32_t parent = no_node;
-        std::uint32_t leaf = no_node; ///< its number among the leaves, in their order
+        std::uint32_t leaf = no_node; ///< its number in leaf order
         std::uint8_t depth = 0;       ///< 0: the root
         bool is_leaf() const { return child[0] == no_node; }
     };
     std::vector<Node> nodes;
-    std::vector<std::uint32_t> leaves; ///< [leaves] their nodes
+    std::vector<std::uint32_t> leaves; ///< [leaves] their node numbers
 
-    /// Adds a root, or a child of a node whose other child is there, or comes next.
+    /// Adds the root, or a child of a node. The other child must already exist or come next.
     std::uint32_t add(std::uint32_t parent);
-    /// Makes a node a leaf: the next one.
+    /// Makes a node the next leaf.
     void make_leaf(std::uint32_t node);
-    /// What depths() gave. False where no tree has such leaves; nothing is promised of it then.
+    /// Restores a tree from the result of depths(). False if the depths are invalid; the tree is then
+    /// unspecified.
     bool restore(const std::vector<std::uint8_t>& depths);
-    /// [leaves] How deep they are, which is all that a tree is made of.
+    /// [leaves] Their depths, which define the tree completely.
     std::vector<std::uint8_t> depths() const;
-    /// How deep the node is that two leaves have in common.
+    /// The depth of the lowest common node of two leaves.
     std::uint8_t common_depth(std::uint32_t leaf, std::uint32_t other) const;
 };
 
-/// A grid over a box, whose cells count what falls into them.
+/// A grid over a box that counts faces per cell.
 class Grid {
   public:
-    /// resolution: cells along the longest side, also the most along any other.
+    /// resolution: cells along the longest side, and the maximum along the others.
     explicit Grid(const Box& bounds, std::uint32_t resolution);
-    /// The number of the cell of the grid that a place is in, from 0.
+    /// The number of the grid cell that contains a position, from 0.
     std::size_t cell_of(const Vec3& p) const;
     std::size_t cells() const { return counts_.size(); }
-    /// More than 4294967295 in a cell count as so many: it is divided by other means all the same.
+    /// Counts saturate at 4294967295, because other code divides such cells anyway.
     void count(std::size_t cell, std::uint32_t faces = 1) {
         std::uint32_t& counted = counts_[cell];
         counted += std::min(faces, UINT32_MAX - counted);
     }
-    /// Splits the grid at its planes: no leaf has more than `most`, but where a single cell of the grid has.
-    /// The counts are then those leaves' numbers, see leaf_of.
+    /// Splits the grid at its planes until no leaf has more than `most` faces, except single grid cells.
+    /// Replaces the counts by leaf numbers, see leaf_of.
     Tree split(std::uint64_t most);
     std::uint32_t leaf_of(std::size_t cell) const { return counts_[cell]; }
 

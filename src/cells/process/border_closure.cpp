@@ -14,11 +14,11 @@ namespace facetmill::cells {
 
 namespace {
 
-/// An edge between the part and the rest, as the part's face runs. The faces of the rest around a vertex are
-/// arcs, each between two such edges.
+/// An edge between the part and the rest, in the direction of the part's face. The rest's faces around a
+/// vertex form arcs, each between two such edges.
 struct FrameEdge {
     Index from, to;
-    Index arc_from, arc_to; ///< a corner of the arc at either end
+    Index arc_from, arc_to; ///< a corner of the arc at each end
     std::uint32_t sheet;
 };
 
@@ -58,7 +58,7 @@ class CollarMaker {
         const std::vector<Index> faces = corner_faces(mesh_);
         DisjointSets arcs(mesh_.corner_count());
         const auto after = [&](Index c) { return next_corner(mesh_, faces[c], c); };
-        std::vector<Index> at_frame; // of edges, the corner of the rest
+        std::vector<Index> at_frame; // of edges: the corner in the rest
         for (Index e = 0; e < edges.size(); ++e) {
             const auto corners = edges.corners_of(e);
             if (corners.size() != 2) continue;
@@ -77,7 +77,7 @@ class CollarMaker {
         for (std::size_t e = 0; e < frame_.size(); ++e) starting_.emplace(frame_[e].arc_from, e);
     }
 
-    /// A ring of faces along a loop of the frame, and a cap on it.
+    /// Adds a ring of faces along a loop of the frame, and a cap on it.
     void close_loop(std::size_t first, std::vector<bool>& done) {
         const Index tip = add_point();
         Cap cap;
@@ -92,8 +92,8 @@ class CollarMaker {
         caps_[frame_[first].sheet].push_back(std::move(cap));
     }
 
-    /// What hangs together in the rest does so here: through a tube from each cap to the next, in the place
-    /// of a face of either.
+    /// Connects caps of the same sheet of the rest: a tube from each cap to the next replaces a face of
+    /// each.
     void close_caps(const std::vector<Cap>& caps) {
         for (std::size_t k = 0; k < caps.size(); ++k) {
             const bool is_first = k == 0, is_last = k + 1 == caps.size();

@@ -1,25 +1,25 @@
 #pragma once
-// A part of a mesh closed by faces that stand for the rest of it.
+// Closes a part of a mesh by faces that represent the rest of the mesh.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill::cells {
 
-/// Faces of points (from the mesh's vertex count on) and vertices of the mesh, three corners each.
+/// Faces of three corners each: points (numbered from the mesh's vertex count) and vertices of the mesh.
 struct Collar {
     std::vector<Vec3> points;
     std::vector<Index> corners;
 };
 
-/// The rest is a surface that is closed and manifold, but where it meets the part. The collar meets the part
-/// the same way: around each vertex as many faces hang together, and hang together what does over the edges
-/// of the rest. So what is closed, manifold, or an open sheet in the whole is in the part with its collar.
-/// Its points are nowhere in particular: none is where a vertex is, and no face of it has no area (but for
-/// chance).
+/// Assumes that the rest is a closed manifold surface, except where it meets the part. The collar meets the
+/// part in the same way. Each vertex has the same number of face fans, and faces are connected if the rest's
+/// edges connect them. A part with its collar is therefore closed, manifold or an open sheet exactly as in
+/// the whole. The collar's points are arbitrary: none coincides with a vertex, and no face is degenerate
+/// (except by chance).
 ///
-/// part: [faces] not 0 for those of the part; the mesh also has all other faces that have a vertex of theirs.
-/// sheet: [faces] for the others, the number of what they hang together with over edges of the rest. Where
-/// nothing meets the part, the collar is a tetrahedron that stands apart.
+/// part: [faces] nonzero for faces of the part; the mesh also has all other faces with a vertex of these.
+/// sheet: [faces] for the others, the number of their component over edges of the rest. If the rest does not
+/// meet the part, the collar is a separate tetrahedron.
 Collar border_closure_of(const Mesh& mesh, const std::vector<std::uint8_t>& part,
                          const std::vector<std::uint32_t>& sheet);
 

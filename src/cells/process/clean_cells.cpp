@@ -26,18 +26,18 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr const char *sheet_name = "sheet",        ///< [faces] what they hang together with
-    *source_name = "facetmill_source",             ///< [vertices] their number in what was gathered
-        *border_closure_name = "facetmill_collar"; ///< [faces] 1: of the collar
+constexpr const char *sheet_name = "sheet",        ///< [faces] their component
+    *source_name = "facetmill_source",             ///< [vertices] their number in the gathered mesh
+        *border_closure_name = "facetmill_collar"; ///< [faces] 1: belongs to the collar
 constexpr std::uint32_t no_sheet = UINT32_MAX;
 
-/// Places by their names. One that has the name of another by chance is looked at in vain.
+/// A set of positions by their hashes. A hash collision only causes a needless check.
 class PlaceSet {
   public:
-    /// most: bytes. Throws limit (E-MEMORY) when they are more.
+    /// most: bytes. Throws limit (E-MEMORY) beyond these.
     explicit PlaceSet(std::uint64_t most) : most_(most) {}
     void add(const Vec3& p) {
-        constexpr std::uint64_t bytes_of_entry = 56; // a node as it is allocated, and buckets
+        constexpr std::uint64_t bytes_of_entry = 56; // an allocated node, and buckets
         names_.insert(name_of_place(p));
         if (names_.size() * bytes_of_entry > most_)
             throw out_of_memory(
@@ -54,11 +54,11 @@ class PlaceSet {
     std::uint64_t most_;
 };
 
-/// Finds the places at which clean may have something to do, and the area on the way.
+/// Finds the positions at which clean may have work, and sums the area.
 class UnsoundPlaces final : public RimVisitor {
   public:
     UnsoundPlaces(PlaceSet& places, const Transform& transform) : places_(places), transform_(transform) {}
-    double area = 0; ///< where the transform puts the mesh
+    double area = 0; ///< after the transform
     void read(Cell& cell) override { area += surface_size(cell.mesh, transform_, false).area; }
     void look(const Mesh& mesh, const std::vector<Turn>& turns) override {
         std::vector<std::uint8_t> unsound(mesh.vertex_count(), 0);
@@ -88,18 +88,18 @@ class UnsoundPlaces final : public RimVisitor {
 /// Faces as records of a numbered source.
 struct GatheredFaces {
     std::vector<std::uint32_t> numbers;
-    std::vector<std::uint32_t> sheets; ///< no_sheet: it is at an unsound place
+    std::vector<std::uint32_t> sheets; ///< no_sheet: at an unsound position
     io::Bytes records;
 };
 
-/// Gathers the faces at unsound places and those around them, and finds what of the rest hangs together.
+/// Gathers the faces at unsound positions and their neighbours, and finds the components of the rest.
 class RestOfMesh final : public RimVisitor {
   public:
     RestOfMesh(const Partition& partition, const PlaceSet& unsound, const PlaceSet& around)
         : partition_(partition), unsound_(unsound), around_(around) {}
 
     GatheredFaces gathered;
-    Box bounds; ///< of the faces that are at no unsound place
+    Box bounds; ///< of the faces away from unsound positions
     void finish() {
         for (std::uint32_t& sheet : gathered.sheets)
             if (sheet != no_sheet) sheet = sheets_.find(sheet);
@@ -113,7 +113,7 @@ class RestOfMesh final : public RimVisitor {
             around[v] = around_.has(mesh.positions[v]);
         }
         std::vector<Index> rest;
-        std::vector<std::uint8_t> beside(mesh.face_count(), 0); // of the rest: a vertex is around
+        std::vector<std::uint8_t> beside(mesh.face_count(), 0); // of the rest: has a vertex in around_
         for (Index f = 0; f < mesh.face_count(); ++f) {
             bool in_part = false;
             for (const Index v : mesh.face_wedges(f)) {
@@ -174,7 +174,7 @@ class RestOfMesh final : public RimVisitor {
     DisjointSets sheets_;
 };
 
-/// The faces in the order of the source.
+/// Sorts the faces into the order of the source.
 GatheredFaces in_order(const GatheredFaces& all) {
     std::vector<std::size_t> order(all.numbers.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -212,7 +212,7 @@ class CellCleaning {
         CleanResult result = unsound_.empty() ? untouched(attributes) : cleaned_part();
         const bool replaces = result.counts.total() > 0 || spared_ > 0;
         const std::size_t welded =
-            before_ - placed_->vertices() - spared_; // where clean had nothing to decide
+            before_ - placed_->vertices() - spared_; // vertices where clean had no decision to make
         result.counts.welded_vertices += welded;
         if (result.counts.welded_vertices > 0 && !attributes.empty())
             refuse(
@@ -226,11 +226,11 @@ class CellCleaning {
         else if (welded > 0)
             partition_ = std::move(placed_);
         result.mesh = {};
-        return {std::move(result), search.area, std::max(0.0, area_)}; // what is left may be a rounding
+        return {std::move(result), search.area, std::max(0.0, area_)}; // a negative remainder is rounding
     }
 
   private:
-    static constexpr std::uint64_t bytes_of_face = 600; ///< that clean takes, with what was gathered
+    static constexpr std::uint64_t bytes_of_face = 600; ///< memory of clean and of the gathered faces
 
     static CleanResult untouched(const std::vector<Attribute>& attributes) {
         CleanResult result;
@@ -238,7 +238,7 @@ class CellCleaning {
         return result;
     }
 
-    /// With its mesh, the collar in it.
+    /// The result with its mesh, which includes the collar.
     CleanResult cleaned_part() {
         gather();
         Mesh unsound = unsound_faces();
@@ -261,7 +261,7 @@ class CellCleaning {
                 "give more memory; load with weld: exact welds without it");
     }
 
-    /// Brings the faces at unsound places into memory, and those that have a vertex with them.
+    /// Loads the faces at unsound positions, and their neighbours.
     void gather() {
         std::uint64_t faces = 0;
         for (std::uint32_t leaf = 0; leaf < placed_->tree().leaves.size(); ++leaf) {
@@ -289,7 +289,7 @@ class CellCleaning {
         weld_sound_places();
     }
 
-    /// Vertices at sound places are welded without further ado; clean decides about the others.
+    /// Welds vertices at sound positions; clean decides about the others.
     void weld_sound_places() {
         if (settings_.weld == Nearness::off) return;
         std::vector<Index> sound;
@@ -307,7 +307,7 @@ class CellCleaning {
 
     double area_of(const Mesh& mesh) const { return surface_size(mesh, transform_, false).area; }
 
-    /// The faces at unsound places as they came, with all vertices that were gathered.
+    /// The unchanged faces at unsound positions, with all gathered vertices.
     Mesh unsound_faces() const {
         Mesh mesh;
         mesh.positions = whole_.mesh.positions;
@@ -317,7 +317,7 @@ class CellCleaning {
         return mesh;
     }
 
-    /// The mesh of unsound_faces(), the collar after them.
+    /// The mesh of unsound_faces(), followed by the collar.
     Mesh with_border_closure(Mesh mesh) const {
         const Mesh& whole = whole_.mesh;
         std::vector<std::uint8_t> in_part(whole.face_count());
@@ -343,7 +343,7 @@ class CellCleaning {
         return mesh;
     }
 
-    /// The cleaned faces in place of those that were gathered.
+    /// The cleaned faces that replace the gathered faces.
     Replacement replacement(const Mesh& cleaned) const {
         const auto& in_border_closure =
             std::get<std::vector<std::uint8_t>>(cleaned.find(border_closure_name, Domain::face)->data);
@@ -377,7 +377,7 @@ class CellCleaning {
         if (by.gone.size() == faces && by.come.mesh.face_count() == 0)
             throw Error(ErrorKind::stage, "E-EMPTY", "clean: no face of the mesh is left",
                         "what is left of a mesh in memory may be empty: --partition never");
-        placed_.reset(); // temporary data goes first
+        placed_.reset(); // release temporary data first
         partition_.reset();
         partition_ =
             std::make_unique<Partition>(replaced_source(numbered_, faces, std::move(by)), means_, most_);
@@ -389,15 +389,15 @@ class CellCleaning {
     const Transform& transform_;
     std::uint64_t most_;
     std::shared_ptr<FaceSource> plain_, numbered_;
-    std::uint64_t before_;              ///< vertices that faces use
+    std::uint64_t before_;              ///< vertices used by faces
     std::unique_ptr<Partition> placed_; ///< of the numbered source
     PlaceSet unsound_, around_;
     GatheredFaces faces_;
-    Piece whole_;            ///< what was gathered
-    std::size_t spared_ = 0; ///< vertices at unsound places, less these places: clean counts what it welds
+    Piece whole_;            ///< the gathered faces
+    std::size_t spared_ = 0; ///< vertices minus positions at unsound positions, which clean counts
     Box bounds_;
-    double area_ = 0;         ///< where the transform puts the mesh, as far as it is cleaned
-    double unsound_area_ = 0; ///< of the faces at unsound places, as they came
+    double area_ = 0;         ///< after the transform, of the faces cleaned so far
+    double unsound_area_ = 0; ///< of the faces at unsound positions, before cleaning
 };
 
 } // namespace

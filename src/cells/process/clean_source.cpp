@@ -30,7 +30,7 @@ class NumberedSource final : public FaceSource {
   public:
     NumberedSource(std::shared_ptr<FaceSource> plain, bool by_place)
         : FaceSource(plain->contents()), plain_(std::move(plain)), by_place_(by_place) {
-        own_contents().vertices = 0; // each is used
+        own_contents().vertices = 0; // faces use all vertices
     }
 
     std::size_t record_size() const override { return plain_->record_size() + number_size; }
@@ -61,7 +61,7 @@ class NumberedSource final : public FaceSource {
     }
 
   private:
-    /// Records with their numbers behind them.
+    /// Records followed by their numbers.
     class Numbered {
       public:
         explicit Numbered(std::size_t size) : bytes_(size) {}
@@ -135,7 +135,7 @@ class ReplacedSource final : public FaceSource {
     }
 
   private:
-    /// Whether faces are gone, asked in their order.
+    /// Whether faces are removed; query them in order.
     class Gone {
       public:
         explicit Gone(const std::vector<std::uint32_t>& numbers)
@@ -161,7 +161,7 @@ class ReplacedSource final : public FaceSource {
         }
     }
 
-    /// Both, the faces in the order that `first` tells: where the next is of the first.
+    /// Merges both pieces. `first` gives the order: whether the next face comes from the first piece.
     static Piece mixed(Piece all, const Piece& more, const std::vector<bool>& first) {
         std::size_t of_first = 0, of_more = all.mesh.corners.size();
         append(all.mesh, more.mesh);

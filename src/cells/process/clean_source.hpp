@@ -1,5 +1,5 @@
 #pragma once
-// A mesh with some of its faces in another form, as clean leaves it.
+// A mesh in which some faces are replaced, for the result of clean.
 
 #include "cells/sources/face_source.hpp"
 
@@ -7,22 +7,23 @@
 
 namespace facetmill::cells {
 
-/// The faces of a source with their numbers, which come last in a record as 32 bits. by_place: vertices at
-/// one place are one; else as the source has them.
+/// The faces of a source with their numbers, the last 32 bits of each record. by_place: merge vertices at
+/// the same position; else use the source's vertices.
 std::shared_ptr<FaceSource> numbered_source(std::shared_ptr<FaceSource> plain, bool by_place);
 
 /// The numbers in the records of a numbered source.
 std::vector<std::uint32_t> numbers_in(const FaceSource& numbered, io::Span records);
-/// ... and the records of the plain one.
+/// The same records without numbers, as the plain source has them.
 io::Bytes plain_records(const FaceSource& numbered, io::Span records);
 
 struct Replacement {
     std::vector<std::uint32_t> gone; ///< numbers of faces, ascending
-    Piece come;                      ///< faces in their place
-    Box bounds;                      ///< of all that stays and comes
+    Piece come;                      ///< their replacements
+    Box bounds;                      ///< of the remaining and the new faces
 };
 
-/// What stays of a numbered source of `faces` faces, then what comes. Vertices are one as in a Piece.
+/// The remaining faces of a numbered source of `faces` faces, then the new faces. Vertices are identified as
+/// in a Piece.
 std::shared_ptr<FaceSource> replaced_source(std::shared_ptr<FaceSource> numbered, std::uint32_t faces,
                                             Replacement by);
 

@@ -21,7 +21,7 @@ class CrumpleSource final : public FaceSource {
         Box bounds;
         each_batch(*still_, 0, [&](io::Span records) { bounds.add(piece(records).mesh.bounds()); });
         own_contents().bounds = bounds;
-        own_contents().vertices = 0; // each is used
+        own_contents().vertices = 0; // faces use all vertices
     }
 
     std::size_t record_size() const override { return still_->record_size(); }

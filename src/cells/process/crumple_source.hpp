@@ -1,5 +1,5 @@
 #pragma once
-// Triangles whose vertices are displaced as they are read: nothing is stored.
+// Displaces the vertices of triangles while reading them; stores nothing.
 
 #include "cells/partition/partition.hpp"
 #include "geometry/crumple/crumple.hpp"
@@ -7,20 +7,20 @@
 
 namespace facetmill::cells {
 
-/// The faces of the source with their vertices where crumple puts them: noise is of places, so each cell
-/// finds the same by itself. direction and boundary must be free and the mask empty. Normals and tangents,
-/// which need all faces of a vertex, are left out. Reads the source once. Throws as crumple.
+/// The source's faces with vertices displaced by crumple. Noise depends on positions, so each cell computes
+/// the same values independently. direction and boundary must be free and the mask empty. Drops normals and
+/// tangents, which need all faces of a vertex. Reads the source once. Throws as crumple.
 std::shared_ptr<FaceSource> crumple_source(std::shared_ptr<FaceSource> still,
                                            const CrumpleSettings& settings);
 
-/// What became of the vertices of a partition of a crumple_source, and the mean edge that they had.
+/// The displacements of the vertices in a partition of a crumple_source, and the original mean edge length.
 struct CrumpledCells {
     MoveSize moves;
     double mean_edge = 0;
 };
 CrumpledCells crumpled_cells(const Partition& partition, const FaceSource& still, const Transform& to_world);
 
-/// What crumple_source does to the attributes of a mesh.
+/// The changes that crumple_source makes to the attributes of a mesh.
 AttributeChanges crumple_changes(const Mesh& still);
 
 } // namespace facetmill::cells

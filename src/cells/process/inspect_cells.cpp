@@ -12,7 +12,7 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr const char* set_name = "set"; ///< [faces] the number of its set of connected faces
+constexpr const char* set_name = "set"; ///< [faces] the number of their connected set
 
 class CellInspection final : RimVisitor {
   public:
@@ -43,7 +43,7 @@ class CellInspection final : RimVisitor {
         add_labels(cell);
     }
 
-    /// What each face has by itself.
+    /// Adds the sums over single faces.
     void add_sums(const Mesh& mesh) {
         std::vector<Vec3> positions;
         positions.reserve(mesh.positions.size());
@@ -51,7 +51,7 @@ class CellInspection final : RimVisitor {
             positions.push_back(transform_.point(p));
             found_.bounds.add(positions.back());
         }
-        double area = 0, volume = 0; // of the cell, so that small terms meet small ones
+        double area = 0, volume = 0; // of the cell: summing per cell adds small terms to small terms
         for (Index f = 0; f < mesh.face_count(); ++f) {
             const Vec3 &a = positions[mesh.vertex(3 * f)], &b = positions[mesh.vertex(3 * f + 1)],
                        &c = positions[mesh.vertex(3 * f + 2)];
@@ -64,7 +64,7 @@ class CellInspection final : RimVisitor {
         volume_ += volume;
     }
 
-    /// Sets of faces that no other cell shares a vertex of are counted here, others get a number.
+    /// Counts sets of connected faces without shared vertices; numbers the other sets.
     void add_labels(Cell& cell) {
         const Components components = face_components(cell.mesh);
         std::vector<std::uint32_t> number(components.count, UINT32_MAX), of_face(cell.mesh.face_count());
@@ -81,7 +81,7 @@ class CellInspection final : RimVisitor {
         cell.mesh.attributes.push_back({set_name, Domain::face, Role::index, 1, false, std::move(of_face)});
     }
 
-    /// Faces that have a vertex in common hang together.
+    /// Joins the sets of faces that share a vertex.
     void meet(Mesh& mesh) override {
         const auto& of_face = std::get<std::vector<std::uint32_t>>(mesh.find(set_name, Domain::face)->data);
         std::vector<std::uint32_t> met(mesh.vertex_count(), UINT32_MAX);
@@ -106,7 +106,7 @@ class CellInspection final : RimVisitor {
         count_duplicates(mesh, turns);
     }
 
-    /// Faces with the same vertices come together where one of these is complete first.
+    /// Faces with the same vertices meet where the first of these vertices is complete.
     void count_duplicates(const Mesh& mesh, const std::vector<Turn>& turns) {
         for (const Index f : duplicate_faces(mesh)) {
             bool now = false, before = false;
@@ -124,7 +124,7 @@ class CellInspection final : RimVisitor {
     Vec3 middle_;
     Properties found_;
     Connectivity sums_;
-    DisjointSets sets_; ///< of faces that hang together, numbered as they are met
+    DisjointSets sets_; ///< of connected faces, numbered in the order of discovery
     std::int64_t inside_sets_ = 0;
     double volume_ = 0; ///< six times
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What measure tells of a mesh, of one in cells.
+// The results of measure for a mesh in cells.
 
 #include "cells/partition/partition.hpp"
 #include "geometry/measure/measure.hpp"
@@ -8,15 +8,14 @@ namespace facetmill::cells {
 
 struct CellMeasures {
     MassResult mass;
-    FaceResult faces; ///< without areas of faces
+    FaceResult faces; ///< without face areas
     EdgeResult edges;
     CurvatureResult curvature; ///< without values at vertices
 };
 
-/// The measures of the cells where the transform puts them. Counts, minima, maxima and medians are those of
-/// the mesh in memory; what is a sum is one in the order of the cells, so it may differ in the last digits,
-/// and so may the curvature at a vertex. All numbers are written to the scratch folder: about 70 bytes for a
-/// triangle. Throws as inspect_cells.
+/// The measures of the transformed cells. Counts, minima, maxima and medians equal the mesh in memory. Sums
+/// are in cell order, so their last digits may differ, and so may the curvature at a vertex. Writes all
+/// numbers to the scratch folder: about 70 bytes per triangle. Throws as inspect_cells.
 CellMeasures measure_cells(const Partition& partition, const Transform& transform, const CellResources& means,
                            const EdgeSettings& settings);
 

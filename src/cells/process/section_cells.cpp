@@ -11,7 +11,7 @@ namespace {
 
 double largest_of(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// No number is larger that comes up when a point of the box is transformed.
+/// An upper bound of all terms in the transform of a point in the box.
 double largest_term(const Box& box, const Transform& transform) {
     double most = 0;
     for (const auto& row : transform.m) {
@@ -39,7 +39,7 @@ Mesh faces_at_planes(const Partition& partition, const SectionSettings& settings
     plane.normal = plane.normal / length(plane.normal);
     plane.offset /= length(settings.plane.normal);
     const auto height = [&](const Vec3& p) { return side(plane, settings.to_world.point(p)); };
-    // Exact signs decide later which faces are cut; here some more are taken, beyond what rounding may move.
+    // Exact predicates decide later which faces are cut. This selects more faces than rounding could affect.
     constexpr double near = 1e-9;
     const double margin = near * (largest_term(partition.source().contents().bounds, settings.to_world) +
                                   largest_of(plane.through) + std::abs(plane.offset) +

@@ -16,7 +16,7 @@ namespace facetmill::cells {
 
 namespace {
 
-/// Points inside of a face, which no other face has.
+/// Interior points of a face, which no other face has.
 std::size_t inner_points(const FaceCut& how) {
     const auto n = static_cast<std::size_t>(how.grid);
     return n < 3 ? 0 : (n - 1) * (n - 2) / 2;
@@ -27,12 +27,13 @@ Mesh cut(const Mesh& mesh, const FaceCut& how) {
                          : grid_split(mesh, how.grid).mesh;
 }
 
-/// Adds the names of new vertices, which are those of the ends of edges, or of faces, each with a number.
+/// Adds the names of new vertices. They derive from the names of the edge's ends, or of the face, each with
+/// a number.
 void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<std::uint32_t>& numbers,
                        std::vector<std::uint64_t>& names) {
     const std::size_t points = how.grid == 0 ? 1 : static_cast<std::size_t>(how.grid) - 1;
     for (const auto& [a, b] : build_edges(whole).edges) {
-        const bool up = names[a] < names[b]; // from the lower name to the higher one, in any cell
+        const bool up = names[a] < names[b]; // from the lower name, as in every cell
         const std::uint64_t low = names[up ? a : b], high = names[up ? b : a];
         const std::uint64_t edge = hashed(hashed(how.pieces(), low), high);
         for (std::size_t i = 0; i < points; ++i)
@@ -43,14 +44,14 @@ void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<
             names.push_back(hashed(hashed(hashed(how.pieces(), UINT64_MAX), number), i));
 }
 
-/// A record is that of the face that is cut, its number where it has points of its own, and which of its
-/// pieces it is.
+/// A record has the record of the cut face, the face's number if it has interior points, and the index of
+/// the piece.
 class SplitSource final : public FaceSource {
   public:
     SplitSource(std::shared_ptr<FaceSource> whole, const FaceCut& how)
         : FaceSource(whole->contents()), whole_(std::move(whole)), how_(how), size_(whole_->record_size()),
           head_(size_ + (inner_points(how) > 0 ? sizeof(std::uint32_t) : 0)) {
-        own_contents().vertices = 0; // each is used
+        own_contents().vertices = 0; // faces use all vertices
     }
 
     std::size_t record_size() const override { return head_ + 1; }
@@ -59,7 +60,7 @@ class SplitSource final : public FaceSource {
         constexpr std::size_t pieces_at_once = 1 << 15;
         const std::size_t at_once = std::max<std::size_t>(1, pieces_at_once / how_.pieces());
         io::Bytes waiting;
-        std::uint32_t number = 0; // of the first that waits
+        std::uint32_t number = 0; // of the first waiting face
         whole_->each(
             [&](const Vec3&, io::Span record) {
                 waiting.insert(waiting.end(), record.begin(), record.end());
@@ -84,7 +85,7 @@ class SplitSource final : public FaceSource {
     }
 
     Piece piece(io::Span records) const override {
-        io::Bytes parents; // each once where it comes several times in a row
+        io::Bytes parents; // without consecutive repeats
         std::vector<std::uint32_t> numbers;
         std::vector<Index> faces;
         for (io::Span last; !records.empty(); records = records.subspan(head_ + 1)) {
@@ -133,7 +134,7 @@ class SplitSource final : public FaceSource {
 
     std::shared_ptr<FaceSource> whole_;
     FaceCut how_;
-    std::size_t size_, head_; ///< of a record: of the whole, and with the face's number
+    std::size_t size_, head_; ///< record sizes: of the whole, and with the face's number
 };
 
 class SpotCount final : public RimVisitor {

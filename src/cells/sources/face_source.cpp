@@ -29,18 +29,18 @@ constexpr std::size_t mapped_from = std::size_t{1} << 16; ///< bytes
                 "run it again while no other program writes to it");
 }
 
-/// Whether it is compressed, under whatever name.
+/// Whether the file is compressed, whatever its name.
 bool is_packed(const std::filesystem::path& path) {
     if (io::packing_named(path) != io::Packing::none) return true;
     constexpr std::uintmax_t magic = 8;
     std::error_code error;
     io::Bytes first(std::min(magic, std::filesystem::file_size(path, error)));
-    if (error) return false; // opening it will tell
+    if (error) return false; // opening the file reports the error
     ReadFile(path).read(0, first);
     return io::packing_of(first) != io::Packing::none;
 }
 
-/// As io::read_scene takes it: by content where it is sure, else by the suffix.
+/// The format that io::read_scene would choose: by content if certain, else by the suffix.
 Format format_of(const io::Input& input) {
     const io::Codec* codec = io::sure_codec(input);
     if (!codec) codec = io::codec_for(input.path());
@@ -89,7 +89,7 @@ std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSetti
     return gltf_rows(input, settings);
 }
 
-/// The way a file's numbers are meant, which must be the same for all that say it.
+/// Takes the unit and axis of a file. All files that state them must agree.
 void take_convention(const io::Input& input, const io::ReadSettings& settings,
                      FaceSource::Contents& contents) {
     const io::FileHeader header = io::file_header(input, settings);
@@ -113,7 +113,8 @@ bool same_properties(const std::vector<io::ply::Property>& a, const std::vector<
                       [](const auto& p, const auto& q) { return p.name == q.name && p.type == q.type; });
 }
 
-/// Attributes that all files have alike; where places make vertices, none: a vertex has one value of each.
+/// Attributes that all files share. None if positions define vertices, because a vertex has a single value
+/// of each.
 std::vector<io::ply::Property> common_properties(const std::vector<std::unique_ptr<RowReader>>& readers,
                                                  const io::ReadSettings& settings,
                                                  std::vector<std::string>& dropped) {
@@ -128,11 +129,11 @@ std::vector<io::ply::Property> common_properties(const std::vector<std::unique_p
 
 struct RowMeans {
     std::filesystem::path scratch;
-    std::size_t memory; ///< that reading may take
+    std::size_t memory; ///< limit for reading
     bool or_none;       ///< see stl_rows
 };
 
-/// Files that are written as rows first. Null: see stl_rows.
+/// Opens files that are first converted to rows. Null: see stl_rows.
 std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, const io::ReadSettings& settings,
                                       const RowMeans& means, FaceSource::Contents contents) {
     std::vector<std::unique_ptr<RowReader>> readers;
@@ -146,7 +147,7 @@ std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, cons
     RowWriter writer(means.scratch, extra, single ? io::ply::Type::float32 : io::ply::Type::float64);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         take_convention(inputs[i], settings, contents);
-        const FaceSource::File file = open_again(inputs[i]); // closed when it is read: there may be very many
+        const FaceSource::File file = open_again(inputs[i]); // closed after reading: files may be many
         contents.files.push_back({inputs[i], readers[i]->read(file.file, writer, !extra.empty()), nullptr});
         if (contents.files.back().sha256.empty()) return nullptr;
         require_as_opened({file});
@@ -181,7 +182,7 @@ FaceSource::File open_again(const io::Input& input) {
     const io::Span seen = input.bytes();
     const std::optional<FileStamp>& stamp = file.file->stamp();
     bool same = stamp && stamp->bytes == seen.size();
-    if (same && seen.size() < mapped_from) { // seen is a copy
+    if (same && seen.size() < mapped_from) { // small files are copied into memory
         io::Bytes again(seen.size());
         file.file->read(0, again);
         same = std::equal(again.begin(), again.end(), seen.begin());
@@ -213,7 +214,7 @@ std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
 }
 
 std::uint64_t estimated_faces(const std::filesystem::path& path) {
-    constexpr std::uint64_t text_bytes = 30, packed_bytes = 8; // of a face, in OBJ; in gzip and Draco
+    constexpr std::uint64_t text_bytes = 30, packed_bytes = 8; // per face, in OBJ; in gzip and Draco
     constexpr std::uint64_t stl_text_bytes = 200;
     std::error_code ignored;
     if (path == "-" || io::is_stream(path)) return 0;

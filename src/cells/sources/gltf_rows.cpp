@@ -1,4 +1,4 @@
-// glTF as rows: positions and triangles of plain accessors, read from the file in pieces, in the world.
+// glTF as rows: positions and triangles of plain accessors, read from the file in pieces, in world space.
 
 #include "cells/sources/gltf_rows.hpp"
 
@@ -47,7 +47,7 @@ std::optional<std::string> why_primitive_not(const Json& json, const gltf::JsonC
     if (const auto extensions = primitive.find("extensions"))
         for (const char* name : {"KHR_draco_mesh_compression", "EXT_mesh_manifold"})
             if (extensions->find(name)) return fmt::format("{} uses {}", primitive.path(), name);
-    if (!gltf::makes_triangles(primitive)) return {}; // it is passed over
+    if (!gltf::makes_triangles(primitive)) return {}; // it is skipped
     if (primitive.natural_or("mode", triangle_list) != triangle_list)
         return fmt::format("{} has triangle strips or fans", primitive.path());
     const gltf::JsonCursor position = primitive.at("attributes").at("POSITION");
@@ -122,7 +122,7 @@ class GltfReader final : public RowReader {
         return sum.digest();
     }
 
-    /// Where the elements of an accessor stand.
+    /// The location of an accessor's elements.
     struct Elements {
         std::shared_ptr<const ReadFile> file;
         std::uint64_t begin = 0, end = 0, count = 0;
@@ -154,7 +154,7 @@ class GltfReader final : public RowReader {
         return e;
     }
 
-    /// The file of a view, and where the view begins in it.
+    /// Opens the file of a view and finds the offset of the view.
     void open_buffer(const gltf::JsonCursor& view, std::uint64_t length, Elements& e) {
         const std::size_t number = view.at("buffer").index(gltf::count_of(json_, "buffers"), "buffer");
         const std::string uri = gltf::item(json_, "buffers", number).text_or("uri", "");
@@ -218,7 +218,7 @@ class GltfReader final : public RowReader {
         for (std::uint64_t i = 0; i < count / 3 * 3; ++i) {
             std::uint64_t index = i;
             if (from) {
-                index = 0; // numbers of glTF are little-endian
+                index = 0; // glTF numbers are little-endian
                 std::memcpy(&index, from->take(e.size), e.size);
                 if (i + 1 < count) from->skip(e.stride - e.size);
                 if (index >= vertices)
@@ -237,7 +237,7 @@ class GltfReader final : public RowReader {
     Identity identity_;
     gltf::Chunks chunks_;
     Json json_;
-    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< beside the document
+    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< next to the document
 };
 
 } // namespace

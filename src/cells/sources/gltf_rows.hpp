@@ -6,9 +6,9 @@
 namespace facetmill::cells {
 
 bool is_gltf(const io::Input& input);
-/// Why a glTF cannot be read face by face, in words; none when it can. Throws malformed.
+/// The reason why a glTF cannot be read face by face, for messages; none if it can. Throws malformed.
 std::optional<std::string> why_gltf_not_streamed(const io::Input& input);
-/// Of all placed meshes.
+/// The faces of all placed meshes.
 std::uint64_t gltf_faces(const io::Input& input);
 
 } // namespace facetmill::cells

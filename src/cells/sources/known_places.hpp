@@ -1,6 +1,6 @@
 #pragma once
-// Numbers of places that came before, in a given memory: so that a file that has each vertex with each of its
-// faces becomes one that has most of them once.
+// Numbers of recent positions within a memory limit. Files that repeat each vertex for each of its faces
+// thus get most vertices only once.
 
 #include "base/math/random.hpp"
 #include "mesh/mesh.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill::cells {
 
-/// The bits of three float32: -0 is another place than 0.
+/// The bits of three float32; -0 differs from 0.
 using PlaceBits = std::array<std::uint32_t, 3>;
 
 class KnownPositions {
@@ -17,8 +17,8 @@ class KnownPositions {
     /// memory: bytes.
     explicit KnownPositions(std::size_t memory) : memory_(memory), table_(least) {}
 
-    /// The number that the place had before, or `next`, which it has from now on. Where memory ends, all are
-    /// forgotten, so the place may get another number.
+    /// The number of the position, or `next` for a new position. When memory runs out, the table is cleared,
+    /// so a position may get a second number.
     std::uint32_t number(const PlaceBits& place, std::uint32_t next) {
         if (4 * (count_ + 1) > 3 * table_.size()) make_room();
         Entry& entry = slot_of(place);
@@ -28,7 +28,7 @@ class KnownPositions {
         }
         return entry.number;
     }
-    /// Whether no place can have got two numbers.
+    /// Whether every position has a single number.
     bool are_all() const { return !forgot_; }
 
   private:
@@ -38,7 +38,7 @@ class KnownPositions {
         std::uint32_t number = none;
     };
 
-    /// The entry of the place, or the empty one where it is to be.
+    /// The entry of the position, or the empty slot for it.
     Entry& slot_of(const PlaceBits& place) {
         const std::uint64_t two = std::uint64_t{place[0]} << 32 | place[1];
         std::size_t slot = hashed(hashed(0, two), place[2]) & (table_.size() - 1);
@@ -49,7 +49,7 @@ class KnownPositions {
 
     void make_room() {
         const std::size_t larger = 2 * table_.size();
-        if ((larger + table_.size()) * sizeof(Entry) > memory_) { // both are there for a moment
+        if ((larger + table_.size()) * sizeof(Entry) > memory_) { // both tables exist during the copy
             table_.assign(table_.size(), {});
             count_ = 0;
             forgot_ = true;

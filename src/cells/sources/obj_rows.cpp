@@ -1,5 +1,5 @@
-// Wavefront OBJ as rows: positions, the colours that follow them, and faces. What a face says of texture
-// points, normals, materials and groups is told and left out.
+// Wavefront OBJ as rows: positions, vertex colours after them, and faces. Texture coordinates, normals,
+// materials and groups are dropped and reported.
 
 #include "cells/sources/rows.hpp"
 #include "cells/sources/text_window.hpp"
@@ -15,14 +15,14 @@ namespace {
 constexpr std::size_t with_colour = 6; ///< numbers of a vertex
 constexpr std::size_t longest_word = 20;
 
-/// What a statement is.
+/// The kind and data of a statement.
 struct Statement {
     enum class Kind { other, vertex, face };
     Kind kind = Kind::other;
     std::string word; ///< of others
     std::array<double, 8> numbers{};
     std::size_t count = 0;             ///< of numbers
-    std::vector<std::int64_t> corners; ///< as written: from 1, negative: back from here
+    std::vector<std::int64_t> corners; ///< as written: from 1; negative: relative to the last vertex
     std::int64_t line = 0;
 };
 
@@ -49,7 +49,7 @@ class ObjReader final : public RowReader {
         TextWindow window(*file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', &sum);
         out.begin_group(identity_);
         const std::uint64_t base = out.vertices();
-        std::int64_t highest = 0; // of the vertices that faces name, from 1
+        std::int64_t highest = 0; // of the vertices that faces use, from 1
         Statement s;
         while (window.left() > 0) {
             window.item([&](io::Text& text) { parse(text, s); });
@@ -72,7 +72,7 @@ class ObjReader final : public RowReader {
     }
 
   private:
-    /// One statement, up to the beginning of the next line.
+    /// Parses a statement up to the beginning of the next line.
     void parse(io::Text& text, Statement& s) const {
         s.kind = Statement::Kind::other;
         s.count = 0;
@@ -90,7 +90,7 @@ class ObjReader final : public RowReader {
         } else {
             s.word.assign(word.substr(0, longest_word));
             while (!text.word_on_line().empty()) {
-            } // with the lines that it goes on for
+            } // including continuation lines
         }
         text.next_line();
     }
@@ -103,7 +103,7 @@ class ObjReader final : public RowReader {
         lines_ |= word == "l" || word == "p";
     }
 
-    /// v, v/vt, v//vn, v/vt/vn; a slash with nothing behind it is let pass. The position's index.
+    /// v, v/vt, v//vn, v/vt/vn; a trailing slash is accepted. Returns the position's index.
     static std::int64_t corner(io::Text& text) {
         const io::Text start = text;
         std::int64_t found = 0;
@@ -127,7 +127,7 @@ class ObjReader final : public RowReader {
     }
 
     void vertex(RowWriter& out, const Statement& s, bool coloured) {
-        std::array<float, 3> colour{1, 1, 1}; // where the file gives none
+        std::array<float, 3> colour{1, 1, 1}; // the default without a colour in the file
         for (std::size_t c = 0; s.count >= with_colour && c < 3; ++c)
             colour[c] = static_cast<float>(s.numbers[3 + c]);
         late_colours_ |= s.count >= with_colour && extra.empty();
@@ -135,7 +135,7 @@ class ObjReader final : public RowReader {
                    coloured ? std::as_bytes(std::span(colour)) : io::Span{});
     }
 
-    /// The highest vertex that it names, from 1; vertices may follow their faces.
+    /// Returns the highest vertex that the face names, from 1, because vertices may follow their faces.
     std::int64_t face(RowWriter& out, const Statement& s, std::uint64_t base, std::int64_t known) {
         std::int64_t highest = 0;
         rows_.clear();
@@ -149,7 +149,7 @@ class ObjReader final : public RowReader {
         return s.corners.size() >= 3 ? highest : 0;
     }
 
-    /// The line of the first face that names a vertex beyond the last.
+    /// The line of the first face that names a missing vertex.
     std::int64_t first_bad(const ReadFile& file, std::int64_t all) const {
         TextWindow window(file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', nullptr);
         Statement s;
@@ -170,7 +170,7 @@ class ObjReader final : public RowReader {
     io::Input input_;
     Identity identity_;
     std::vector<std::uint32_t> rows_;
-    /// What the file has and rows have not.
+    /// Contents of the file that rows do not hold.
     bool uvs_ = false, normals_ = false, materials_ = false, lines_ = false, late_colours_ = false;
     std::size_t groups_ = 0;
 };

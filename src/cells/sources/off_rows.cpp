@@ -1,4 +1,4 @@
-// OFF text as rows: positions and faces. Normals, colours and texture coordinates are told and left out.
+// OFF text as rows: positions and faces. Normals, colours and texture coordinates are dropped and reported.
 
 #include "cells/sources/off_rows.hpp"
 
@@ -29,7 +29,7 @@ class OffReader final : public RowReader {
             vertices = text.integer("the number of vertices");
             faces = text.integer("the number of faces");
             check(text, vertices, faces, text.left() + window.left() - window.text().left());
-            text.rest_of_line(); // the number of edges, where there is one: it is not used
+            text.rest_of_line(); // the number of edges, if given, is unused
         });
         for (std::int64_t v = 0; v < vertices; ++v) vertex(window, out);
         for (std::int64_t f = 0; f < faces; ++f) face(window, vertices, out);
@@ -42,7 +42,7 @@ class OffReader final : public RowReader {
     }
 
   private:
-    /// Refuses counts that the bytes left cannot fill.
+    /// Refuses counts that the remaining bytes cannot fill.
     static void check(const io::Text& text, std::int64_t vertices, std::int64_t faces, std::uint64_t left) {
         constexpr std::uint64_t per_vertex = 6, per_face = 2;
         if (vertices < 0 || faces < 0)
@@ -54,7 +54,7 @@ class OffReader final : public RowReader {
                             vertices, faces, left));
     }
 
-    /// The numbers that are left on the line but for the last `more`: those of a colour, four at most.
+    /// Skips the numbers left on the line except the last `more`: a colour of at most four numbers.
     static void pass_colour(io::Text& text, int more) {
         int left = 0;
         for (io::Text ahead = text; !ahead.word_on_line().empty();) ++left;

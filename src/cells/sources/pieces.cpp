@@ -11,7 +11,7 @@ namespace facetmill::cells {
 std::uint64_t name_of_place(const Vec3& p, std::uint64_t seed) {
     std::uint64_t name = seed;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        name = hashed(name, std::bit_cast<std::uint64_t>(p[axis] + 0.0)); // -0 is 0
+        name = hashed(name, std::bit_cast<std::uint64_t>(p[axis] + 0.0)); // -0 equals 0
     return name;
 }
 

@@ -21,7 +21,7 @@ bool has_list(const ply::Element& e) {
     return std::any_of(e.properties.begin(), e.properties.end(), [](const auto& p) { return p.list; });
 }
 
-/// Where vertices and faces of a binary file stand.
+/// The locations of vertices and faces in a binary file.
 Rows rows_of(const io::Input& input, const std::shared_ptr<const ReadFile>& file, const ply::Header& header) {
     const std::uint64_t bytes = input.bytes().size();
     Rows rows;
@@ -64,7 +64,7 @@ void name_dropped(const ply::Header& header, std::vector<std::string>& dropped) 
 
 bool is_coordinate(const ply::Property& p) { return p.name == "x" || p.name == "y" || p.name == "z"; }
 
-/// Properties of vertices beside the position.
+/// Vertex properties except the position.
 std::vector<ply::Property> others(const std::vector<ply::Property>& properties) {
     std::vector<ply::Property> all;
     for (const auto& p : properties)
@@ -151,7 +151,7 @@ class PlyReader final : public RowReader {
         return sum.digest();
     }
 
-    /// A number as the bytes that a binary file would have for it.
+    /// Appends the number in a binary file's form.
     static void put(io::Text& text, const ply::Property& p, double value, io::Bytes& to) {
         AttributeData one = ply::array_of(p.type);
         std::visit(
@@ -168,7 +168,7 @@ class PlyReader final : public RowReader {
             one);
     }
 
-    /// A coordinate as the file's type holds it.
+    /// A coordinate rounded to the file's type.
     static double rounded(const ply::Property& p, double value) {
         return p.type == ply::Type::float32 ? static_cast<double>(static_cast<float>(value)) : value;
     }
@@ -197,7 +197,7 @@ class PlyReader final : public RowReader {
         out.vertex(p, more_);
     }
 
-    /// faces: where a face goes; null for elements that are passed over.
+    /// faces: receives the faces; null for skipped elements.
     void read_item(TextWindow& window, const ply::Element& e, std::uint64_t number, RowWriter* faces) {
         window.item([&](io::Text& text) {
             corners_.clear();

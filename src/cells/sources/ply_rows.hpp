@@ -1,13 +1,14 @@
 #pragma once
-// PLY: a binary file is rows itself, text becomes rows.
+// PLY: a binary file is read as rows directly; text is converted to rows.
 
 #include "cells/sources/face_source.hpp"
 
 namespace facetmill::cells {
 
-/// Why a PLY file cannot be read face by face, in words; none when it can. Throws malformed for a bad header.
+/// The reason why a PLY file cannot be read face by face, for messages; none if it can. Throws malformed for
+/// a bad header.
 std::optional<std::string> why_ply_not_streamed(const io::Input& input);
-/// As the header says.
+/// The count in the header.
 std::uint64_t ply_faces(const io::Input& input);
 bool is_text_ply(const io::Input& input);
 /// A binary file. Throws as open_faces.

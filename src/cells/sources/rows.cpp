@@ -21,7 +21,7 @@ namespace ply = io::ply;
 
 namespace {
 
-constexpr std::uint64_t usual_corners = 3; // of a packed face, which its count is a difference from
+constexpr std::uint64_t usual_corners = 3; // a packed face stores its count as the difference from this
 
 template <class T>
 T number_at(const std::byte* at, bool swap) {
@@ -178,7 +178,7 @@ void RowWriter::face(std::span<const std::uint32_t> corners) {
 
 namespace {
 
-/// A face that RowWriter packed. last: the corner before it, 0 at first. Throws output (E-SCRATCH).
+/// Reads a face packed by RowWriter. last: the previous corner, 0 at first. Throws output (E-SCRATCH).
 void read_packed_face(const Rows& rows, Stream& faces, std::uint32_t& last,
                       std::vector<std::uint32_t>& corners) {
     const auto next = [&] {
@@ -205,7 +205,7 @@ Rows RowWriter::finish() {
 
 namespace {
 
-/// A triangle's record: its rows' numbers.
+/// A triangle's record: the numbers of its rows.
 using Corners = std::array<std::uint32_t, 3>;
 
 class RowSource final : public FaceSource {
@@ -312,7 +312,7 @@ class RowSource final : public FaceSource {
         return name_of_place(p, group.identity == Identity::place ? 0 : group.first);
     }
 
-    /// Orders vertices as their groups say. The names are their numbers.
+    /// Orders vertices by first use if their groups require it. Names equal the row numbers.
     void put_in_order_of_use(Piece& piece) const {
         const auto corners = static_cast<Index>(piece.mesh.corners.size());
         std::vector<Index> first(piece.names.size(), none), order(first.size()), place(first.size());
@@ -341,7 +341,7 @@ class RowSource final : public FaceSource {
                                              memory);
     }
 
-    /// Calls give(corners) for each triangle. vertices: for those that polygons become.
+    /// Calls give(corners) for each triangle. vertices: for triangulating polygons.
     template <class Give>
     void each_triangle(RecordCache& vertices, Give&& give) {
         const std::unique_ptr<Sha256> sum = std::move(begun_);
@@ -367,7 +367,7 @@ class RowSource final : public FaceSource {
         own_contents().files.front().sha256 = sum->digest();
     }
 
-    /// As the same file read whole is triangulated.
+    /// Triangulates as a read of the whole file does.
     template <class Give>
     void give_polygon(const std::vector<std::uint32_t>& corners, RecordCache& vertices, Give&& give) const {
         Mesh polygon;
@@ -383,9 +383,9 @@ class RowSource final : public FaceSource {
                          corners[polygon.corners[c + 2]]});
     }
 
-    /// The rows of some corners.
+    /// The distinct rows of some corners.
     struct Ranks {
-        std::vector<std::uint32_t> numbers; ///< each once, ascending
+        std::vector<std::uint32_t> numbers; ///< distinct, ascending
         std::vector<Index> of;              ///< [corners] into numbers
     };
 
@@ -413,10 +413,10 @@ class RowSource final : public FaceSource {
         return ranks;
     }
 
-    /// Each row once, ascending.
+    /// Distinct row numbers, ascending.
     static std::vector<std::uint32_t> numbers_of(io::Span records) { return ranks_of(records).numbers; }
 
-    /// Whether rows have no attributes.
+    /// Whether rows hold only positions.
     bool has_places_only() const {
         constexpr std::array<const char*, 3> axes{"x", "y", "z"};
         return rows_.vertex.size() == axes.size() &&
@@ -435,7 +435,7 @@ class RowSource final : public FaceSource {
         return mesh;
     }
 
-    /// With the attributes that reading a file of these rows gives.
+    /// A mesh with the attributes that a file of these rows would give.
     Mesh mesh_of_rows(io::Span rows, const Ranks& ranks) const {
         io::Bytes bytes = header_of(ranks.numbers.size(), ranks.of.size() / 3);
         bytes.insert(bytes.end(), rows.begin(), rows.end());
@@ -451,7 +451,7 @@ class RowSource final : public FaceSource {
         return std::move(scene.parts.front().mesh);
     }
 
-    /// Of a file of some of the vertices and faces.
+    /// The header of a file with some of the vertices and faces.
     io::Bytes header_of(std::size_t vertices, std::size_t faces) const {
         static constexpr const char* types[] = {"float",  "double", "uchar", "char",
                                                 "ushort", "short",  "uint",  "int"};
@@ -469,12 +469,12 @@ class RowSource final : public FaceSource {
     io::ReadSettings settings_;
     Coordinates coordinates_;
     std::size_t stride_;
-    bool is_file_;                      ///< the rows are the first file, whose digest is taken on the way
-    bool scanned_ = false;              ///< by scan()
-    std::unique_ptr<Sha256> begun_;     ///< after scan(): of the file up to its faces
-    std::unique_ptr<RecordCache> held_; ///< after scan(): the vertices, where there is room for all
-    bool by_place_ = false;             ///< some vertices are known by their place
-    bool by_use_ = false;               ///< some groups are
+    bool is_file_;                      ///< the rows are the first file, which is hashed during reading
+    bool scanned_ = false;              ///< set by scan()
+    std::unique_ptr<Sha256> begun_;     ///< after scan(): of the file before its faces
+    std::unique_ptr<RecordCache> held_; ///< after scan(): the vertices, if all fit
+    bool by_place_ = false;             ///< some vertices are identified by position
+    bool by_use_ = false;               ///< some groups use the order of first use
 };
 
 } // namespace

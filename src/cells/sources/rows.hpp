@@ -1,6 +1,6 @@
 #pragma once
-// A mesh as rows in files: one of a vertex, one of the corners of a face. That of a binary PLY is the file
-// itself; files of other formats, and several files, are written as rows first.
+// A mesh as rows in files: a row per vertex, and a row of corners per face. A binary PLY already has this
+// form; other formats, and several files, are first converted to rows.
 
 #include "cells/sources/face_source.hpp"
 #include "cells/storage/block_file.hpp"
@@ -10,39 +10,39 @@
 
 namespace facetmill::cells {
 
-/// What makes two rows one vertex.
+/// The condition for two rows to be the same vertex.
 enum class Identity : std::uint8_t {
-    number,         ///< nothing: each row is one
+    number,         ///< never: each row is a vertex
     place_in_group, ///< the same position, in the same group
     place           ///< the same position
 };
 
 struct Rows {
-    /// Vertices from `first` up to the next group's. A file, or a part of it.
+    /// Vertices from `first` to the next group: a file, or a part of a file.
     struct Group {
         std::uint64_t first = 0;
         Identity identity = Identity::number;
-        bool by_use = false; ///< vertices of a piece are in the order in which its faces name them first
+        bool by_use = false; ///< vertices of a piece are in the order of first use by its faces
     };
     std::shared_ptr<const ReadFile> vertices, faces;
     std::uint64_t vertices_at = 0, vertex_count = 0;
     std::uint64_t faces_at = 0, faces_end = 0, face_count = 0;
-    std::vector<io::ply::Property> vertex;       ///< what a row holds, x, y and z among it; no lists
-    std::vector<io::ply::Property> face;         ///< one list, the corners
+    std::vector<io::ply::Property> vertex;       ///< the fields of a row, including x, y and z; no lists
+    std::vector<io::ply::Property> face;         ///< a single list, the corners
     std::int64_t vertex_line = 0, face_line = 0; ///< of the PLY file, for messages
-    bool swap = false;                           ///< whether numbers have the other order of bytes
-    /// Faces are as RowWriter packs them, in this folder; none: as `face` says.
+    bool swap = false;                           ///< whether numbers have the opposite byte order
+    /// The folder of faces packed by RowWriter; none: faces have the form of `face`.
     std::optional<std::filesystem::path> packed{};
-    std::vector<Group> groups; ///< ascending; empty: one, Identity::number
+    std::vector<Group> groups; ///< ascending; empty: a single group with Identity::number
 };
 
-/// The bytes of a row of a vertex.
+/// The bytes of a vertex row.
 std::size_t row_size(const std::vector<io::ply::Property>& properties);
 
-/// Where the coordinates of a vertex stand in its row.
+/// The offsets of the coordinates in a vertex row.
 class Coordinates {
   public:
-    /// Throws malformed (E-PLY) when one is missing.
+    /// Throws malformed (E-PLY) if a coordinate is missing.
     Coordinates(const Rows& rows, const std::string& file);
     Vec3 of(const std::byte* row) const;
 
@@ -52,35 +52,35 @@ class Coordinates {
     bool swap_;
 };
 
-/// The hint of E-NAN: cells leave out nothing.
+/// The hint of E-NAN: cells cannot drop vertices.
 inline constexpr const char* not_finite_hint =
     "load: {not_finite: drop} leaves out such vertices and the faces at them; the file is read whole then";
 
-/// The position of a vertex of a file; its number is for messages. Throws malformed (E-NAN) when it is not
+/// The position of a file's vertex; its number is for messages. Throws malformed (E-NAN) if it is not
 /// finite.
 Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uint64_t number,
                   const std::string& file);
 /// The corners of the next face; its number is for messages. Throws malformed (E-PLY).
 void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
                std::vector<std::uint32_t>& corners);
-/// Throws malformed (E-PLY): the file ends in that item of that element.
+/// Throws malformed (E-PLY): the file ends within that item of that element.
 [[noreturn]] void ends_in(const std::string& file, std::uint64_t bytes, const std::string& element,
                           std::uint64_t item, std::uint64_t count);
 
-/// Rows that are written to temporary files.
+/// Writes rows to temporary files.
 class RowWriter {
   public:
-    /// extra: attributes of vertices that rows hold beside the position, whose coordinates are `coordinate`s.
+    /// extra: vertex attributes in rows besides the position. coordinate: the type of coordinates.
     RowWriter(const std::filesystem::path& scratch, std::vector<io::ply::Property> extra,
               io::ply::Type coordinate = io::ply::Type::float64);
-    /// Vertices that follow are of another group. by_use: see Rows::Group.
+    /// Starts a new group of vertices. by_use: see Rows::Group.
     void begin_group(Identity identity, bool by_use = false);
-    /// The group turns out to have each place once.
+    /// Use if every position in the group proves to be unique.
     void identify_by_number() { rows_.groups.back().identity = Identity::number; }
-    /// extra: the attributes as the properties say, this machine's bytes.
+    /// extra: the attribute bytes in the order of the properties, in native byte order.
     void vertex(const Vec3& p, io::Span extra);
-    /// Rows that were or will be written, counted from the first. Faces of fewer than three corners are
-    /// counted only.
+    /// Row numbers, from 0, of rows already written or still to come. Faces of fewer than three corners are
+    /// only counted.
     void face(std::span<const std::uint32_t> corners);
 
     std::uint64_t vertices() const { return rows_.vertex_count; }
@@ -102,32 +102,31 @@ class RowWriter {
     std::uint64_t short_faces_ = 0;
 };
 
-/// Reads a file into rows, from its beginning to its end.
+/// Reads a whole file into rows, in order.
 class RowReader {
   public:
     virtual ~RowReader() = default;
-    /// Attributes that vertices have in the file, as far as rows carry them.
+    /// Vertex attributes of the file that rows can hold.
     std::vector<io::ply::Property> extra{};
-    io::ply::Type coordinate = io::ply::Type::float64; ///< what holds those of the file: float32 or float64
-    std::vector<std::string> dropped{};                ///< after read: what is not carried, in words
-    std::vector<FaceSource::File> neighbours{};        ///< after read: other files that were read
-    /// file: the input, to be read. with_extra: whether the writer's rows hold `extra`; else they hold none.
-    /// Throws as io::read_scene. Returns the file's digest; none: see stl_rows.
+    io::ply::Type coordinate = io::ply::Type::float64; ///< the file's type: float32 or float64
+    std::vector<std::string> dropped{};                ///< after read: dropped contents, for messages
+    std::vector<FaceSource::File> neighbours{};        ///< after read: neighbours that were read
+    /// file: the input for reading. with_extra: whether the writer's rows hold `extra`. Returns the file's
+    /// digest; none: see stl_rows. Throws as io::read_scene.
     virtual std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out,
                              bool with_extra) = 0;
 };
 
-/// Readers, by format. The file must be one that why_not_streamed has no word against.
+/// Readers by format. why_not_streamed must accept the file.
 std::unique_ptr<RowReader> gltf_rows(const io::Input& input, const io::ReadSettings& settings);
 std::unique_ptr<RowReader> obj_rows(const io::Input& input, const io::ReadSettings& settings);
 std::unique_ptr<RowReader> off_rows(const io::Input& input, const io::ReadSettings& settings);
 std::unique_ptr<RowReader> ply_rows(const io::Input& input, const io::ReadSettings& settings);
-/// memory: bytes that reading may take. or_none: it ends, without a digest, where faces of a binary file have
-/// attributes.
+/// memory: limit in bytes. or_none: stop without a digest if faces of a binary file have attributes.
 std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings,
                                     std::size_t memory, bool or_none);
 
-/// A source of rows. Where the digest of the first file is not known, the rows are this file.
+/// A source of rows. If the digest of the first file is unknown, the rows must be that file.
 std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,
                                       const io::ReadSettings& settings);
 

@@ -24,7 +24,7 @@ using Point = std::array<float, 3>;
 
 std::uint64_t key_of(const Point& p) {
     std::uint64_t key = 0;
-    for (const float x : p) key = hashed(key, std::bit_cast<std::uint32_t>(x + 0.0F)); // -0 is 0
+    for (const float x : p) key = hashed(key, std::bit_cast<std::uint32_t>(x + 0.0F)); // -0 equals 0
     return key;
 }
 
@@ -42,8 +42,8 @@ std::uint16_t attribute_of(const std::byte* record) {
     return bytes;
 }
 
-/// Calls take(corners, attribute bytes) for each triangle of a binary file, while it gives true. Returns the
-/// file's digest; none where it gave false.
+/// Calls take(corners, attribute bytes) for each triangle of a binary file while it returns true. Returns
+/// the file's digest; none if take returned false.
 template <class Take>
 std::string each_triangle(const io::Input& input, const ReadFile& file, Take&& take) {
     const std::uint64_t count = io::stl::held_triangles(input);
@@ -203,7 +203,7 @@ class StlReader final : public RowReader {
         return sum.digest();
     }
 
-    /// False behind the last one of a solid.
+    /// False after the last facet of a solid.
     static bool read_facet(TextWindow& window, RowWriter& out) {
         std::array<Vec3, 3> corners;
         bool facet = false;
@@ -213,7 +213,7 @@ class StlReader final : public RowReader {
             facet = same_word(word, "facet");
             if (!facet && !same_word(word, "endsolid")) ahead.expected("'facet' or 'endsolid'");
             if (!facet) {
-                text.next_line(); // the name again, or another, or none
+                text.next_line(); // the same name, another, or none
                 return;
             }
             text.rest_of_line(); // the normal

@@ -1,5 +1,5 @@
 #pragma once
-// STL: places are what makes vertices. A binary file is read as it is, text becomes rows.
+// STL: positions define vertices. A binary file is read directly; text is converted to rows.
 
 #include "cells/sources/face_source.hpp"
 

@@ -12,7 +12,7 @@ TextWindow::TextWindow(const ReadFile& file, std::uint64_t begin, std::uint64_t 
     move(usual);
 }
 
-/// Puts what is left of the window to its beginning, and fills it up to the size.
+/// Moves the remaining text to the beginning of the window and fills the window to `size`.
 void TextWindow::move(std::size_t size) {
     constexpr std::size_t most = std::size_t{1} << 26;
     const std::size_t kept = text_.left();

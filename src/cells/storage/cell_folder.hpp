@@ -1,5 +1,5 @@
 #pragma once
-// A named folder in which cells outlive the run that made them (docs/large-meshes.md describes its files).
+// A named folder in which cells outlive their run (docs/large-meshes.md describes its files).
 
 #include "io/bytes.hpp"
 #include "platform/file_lock.hpp"
@@ -9,19 +9,20 @@
 
 namespace facetmill::cells {
 
-/// Locked as long as it is open, for all others or for those that are not beside.
+/// Locked while open: against all other runs, or against runs outside its group.
 class CellFolder {
   public:
     struct Settings {
         std::filesystem::path path;
-        bool sync = true; ///< what is kept waits until it is on the disk
-        /// Is told in words what is taken up, and what is not and why; such things are in no report.
+        bool sync = true; ///< kept files wait until they are on disk
+        /// Receives messages about reused results, and about unusable ones with the reason; reports omit
+        /// them.
         std::function<void(const std::string&)> tell = {};
-        /// Names what is done in it beside other processes, which have other names; empty: nobody else is
-        /// at work in it.
+        /// Names the work of this process in a group of processes with other names; empty: no other process
+        /// works in the folder.
         std::string beside = {};
     };
-    /// Makes it. Throws output: E-BUSY when another run holds it, E-WRITE, E-SPACE.
+    /// Creates the folder. Throws output: E-BUSY if another run holds it, E-WRITE, E-SPACE.
     explicit CellFolder(Settings settings);
     CellFolder(const CellFolder&) = delete;
     CellFolder& operator=(const CellFolder&) = delete;
@@ -33,26 +34,25 @@ class CellFolder {
         if (settings_.tell) settings_.tell(what);
     }
 
-    /// A file that is there whole or not at all. Any thread, each its own names. Throws output (E-WRITE,
-    /// E-SPACE).
+    /// Writes a file atomically. Thread-safe for distinct names. Throws output (E-WRITE, E-SPACE).
     void write(const std::string& name, std::initializer_list<io::Span> pieces) const;
-    /// Nothing: it is not there, or cannot be read.
+    /// None: the file is missing or unreadable.
     std::optional<io::Bytes> read(const std::string& name) const;
-    /// ... that is known again by its key, 64 digits.
+    /// Writes a file with a key of 64 digits, which get() checks.
     void put(const std::string& name, const std::string& key, io::Span bytes) const;
     enum class Found { as_written, nothing, damaged };
-    /// What was put with this key; Found tells why nothing is returned. Any thread.
+    /// The bytes put with this key. Found gives the reason if none are returned. Thread-safe.
     std::optional<io::Bytes> get(const std::string& name, const std::string& key, Found& found) const;
-    /// The names of the files in it that begin so.
+    /// The names of files in the folder that start with `begin`.
     std::vector<std::string> names(const std::string& begin) const;
     void remove(const std::string& name) const;
-    /// Makes it as new as one that is written now. Throws output (E-WRITE).
+    /// Sets its time to now. Throws output (E-WRITE).
     void touch(const std::string& name) const;
-    /// When it was written; the least time where it is not there.
+    /// The time of its last write; the minimum if the file is missing.
     std::filesystem::file_time_type time_of(const std::string& name) const;
     /// Throws output (E-WRITE).
     void set_time(const std::string& name, std::filesystem::file_time_type time) const;
-    /// Whether no other run is at work in it.
+    /// Whether no other process of a group works in the folder.
     bool is_alone() const { return settings_.beside.empty(); }
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// By what inputs are known again without being read, in a folder of kept cells.
+// Recognises unchanged inputs without reading them, in a folder of kept cells.
 
 #include "cells/sources/face_source.hpp"
 #include "cells/storage/cell_folder.hpp"
@@ -13,16 +13,16 @@ class InputStamps {
 
     /// Nanoseconds since 1970.
     static std::int64_t now();
-    /// Of the files as they were when they were opened; whatever their paths name now.
+    /// The stamps of the files when they were opened, whatever their paths name now.
     explicit InputStamps(const std::vector<FaceSource::File>& files, std::int64_t now = InputStamps::now());
-    /// The digests of the files, where they are as they were when they were stored; else none.
+    /// The stored digests, if the files have not changed since; else none.
     std::vector<std::string> digests(const CellFolder& folder) const;
-    /// Stores the digests, which were taken after this was made; nothing where files changed since, or
-    /// just before, or it cannot be written.
+    /// Stores the digests, which must be computed after this object was made. Stores nothing if files
+    /// changed since or just before, or if writing fails.
     void store(const CellFolder& folder, const std::vector<FaceSource::File>& files) const;
 
   private:
-    std::vector<FileStamp> stamps_; ///< [files]; fewer: there are none
+    std::vector<FileStamp> stamps_; ///< [files]; fewer: the stamps are unavailable
     std::int64_t now_;
 };
 

@@ -13,7 +13,7 @@ constexpr std::size_t at_once = 8192; // numbers
 
 constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
-/// Keys are in the order of the numbers; -0 is 0.
+/// Keys sort like the numbers; -0 equals 0.
 std::uint64_t key_of(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x + 0.0);
     return bits & sign ? ~bits : bits | sign;
@@ -21,7 +21,7 @@ std::uint64_t key_of(double x) {
 
 double number_of(std::uint64_t key) { return std::bit_cast<double>(key & sign ? key & ~sign : ~key); }
 
-/// Calls take(numbers) for some at a time, in their order.
+/// Calls take(numbers) for batches, in order.
 template <class Take>
 void each_block(const ReadFile& file, std::uint64_t count, Take&& take) {
     Stream stream(file, 0, count * sizeof(double));
@@ -39,7 +39,7 @@ void NumberFile::add(std::span<const double> numbers) {
     std::vector<double> some;
     some.reserve(at_once);
     const auto flush = [&] {
-        double sum = 0; // of a few, so that small terms meet small ones
+        double sum = 0; // of a batch: summing per batch adds small terms to small terms
         for (const double x : some) sum += x;
         sums_.sum += sum;
         file_.append(std::as_bytes(std::span(some)));
@@ -57,7 +57,7 @@ void NumberFile::add(std::span<const double> numbers) {
     flush();
 }
 
-/// The bin that the number of this rank is in; the rank becomes that among those of the bin.
+/// The bin of the number with this rank; the rank becomes relative to the bin.
 std::uint64_t NumberFile::take_digit(std::uint64_t& rank) {
     std::uint64_t bin = 0;
     for (; rank >= counts_[bin]; ++bin) rank -= counts_[bin];

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that are near those before them, in few bytes: differences, one byte for a small one.
+// Packs numbers that are close to their predecessors: as differences, in a single byte if small.
 
 #include "io/bytes.hpp"
 
@@ -8,13 +8,13 @@
 namespace facetmill::cells {
 
 namespace packed {
-// A difference has its sign in the lowest bit, and seven bits in a byte, the lowest first; the highest bit of
-// a byte says that another follows.
+// A difference has its sign in the lowest bit. Each byte has seven bits, lowest first; its highest bit marks
+// that another byte follows.
 inline constexpr int digit = 7;
 inline constexpr std::uint64_t more = std::uint64_t{1} << digit;
 } // namespace packed
 
-/// Calls put(byte) for each byte of the difference of a number from the one before it.
+/// Calls put(byte) for each byte of the difference between a number and its predecessor.
 template <class Put>
 void put_difference(std::uint64_t before, std::uint64_t number, Put&& put) {
     const bool down = number < before;
@@ -23,7 +23,7 @@ void put_difference(std::uint64_t before, std::uint64_t number, Put&& put) {
     put(static_cast<std::byte>(left));
 }
 
-/// The number behind the one before it. next(): the next byte.
+/// The number after `before`. next(): the next byte.
 template <class Next>
 std::uint64_t take_difference(std::uint64_t before, Next&& next) {
     constexpr int most = 63;
@@ -35,10 +35,9 @@ std::uint64_t take_difference(std::uint64_t before, Next&& next) {
     return difference & 1 ? before - (difference >> 1) : before + (difference >> 1);
 }
 
-/// Numbers of 32 bits, this machine's, in fewer bytes; where they are not fewer, as they are and one byte
-/// more.
+/// Packs native 32-bit numbers. If that does not save space, the result is the numbers plus one byte.
 io::Bytes packed_numbers(io::Span numbers);
-/// Appends what was packed. False where the bytes are not such ones.
+/// Appends the unpacked numbers. False if the bytes are not valid packed numbers.
 bool unpack_numbers(io::Span packed, io::Bytes& to);
 
 } // namespace facetmill::cells

@@ -1,6 +1,6 @@
 #pragma once
-// Which cell of a grid each face is in, in the order of the faces, as temporary data: one or two bytes for a
-// face where faces that follow each other are near each other.
+// The grid cell of each face, in face order, as temporary data. A face takes one or two bytes if consecutive
+// faces are close together.
 
 #include "cells/storage/block_file.hpp"
 
@@ -13,10 +13,10 @@ class PlaceFile {
     /// Throws output (E-WRITE, E-SPACE).
     void add(std::size_t place);
 
-    /// What was added, in its order.
+    /// Reads the numbers in order.
     class Reader {
       public:
-        /// Throws output (E-SCRATCH): there are no more, or the next is not below `end`.
+        /// Throws output (E-SCRATCH) if no numbers are left, or the next is not below `end`.
         std::size_t next(std::size_t end);
 
       private:

@@ -74,11 +74,11 @@ RecordCache::RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t 
     slot_of_.assign(blocks, absent);
     block_in_.reserve(slots_);
     used_.reserve(slots_);
-    memory_.reserve(slots_ * block_size_); // pages count when they are written to
+    memory_.reserve(slots_ * block_size_); // the system counts pages when they are written
 }
 
 void RecordCache::append(const std::byte* record) {
-    if (memory_.size() % block_size_ == 0) { // the next block begins
+    if (memory_.size() % block_size_ == 0) { // start the next block
         slot_of_[block_in_.size()] = static_cast<std::uint32_t>(block_in_.size());
         block_in_.push_back(block_in_.size());
         used_.push_back(1);
@@ -93,7 +93,7 @@ const std::byte* RecordCache::load(std::uint64_t record) {
         block_in_.push_back(block);
         used_.push_back(1);
         memory_.resize(block_in_.size() * block_size_);
-    } else { // the first that nobody has used since the hand went by
+    } else { // the first slot unused since the clock hand passed
         while (used_[hand_]) {
             used_[hand_] = 0;
             hand_ = (hand_ + 1) % slots_;
@@ -113,7 +113,7 @@ const std::byte* RecordCache::load(std::uint64_t record) {
 
 io::Bytes read_records(const ReadFile& file, std::uint64_t begin, std::size_t size,
                        std::span<const std::uint32_t> numbers) {
-    constexpr std::uint64_t bridged = 4096; // bytes between two records that are read along
+    constexpr std::uint64_t bridged = 4096; // gaps up to this many bytes are read too
     constexpr std::size_t most = std::size_t{1} << 20;
     io::Bytes all(numbers.size() * size), some;
     for (std::size_t i = 0; i < numbers.size();) {

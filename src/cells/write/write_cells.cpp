@@ -19,7 +19,7 @@ namespace facetmill::cells {
 
 namespace {
 
-/// The cell as a file of its own.
+/// The cell as a separate file.
 io::Bytes file_of(Mesh mesh, const WritePlace& place, const io::Codec& codec,
                   const io::WriteSettings& settings) {
     Scene scene;
@@ -47,13 +47,13 @@ void each_cell(const Partition& partition, Take&& take) {
         take(partition.cell(leaf));
 }
 
-/// How many bytes hold the header for sure.
+/// An upper bound of the header's size in bytes.
 std::ptrdiff_t head_of(const io::Bytes& bytes) {
     constexpr std::ptrdiff_t most = 1 << 16;
     return std::min(most, static_cast<std::ptrdiff_t>(bytes.size()));
 }
 
-/// A header with other counts.
+/// The header with these counts.
 std::string with_counts(std::string_view header, std::uint64_t vertices, std::uint64_t faces) {
     std::string out;
     while (!header.empty()) {
@@ -69,7 +69,7 @@ std::string with_counts(std::string_view header, std::uint64_t vertices, std::ui
     return out;
 }
 
-/// How far rounding to float32 moves a coordinate of the mesh at most.
+/// The largest displacement of a coordinate by rounding to float32.
 double rounding_of(const Mesh& mesh, const Transform& transform) {
     double most = 0;
     for (const Vec3& p : mesh.positions) {
@@ -150,7 +150,7 @@ void put_word(io::Bytes& to, std::uint64_t word) {
     for (int shift = 0; shift < 32; shift += 8) to.push_back(static_cast<std::byte>(word >> shift & 0xff));
 }
 
-/// The document of one mesh, whose positions and then triangles lie in the binary chunk.
+/// The glTF document of a single mesh. Its positions, then its triangles, are in the binary chunk.
 std::string document_of(const Box& box, std::uint64_t vertices, std::uint64_t faces,
                         const Transform& transform, const std::string& name) {
     constexpr int array_buffer = 34962, element_array_buffer = 34963;
@@ -184,7 +184,7 @@ std::string document_of(const Box& box, std::uint64_t vertices, std::uint64_t fa
     return text;
 }
 
-/// The box as float32 has it, from the origin.
+/// The bounding box of the float32 positions relative to the origin.
 Box rounded_box(const Partition& partition, const Vec3& origin) {
     Box box;
     each_cell(partition, [&](Cell cell) {

@@ -1,5 +1,5 @@
 #pragma once
-// Cells as one mesh file, written cell by cell: binary PLY and STL, and GLB of positions.
+// Writes cells as a single mesh file, cell by cell: binary PLY and STL, and GLB with positions.
 
 #include "cells/partition/partition.hpp"
 #include "io/codec.hpp"
@@ -9,22 +9,22 @@
 
 namespace facetmill::cells {
 
-/// Why a file of that format cannot be written cell by cell, in words; none when it can.
+/// The reason why a file of that format cannot be written cell by cell, for messages; none if it can.
 std::optional<std::string> why_not_written(const io::Codec& codec, const io::WriteSettings& settings);
 
 struct WritePlace {
-    Transform transform; ///< from the cells' own space to the file's
-    Vec3 origin; ///< in the cells' own space: where coordinates of a GLB count from, and its node stands
+    Transform transform; ///< from cell space to file space
+    Vec3 origin;         ///< in cell space: the origin of GLB coordinates, and the translation of the node
     io::Convention convention; ///< of the file's numbers
 };
 
-/// How far rounding to float32 would move a coordinate of the file at most. The cells are read.
+/// The largest displacement of a file coordinate by rounding to float32. Reads the cells.
 double rounding_of(const Partition& partition, const Transform& transform);
 
-/// Hands the file over to put, piece by piece: as the codec writes it, but in the order of the cells, and of
-/// a GLB positions only. The cells are read twice, of a GLB three times. Returns
-/// how far rounding to float32 moved a coordinate at most. Throws stage (E-RANGE, as the codec), output
-/// (E-SCRATCH); and before anything is put, limit (E-SIZE) beyond what the format counts.
+/// Passes the file to put, piece by piece. It equals the codec's output, except that cells set the order,
+/// and a GLB has only positions. Reads the cells twice, for a GLB three times. Returns the largest
+/// displacement of a coordinate by rounding to float32. Throws stage (E-RANGE, as the codec), output
+/// (E-SCRATCH), and, before calling put, limit (E-SIZE) beyond the format's counts.
 double write_cells(const Partition& partition, const WritePlace& place, const io::Codec& codec,
                    const io::WriteSettings& settings, const std::function<void(io::Span)>& put);
 

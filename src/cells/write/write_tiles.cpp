@@ -25,19 +25,19 @@ using io::tileset::TreeTile;
 
 constexpr std::uint64_t children_of_tile = 4; // at most
 
-// Measured: what simplifying, measuring and encoding take at their peak for each triangle and vertex that is
-// joined, and what the process has beside.
+// Measured: the peak memory of simplifying, measuring and encoding per joined triangle and vertex, and the
+// process's base memory.
 constexpr std::uint64_t bytes_of_tile_face = 180, bytes_of_tile_vertex = 340,
                         bytes_beside_tiles = std::uint64_t{30} << 20;
 
-/// For each vertex a number that vertices at its place have, and hardly others.
+/// A number per vertex: equal for equal positions, and rarely for others.
 std::vector<std::uint64_t> keys_of_places(const Mesh& mesh) {
     std::vector<std::uint64_t> keys;
     keys.reserve(mesh.vertex_count());
     for (const Vec3& p : mesh.positions) {
         std::uint64_t key = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            key = hashed(key, std::bit_cast<std::uint64_t>(p[axis] + 0.0)); // -0 is 0
+            key = hashed(key, std::bit_cast<std::uint64_t>(p[axis] + 0.0)); // -0 equals 0
         keys.push_back(key);
     }
     return keys;
@@ -85,7 +85,7 @@ class TileMaker {
     }
 
   private:
-    /// As tileset_frame for all vertices, but for those of different cells that come to lie on each other.
+    /// As tileset_frame for all vertices, except that vertices of different cells may coincide.
     void choose_frame() {
         const Box own = partition_.source().contents().bounds;
         Box box;
@@ -131,7 +131,7 @@ class TileMaker {
                left_.vertices_below(station) * bytes_of_tile_vertex;
     }
 
-    /// Throws limit (E-MEMORY) where tiles are too large to be joined.
+    /// Throws limit (E-MEMORY) if tiles are too large to be joined.
     void require_room(std::size_t station) const {
         const std::uint64_t needed = bytes_beside_tiles + bytes_given(station);
         if (needed <= means_.memory) return;
@@ -150,7 +150,7 @@ class TileMaker {
             join(station);
     }
 
-    /// The cells of a leaf as one, what they have in common with others by its place.
+    /// The joined cells of a leaf; positions identify its shared vertices.
     Cell whole(const Station& s) const {
         std::vector<Cell> cells;
         for (std::uint32_t leaf = s.leaf; leaf < s.end_leaf; ++leaf) {
@@ -161,7 +161,7 @@ class TileMaker {
         return joined(std::move(cells), partition_.tree().nodes[s.node].depth);
     }
 
-    /// A cell, or a few, as a pyramid of its own.
+    /// Makes a separate pyramid of a cell, or of a few cells.
     void settle_cell(std::size_t station) {
         Cell cell = whole(hierarchy_nodes_[station]);
         std::vector<PyramidTile> pyramid =
@@ -176,7 +176,7 @@ class TileMaker {
             tiles.size(), [&](std::size_t t) { encode(std::move(pyramid[t].mesh), tiles[t]); }, 1);
     }
 
-    /// The tile above some that are there.
+    /// Makes the parent tile of finished tiles.
     void join(std::size_t station) {
         double error = 0;
         for (const std::size_t child : hierarchy_nodes_[station].children)
@@ -197,7 +197,7 @@ class TileMaker {
         if (tile.name.empty()) changes_ = written.changes;
     }
 
-    /// The tiles of the station and those below it, after those that are there; returns the first's number.
+    /// Appends the tiles of the station and of its descendants; returns the first's number.
     std::size_t gather(std::size_t station, std::vector<TreeTile>& all) {
         const std::size_t first = all.size();
         for (TreeTile& tile : tiles_[station]) {
@@ -231,13 +231,13 @@ class TileMaker {
     io::WriteSettings settings_;
     const CellResources& means_;
     const std::function<void(const io::OutputFile&)>& put_;
-    std::vector<Station> hierarchy_nodes_; ///< the root is the last
+    std::vector<Station> hierarchy_nodes_; ///< the root is last
     LeftCells left_;
     std::vector<std::string> names_;           ///< [stations]
-    std::vector<std::vector<TreeTile>> tiles_; ///< [stations] of a leaf a pyramid, else one
+    std::vector<std::vector<TreeTile>> tiles_; ///< [stations] a pyramid for a leaf, else a single tile
     io::TilesetFrame frame_;
-    std::optional<Borders> borders_; ///< by places
-    std::mutex guard_;               ///< of what follows, and put_
+    std::optional<Borders> borders_; ///< by position
+    std::mutex guard_;               ///< protects the members below, and put_
     std::map<std::string, Diagnostic> warnings_;
     AttributeChanges changes_;
 };

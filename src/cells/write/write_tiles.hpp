@@ -1,10 +1,9 @@
 #pragma once
-// Cells as a tileset of 3D Tiles: each cell as a small pyramid (geometry/pyramid), whose roots are joined two
-// to four at a time and simplified, up to one tile.
+// Cells as a tileset of 3D Tiles. Each cell becomes a small pyramid (geometry/pyramid). The roots are joined
+// two to four at a time and simplified, up to a single tile.
 //
-// Vertices that a tile has in common with tiles outside of it, by their place, are held in it, at whatever
-// level; they are free where all that have them are joined. So the tiles of every cut fit together, as those
-// of a pyramid in memory do.
+// Vertices at positions shared with outside tiles are held in a tile at every level. They are free once all
+// of their tiles are joined. The tiles of every cut therefore fit together, as in a pyramid made in memory.
 
 #include "cells/partition/partition.hpp"
 #include "io/codec.hpp"
@@ -13,24 +12,24 @@
 
 namespace facetmill::cells {
 
-/// A tileset whose files were handed over.
+/// A tileset whose tile files were already passed on.
 struct WrittenTiles {
-    std::vector<io::OutputFile> index; ///< the tileset, then what it names beside tiles
-    std::vector<std::string> names;    ///< of the tiles' files, each tile before those below it
+    std::vector<io::OutputFile> index; ///< the tileset, then the files that it names except tiles
+    std::vector<std::string> names;    ///< of the tile files, each tile before its descendants
     io::TilesWritten told;
     io::VertexCacheUse cache;
     AttributeChanges changes;
     std::vector<Diagnostic> warnings;
 };
 
-/// Bytes that a tileset of a mesh of so many faces takes at least, with one worker, when its tiles have
+/// The minimum memory in bytes, with one worker, to make a tileset of a mesh of `faces` faces with tiles of
 /// `tile` faces.
 std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile);
 
-/// Hands over the tiles' files as they are made, one at a time, in any order. transform: from the cells' own
-/// space to a world in metres, z up. Materials, seams and textures are none. The tree depends on the mesh and
-/// the settings alone. Throws limit (E-MEMORY) where what is joined needs more memory than there is; stage
-/// (E-RANGE); output (E-SCRATCH, E-SPACE, and what put throws).
+/// Passes the tile files to put as they are made, one at a time, in any order. transform: from cell space to
+/// a z-up world in metres. The tiles have no materials, seams or textures. The tree depends on the mesh and
+/// the settings alone. Throws limit (E-MEMORY) if joined tiles exceed memory; stage (E-RANGE); output
+/// (E-SCRATCH, E-SPACE, and the errors of put).
 WrittenTiles write_tiles(const Partition& partition, const Transform& transform,
                          const io::WriteSettings& settings, const CellResources& means,
                          const std::function<void(const io::OutputFile&)>& put);

@@ -9,8 +9,8 @@ namespace facetmill::io {
 /// Origin, axes and normal of the frame.
 void declare_frame_fields(DeclareFields<SectionFrame>& d);
 
-/// A whole section, with holes subtracted (centroid null if undefined: see Section::moments), and its
-/// contours with their measures, in the plane's frame and in world space. `points` is their count.
+/// A whole section with holes subtracted (centroid null if undefined: see Section::moments), and its
+/// contours. Both have measures in the plane's frame and in world space. `points` is their count.
 void declare_section_fields(DeclareFields<Section>& d);
 
 } // namespace facetmill::io

@@ -8,11 +8,11 @@ namespace facetmill::io {
 
 using FootprintRings = std::vector<std::vector<Vec2>>;
 
-/// The rings of all polygons in a file, detected by content. Supported are GeoJSON (Polygon and
-/// MultiPolygon, alone or in features and collections), WKT (POLYGON and MULTIPOLYGON, one or several), and
-/// text DXF (closed LWPOLYLINE and POLYLINE, CIRCLE; entities of the drawing, also drawn from the back; arcs
-/// in segments of at most 5 degrees). Ignores heights and other geometry. Throws malformed (E-GEOJSON,
-/// E-WKT, E-DXF) with the line or the reason, E-FOOTPRINT without any polygon.
+/// The rings of all polygons in a file, detected by content. GeoJSON: Polygon and MultiPolygon, alone or in
+/// features and collections. WKT: POLYGON and MULTIPOLYGON, one or several. Text DXF: closed LWPOLYLINE and
+/// POLYLINE, and CIRCLE, among the drawing's entities, also drawn from the back. Arcs become segments of at
+/// most 5 degrees. Ignores heights and other geometry. Throws malformed (E-GEOJSON, E-WKT, E-DXF) with the
+/// line or the reason, E-FOOTPRINT without any polygon.
 FootprintRings read_footprint(const Input& input);
 
 /// The rings of a WKT text. name: for messages.

@@ -19,7 +19,7 @@ class LibraryImages {
         Bytes bytes;
         std::string type; ///< image/png ...
         bool alpha = false;
-        bool copied = false;  ///< written under that name; else it exists there
+        bool copied = false;  ///< written under that name; else the name refers to an existing file
         bool planned = false; ///< listed by a plan: a file, or a kind that a library names
         bool spelled = true;  ///< a line of a library can hold the name
         bool used = false;

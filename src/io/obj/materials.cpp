@@ -147,8 +147,8 @@ void MaterialMaker::add_colour_maps(Json& json, const std::string& name, const D
             json["extensions"]["KHR_materials_specular"]["specularColorTexture"] = *std::move(reference);
 }
 
-/// glTF's opacity is the alpha of the colour texture. The image of map_d goes there: its alpha if it has
-/// any, else its brightness.
+/// glTF's opacity is the alpha of the colour texture. It takes the alpha of map_d's image, or the image's
+/// brightness without alpha.
 void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const Description& d) {
     const auto map = d.maps.find("d"), colour = d.maps.find("kd");
     if (map == d.maps.end()) return;

@@ -29,8 +29,7 @@ struct Statements {
     std::vector<Event> events;                  ///< in the order of the file
     std::map<std::string, std::size_t> skipped; ///< the count of each statement that cannot be kept
     std::size_t short_faces = 0;                ///< faces of fewer than three corners, left out
-    std::size_t dangling =
-        0; ///< corners whose texture coordinate or normal is missing from the file; they get none
+    std::size_t dangling = 0;                   ///< corners whose uv or normal is missing from the file
 
     std::size_t faces() const { return face_offsets.size() - 1; }
     std::size_t lines() const { return line_offsets.size() - 1; }

@@ -44,8 +44,7 @@ struct Colours {
     double largest = 0;
 
     void add(std::span<const double> given, bool whole) {
-        const bool known =
-            given.size() == 3 || given.size() == 4; // a single number is an index into a colour map
+        const bool known = given.size() == 3 || given.size() == 4; // a single number indexes a colour map
         points |= known && !whole;
         for (std::size_t c = 0; c < 4; ++c) {
             const bool there = known && c < given.size();

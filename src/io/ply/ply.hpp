@@ -34,11 +34,10 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
-    std::size_t size = 0;   ///< the offset of the first element in bytes
-    std::int64_t lines = 0; ///< the number of header lines
-    std::vector<std::string>
-        textures;    ///< files that 'TextureFile' comments name, a convention of some programs
-    Stated stated{}; ///< the unit and up axis that comments state
+    std::size_t size = 0;              ///< the offset of the first element in bytes
+    std::int64_t lines = 0;            ///< the number of header lines
+    std::vector<std::string> textures; ///< from 'TextureFile' comments of some programs
+    Stated stated{};                   ///< the unit and up axis that comments state
 };
 
 /// Reads the header; throws malformed (E-PLY) with the line.

@@ -315,7 +315,8 @@ Scene Builder::read() {
     return scene;
 }
 
-/// Vertices that no line uses would be a point cloud without the lines.
+/// Whether lines use every vertex of a mesh without faces. Other vertices are a point cloud, and the lines
+/// then become a separate part.
 bool is_lines_alone(const Mesh& mesh) {
     if (mesh.face_count() > 0) return false;
     const std::vector<std::uint8_t> used = marked_ends_of_lines(mesh);

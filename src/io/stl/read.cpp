@@ -26,7 +26,7 @@ bool has_binary_size(Span bytes) {
     return bytes.size() >= head && bytes.size() == head + record * std::size_t{promised_triangles(bytes)};
 }
 
-/// Indexes three corners per face: one vertex per position. Wedges are dropped, because there are no
+/// Indexes three corners per face: one vertex per position. Wedges are dropped, because the mesh has no
 /// attributes.
 void index_by_position(Mesh& mesh, const ReadSettings& settings) {
     mesh.corners.resize(mesh.positions.size());

@@ -1,7 +1,7 @@
 #pragma once
-// 3MF (3D Manufacturing Format, core specification 1.3, with colours of the materials extension and model
-// parts of the production extension): a zip archive of XML models with units, objects, components and items
-// to build.
+// 3MF (3D Manufacturing Format): a zip archive of XML models with units, objects, components and items to
+// build. Supports core specification 1.3, colours of the materials extension, and model parts of the
+// production extension.
 
 #include "io/codec.hpp"
 

@@ -19,8 +19,8 @@ constexpr std::size_t places_of(std::size_t levels) {
     return ((std::size_t{1} << (2 * levels)) - 1) / (children_of_tile - 1);
 }
 
-/// The levels of the whole tree, and of each subtree file: as even as possible, and at most six, because
-/// 1,365 tiles take 140 kB.
+/// The levels of the whole tree, and of each subtree file. The latter are as even as possible, and at most
+/// six, because 1,365 tiles take 140 kB.
 struct Levels {
     std::size_t all = 0, of_subtree = 1;
 

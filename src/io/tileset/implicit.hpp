@@ -1,6 +1,7 @@
 #pragma once
 // Implicit tiling of 3D Tiles 1.1 (OGC 22-025r4, "Implicit Tiling"). Level and coordinates in a quadtree or
 // octree identify tiles, templates name their files, and subtree files list the existing tiles.
+//
 // facetmill's trees halve meshes, not space. A child's digit is therefore its position in the quadtree. The
 // subtree files give each tile its own box and error, which replace the values from halving space.
 

@@ -17,8 +17,8 @@ struct TreeTile {
     VertexCacheUse cache;
 };
 
-/// The settings for a tile of a tileset with these settings: whole positions if there is a grid, and shared
-/// images unless these are embedded or referenced.
+/// The settings for a tile of a tileset with these settings: whole positions with a grid, and shared images
+/// unless these are embedded or referenced.
 WriteSettings settings_of_tiles(const WriteSettings& settings);
 
 /// The path of a tile's file, relative to the tileset's. settings: settings_of_tiles.

@@ -20,9 +20,9 @@ struct NamedFiles {
 };
 NamedFiles named_files(const Input& tileset);
 
-/// Writes all parts as a single mesh in world space, in metres and z-up, as a pyramid (geometry/pyramid).
-/// The tileset comes first, and the tiles are in a folder named after it. Skins, morph targets, part names,
-/// and document contents other than materials are dropped.
+/// Writes all parts as a single mesh, as a pyramid (geometry/pyramid). World space must be in metres and
+/// z-up. The tileset comes first, and the tiles are in a folder named after it. Skins, morph targets, part
+/// names, and document contents other than materials are dropped.
 Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::tileset

@@ -43,8 +43,8 @@ Mesh as_one(const Scene& scene, Written& written) {
     return all;
 }
 
-/// What materials need of a document. What it has beside that is told once (W-MERGED). Images that are among
-/// its bytes become files where all tiles are to share them.
+/// The part of a document that materials need. Warns of its other contents (W-MERGED). With `share`,
+/// embedded images become files, because all tiles share them.
 std::shared_ptr<const Document> materials_only(const Document& document, bool share, Written& written) {
     Json json = gltf::parse_document(document.json);
     const std::vector<std::string> lost = gltf::keep_materials_only(json);

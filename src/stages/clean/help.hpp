@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about clean.
+// The help and manual texts of clean.
 
 namespace facetmill::help::clean {
 

@@ -49,7 +49,7 @@ void declare_components(Declare<CleanComponentOptions>& d) {
         .at_least(0);
 }
 
-/// A choice for which true and false are spellings, too.
+/// A choice that also accepts true and false.
 void declare_self_intersections(Declare<CleanOptions>& d) {
     Option& o =
         d.choice<Untangle>(

@@ -1,5 +1,5 @@
 #pragma once
-// The options of clean, and what they come to.
+// The options of clean and their conversion to settings.
 
 #include "geometry/clean/clean.hpp"
 #include "stage/stage.hpp"
@@ -31,12 +31,12 @@ struct CleanOptions {
 };
 
 void declare_clean(Declare<CleanOptions>& d);
-/// What the declaration cannot say: options that do not go together.
+/// Checks beyond the declaration: conflicting options.
 void verify_clean(const CleanOptions& o, const Value& given, Problems& problems);
 
 /// The steps, without their lengths.
 CleanSettings clean_steps_of(const CleanOptions& o);
-/// Lengths are in the world, meshes in their own space: a transform that stretches does so by its mean.
+/// Converts lengths from world space to the part's space. A transform with scale uses its mean scale.
 CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context);
 
 } // namespace facetmill::clean_stage

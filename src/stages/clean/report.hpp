@@ -1,5 +1,5 @@
 #pragma once
-// What clean did, and what it did not, for reports.
+// The repairs that clean did or could not do, for reports.
 
 #include "geometry/clean/clean.hpp"
 #include "options/fields.hpp"
@@ -9,7 +9,7 @@ namespace facetmill::clean_stage {
 struct CleanedPart {
     std::string part;
     CleanCounts counts;
-    std::vector<NotDone> not_done; ///< the first few, in the world
+    std::vector<NotDone> not_done; ///< the first few, in world space
 };
 
 struct CleanReport {
@@ -17,7 +17,7 @@ struct CleanReport {
 };
 void declare_clean_report(DeclareFields<CleanReport>& d);
 
-/// The first few repairs that were not done, with their places in the world.
+/// The first few repairs that were not possible, with positions in world space.
 std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Transform& to_world);
 
 } // namespace facetmill::clean_stage

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about clip.
+// The help and manual texts of clip.
 
 namespace facetmill::help::clip {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about combine.
+// The help and manual texts of combine.
 
 namespace facetmill::help::combine {
 

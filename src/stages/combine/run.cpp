@@ -72,8 +72,8 @@ std::vector<std::string> names_of(const Scene& scene) {
     return names;
 }
 
-/// By part: 0: not concerned, 1: of the first operand, 2: of the second. Usage error (E-PART) when a pattern
-/// of `with` names nothing, or nothing is left to be combined.
+/// By part: 0: not involved, 1: in the first operand, 2: in the second. Usage error (E-PART) if a pattern of
+/// `with` matches no part, or no part remains to be combined.
 std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const Context& context) {
     for (const auto& pattern : o.with) {
         const PartFilter alone{{pattern}};
@@ -100,7 +100,7 @@ std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const 
     throw Error(ErrorKind::stage, "E-COMBINE", fmt::format("combine: part '{}' {}", part.name, why), hint);
 }
 
-/// Checks what can be told before anything is cut.
+/// Checks all preconditions that need no cut.
 void require_solid(const Part& part) {
     if (part.mesh.face_count() == 0)
         refuse(part, "has no faces", "leave it out with `only`, or check the stages before");
@@ -118,7 +118,7 @@ void warn_of_skin(const Part& part, Context& context) {
                      "leave it out with `only`, or write the parts as they are");
 }
 
-/// The mesh of a part in the space of another.
+/// The mesh of a part in the space of another part.
 Mesh in_space_of(const Part& space, const Part& part) {
     Mesh mesh = part.mesh;
     drop_skin(mesh, no_skin);
@@ -144,9 +144,9 @@ Mesh in_space_of(const Part& space, const Part& part) {
            "clean: {self_intersections: union} for each part first, or move one of them by a little");
 }
 
-/// Takes the numbers of its groups from an operand that the first one is cut by, but for those of caps: they
-/// number other things than those of the first, and by group and cut_id together caps are known (later_caps).
-/// Whether there were any.
+/// Removes group numbers from an operand that cuts the first operand, because they number other things.
+/// Groups of caps stay: group and cut_id together identify caps (later_caps). Returns whether it removed any
+/// number.
 bool forget_groups(Mesh& mesh) {
     Attribute* group = mesh.find(group_attribute, Domain::face);
     if (!group) return false;
@@ -171,7 +171,8 @@ void number_faces(Mesh& mesh, std::string_view name, std::vector<std::uint32_t> 
         {std::string(name), Domain::face, Role::index, 1, false, AttributeData(std::move(numbers))});
 }
 
-/// After a union, the number of the part of each face; else what faces of the second operand are numbered by.
+/// After a union, numbers each face by its part (group). Otherwise numbers the faces of the second operand
+/// (cut_id).
 void tag(Mesh& mesh, const std::vector<Index>& mesh_of_face, bool unites, Index first_cut) {
     if (unites) return number_faces(mesh, group_attribute, {mesh_of_face.begin(), mesh_of_face.end()});
     std::vector<std::uint32_t> numbers(mesh.face_count());
@@ -183,7 +184,7 @@ void tag(Mesh& mesh, const std::vector<Index>& mesh_of_face, bool unites, Index 
     number_faces(mesh, cut_id_attribute, std::move(numbers));
 }
 
-/// [with] 1 where the box around it has a vertex of the others: it may take a whole component of them away.
+/// [with] 1 if the bounding box contains a vertex of the others: the part may then remove a whole component.
 std::vector<std::uint8_t> reached(const std::vector<const Part*>& with, const std::vector<Part*>& others) {
     std::vector<std::uint8_t> all(with.size());
     for (std::size_t i = 0; i < with.size(); ++i) {
@@ -200,8 +201,8 @@ std::vector<std::uint8_t> reached(const std::vector<const Part*>& with, const st
     return all;
 }
 
-/// Parts of `with` of which no face bounds what is left: a drill at the wrong height, or within another one.
-/// bounds: the others, and those of which that is not sure.
+/// Warns of parts of `with` without a face in the result, for example a drill at the wrong height or inside
+/// another. bounds: the parts that contribute, and parts that may.
 void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::uint8_t>& bounds,
                   Context& context) {
     std::string names;
@@ -217,8 +218,8 @@ void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::u
         "beside the other parts, or within another part of 'with'? facetmill info prints the bounds");
 }
 
-/// Combines a part with others: the first meshes up to `second` are of the first operand. The first part gets
-/// the result. bounds: set for those of the others of which it has faces.
+/// Combines a part with others: meshes before `second` belong to the first operand. The first part gets the
+/// result. bounds: set for each of the others with a face in the result.
 CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, Operation operation,
                            std::vector<std::uint8_t>& bounds, Context& context) {
     std::vector<const Part*> all{&part};

@@ -1,5 +1,5 @@
 #pragma once
-// A footprint as users write it: a file, WKT, or rings in place.
+// A footprint as users write it: a file, WKT, or inline rings.
 
 #include "geometry/polygon/footprint.hpp"
 #include "io/footprint/footprint.hpp"
@@ -9,7 +9,7 @@
 namespace facetmill {
 
 struct FootprintOption {
-    std::string path; ///< of a file; empty: the rings
+    std::string path; ///< of a file; empty: use the rings
     io::FootprintRings rings;
 };
 
@@ -23,12 +23,11 @@ struct OptionType<FootprintOption> {
     static std::optional<double> magnitude(const FootprintOption&) { return {}; }
 };
 
-/// A footprint written in place is checked before anything runs: adds what Footprint refuses, at the mark.
+/// Checks an inline footprint before the run: adds the errors of Footprint at the mark.
 void verify_footprint(const FootprintOption& option, const Value& value, std::string_view stage,
                       Problems& problems);
 
-/// The footprint, read from its file, which the record lists, when it is one. Throws what io::read_footprint
-/// and Footprint throw.
+/// The footprint; a file is listed in the record as an input. Throws as io::read_footprint and Footprint.
 Footprint resolve_footprint(const FootprintOption& option, Context& context);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about crop.
+// The help and manual texts of crop.
 
 namespace facetmill::help::crop {
 

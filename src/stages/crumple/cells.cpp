@@ -57,7 +57,7 @@ void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context)
     settings.to_world = flow.transform;
     const Mesh first = flow.partition->cell(0).mesh;
     const auto still = cells::split_source(flow.partition->shared_source(), {static_cast<int>(o.grid)});
-    flow.partition.reset(); // its temporary data goes first
+    flow.partition.reset(); // release temporary data first
     flow.partition = std::make_unique<cells::Partition>(cells::crumple_source(still, settings), flow.means);
     flow.box = cells::box_of_cells(*flow.partition, flow.transform);
     const cells::CrumpledCells crumpled = cells::crumpled_cells(*flow.partition, *still, flow.transform);

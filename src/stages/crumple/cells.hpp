@@ -1,11 +1,11 @@
 #pragma once
-// crumple, of a mesh in cells.
+// crumple for a mesh in cells.
 
 #include "stages/crumple/options.hpp"
 
 namespace facetmill::crumple_stage {
 
-/// Why the options need the mesh in memory, in words; none when they do not.
+/// The reason why the options need the mesh in memory, for messages; none if they do not.
 std::optional<std::string> why_not_on_cells(const CrumpleOptions& o);
 double triangles_of_one(const CrumpleOptions& o);
 void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context);

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about crumple.
+// The help and manual texts of crumple.
 
 namespace facetmill::help::crumple {
 

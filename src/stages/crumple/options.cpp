@@ -94,8 +94,8 @@ CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, do
     s.frequency = whole > 0 ? o.frequency / whole : 0;
     s.octaves = static_cast<int>(o.octaves);
     s.roughness = o.roughness;
-    // By the amplitude and not by the size of the scene, so that the same holds in files that meet. What
-    // avoids intersections takes positions as float32 in any case.
+    // The test uses the amplitude and not the size of the scene, so that adjacent files agree. Avoiding
+    // intersections always rounds positions to float32.
     if (o.self_intersections == CrumpleOptions::Intersections::allow && whole > 0 &&
         0.5 * float32_ulp(scene.bounds()) > amplitude / 100)
         s.places = PositionRounding::far;

@@ -1,5 +1,5 @@
 #pragma once
-// The options of crumple, and what they come to.
+// The options of crumple and their conversion to settings.
 
 #include "geometry/crumple/crumple.hpp"
 #include "stage/options/mask.hpp"
@@ -25,10 +25,10 @@ struct CrumpleOptions {
 };
 
 void declare_crumple(Declare<CrumpleOptions>& d);
-/// What the declaration cannot say: options that go with a frequency only.
+/// Checks beyond the declaration: options that need a frequency.
 void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems);
 
-/// What is the same for all parts; amplitude, transform and mask are each part's own. amplitude: the largest.
+/// The settings shared by all parts; amplitude, transform and mask are set per part. amplitude: the largest.
 CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, double amplitude);
 
 } // namespace facetmill::crumple_stage

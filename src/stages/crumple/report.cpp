@@ -12,7 +12,7 @@ namespace facetmill::crumple_stage {
 
 namespace {
 
-/// Where the face of the split mesh was, in world space: the mean of its corners.
+/// The original position of the face of the split mesh in world space: the mean of its corners.
 Vec3 place_of(const CrumpledPart& work, Index face) {
     return work.to_world.point(corner_mean(work.part->mesh, face, work.before));
 }
@@ -73,7 +73,7 @@ void declare_crumple_report(DeclareFields<CrumpleReport>& d) {
 
 void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts, std::int64_t grid) {
     const CrumpledPart& work = parts[r.first_sheet];
-    const auto pieces = static_cast<Index>(grid * grid); // of each face, one after the other
+    const auto pieces = static_cast<Index>(grid * grid); // of each face, consecutive
     const Index a = r.first.first / pieces, b = r.first.second / pieces;
     const Vec3 p = place_of(work, r.first.first);
     throw Error(

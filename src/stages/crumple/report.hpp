@@ -1,5 +1,5 @@
 #pragma once
-// What crumple says of its parts.
+// The report and warnings of crumple.
 
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/split/split.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill::crumple_stage {
 
-/// A part between being split and being moved.
+/// A part after the split and before the displacement.
 struct CrumpledPart {
     Part* part;
     SplitResult pieces;
@@ -28,23 +28,23 @@ struct CrumpleReport {
 };
 void declare_crumple_report(DeclareFields<CrumpleReport>& d);
 
-/// Throws stage (E-INTERSECTS): the first pair of faces that would meet, by the faces that came in, of which
-/// each became grid * grid.
+/// Throws stage (E-INTERSECTS) with the first pair of faces that would meet. It names the input faces, each
+/// of which became grid * grid faces.
 [[noreturn]] void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts,
                                        std::int64_t grid);
 
-/// Warns of an amplitude that is larger than the edges: nothing tears, but faces run into each other.
-/// mean_edge: of the part before anything moved, in the world.
+/// Warns of an amplitude larger than the edges: the surface stays connected, but faces intersect. mean_edge:
+/// of the part before the displacement, in world space.
 void warn_of_tangles(const std::string& part, double mean_edge, double amplitude, Context& context);
-/// Warns when avoiding intersections, which rounds positions to float32, moves a vertex by more than 1 % of
-/// the amplitude: far from the origin float32 is coarse.
+/// Warns if avoiding intersections moves a vertex by more than 1 % of the amplitude. It rounds positions to
+/// float32, which is coarse far from the origin.
 void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, double amplitude,
                       Context& context);
 /// Warns when shares were lowered in large steps to bound the work.
 void warn_of_coarse_steps(const AvoidResult& r, Context& context);
 /// Warns of concave quads, which cannot be split n x n without folds.
 void warn_of_folds(const CrumpledPart& part, Context& context);
-/// Warns when parts are so near each other that their faces may have come to meet.
+/// Warns if parts are so close that their faces may now intersect.
 void warn_of_parts(const Scene& scene, Context& context);
 
 } // namespace facetmill::crumple_stage

@@ -23,7 +23,7 @@ SplitResult split_part(const Part& part, std::int64_t grid) {
                        "use a smaller grid, simplify first, or give --memory: it can work on cells on disk"});
 }
 
-/// Refuses before anything is split what could not be kept apart afterwards.
+/// Refuses meshes before the split if avoiding intersections afterwards would be impossible.
 void require_room(const Scene& scene, const CrumpleOptions& o, const Context& context) {
     if (o.self_intersections == Intersections::allow) return;
     double triangles = 0, largest = 0;
@@ -40,7 +40,7 @@ void require_room(const Scene& scene, const CrumpleOptions& o, const Context& co
                    "use a smaller grid, or self_intersections: allow");
 }
 
-/// Moves all vertices, as far as self_intersections lets them.
+/// Moves all vertices as far as self_intersections allows.
 void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
           CrumpleReport& report, Context& context) {
     hold_joint_vertices(sheets);

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about ensure.
+// The help and manual texts of ensure.
 
 namespace facetmill::help::ensure {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about generate.
+// The help and manual texts of generate.
 
 namespace facetmill::help::generate {
 

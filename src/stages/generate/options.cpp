@@ -15,7 +15,7 @@ namespace {
 struct ShapeOptions {
     Shape shape;
     const char* name;
-    std::vector<std::string> takes; ///< besides what all take
+    std::vector<std::string> takes; ///< in addition to the options of all shapes
 };
 
 const std::vector<ShapeOptions>& shape_table() {
@@ -86,7 +86,7 @@ void declare_counts(Declare<GenerateOptions>& d) {
         .between(0, 12);
 }
 
-/// Counts whose least and most depend on the shape.
+/// Checks counts whose limits depend on the shape.
 void verify_counts(const GenerateOptions& o, const Value& given, Problems& problems) {
     const auto at_least = [&](const char* name, const std::optional<std::int64_t>& count, std::int64_t least,
                               std::int64_t most) {
@@ -100,7 +100,7 @@ void verify_counts(const GenerateOptions& o, const Value& given, Problems& probl
     if (o.shape == Shape::torus) at_least("rings", o.rings, 3, 1000000);
 }
 
-/// A tube that fills the torus' hole, as far as both lengths can be compared before there is a scene.
+/// Refuses a tube that fills the torus' hole, if both lengths are comparable without a scene.
 void verify_torus(const GenerateOptions& o, const Value& given, Problems& problems) {
     const Value* minor = given.find("minor_radius");
     if (o.shape != Shape::torus || !o.minor_radius || !minor || minor->deferred) return;

@@ -1,5 +1,5 @@
 #pragma once
-// The options of generate, and what they come to.
+// The options of generate and their conversion to settings.
 
 #include "geometry/generate/generate.hpp"
 #include "stage/stage.hpp"
@@ -18,11 +18,11 @@ struct GenerateOptions {
     std::string name;
 };
 
-/// As pipelines spell it.
+/// The name in pipelines.
 const char* to_string(Shape shape);
 
 void declare_generate(Declare<GenerateOptions>& d);
-/// What the declaration cannot say: options of other shapes, counts whose limits depend on the shape.
+/// Checks beyond the declaration: options of other shapes, and counts whose limits depend on the shape.
 void verify_generate(const GenerateOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::generate_stage

@@ -10,10 +10,10 @@ namespace facetmill::generate_stage {
 
 namespace {
 
-/// What is being made, in its own unit.
+/// The generated scene in its own unit.
 struct Made {
     Scene scene;
-    double of_entering = 1; ///< that unit's share of the entering scene's, which percentages are of
+    double of_entering = 1; ///< converts lengths from the input scene's unit, which percentages use
 };
 
 Made made_for(const Scene& entering, Unit unit) {
@@ -25,7 +25,7 @@ Made made_for(const Scene& entering, Unit unit) {
     return made;
 }
 
-/// The length in the unit of the shape. Refuses a percentage of nothing.
+/// The length in the unit of the shape. Refuses a percentage without a scene to refer to.
 double resolved_length(const Length& length, const Made& made, const char* name, Context& context) {
     const double x = context.resolve(length, made.scene, name) *
                      (length.kind == Length::Kind::percent ? made.of_entering : 1);
@@ -38,7 +38,7 @@ double resolved_length(const Length& length, const Made& made, const char* name,
     return x;
 }
 
-/// The options as numbers; lengths in the unit of the scene that they are read for.
+/// The options as numbers; lengths are in the unit of the scene.
 GenerateSettings resolved(const GenerateOptions& o, const Made& made, Context& context) {
     GenerateSettings s;
     s.shape = o.shape;
@@ -66,7 +66,7 @@ GenerateSettings resolved(const GenerateOptions& o, const Made& made, Context& c
     return s;
 }
 
-/// A percentage of noise is of the shape itself: the scene that enters may be empty.
+/// A percentage of noise refers to the shape itself, because the input scene may be empty.
 double noise_of(const GenerateOptions& o, const Made& made, const Part& part, Context& context) {
     if (o.noise.kind != Length::Kind::percent || o.noise.of == Length::Of::load)
         return resolved_length(o.noise, made, "noise", context);

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about load.
+// The help and manual texts of load.
 
 namespace facetmill::help::load {
 

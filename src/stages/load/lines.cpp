@@ -15,7 +15,7 @@ namespace {
 double thickness_of(const Length& given, const Scene& scene, const std::vector<Lines>& all,
                     Context& context) {
     Length length = given;
-    if (given.kind == Length::Kind::percent) { // of what the file holds: the scene has nothing of it yet
+    if (given.kind == Length::Kind::percent) { // of the file: the scene does not have it yet
         Box box = scene.bounds();
         for (const Lines& lines : all)
             for (const Vec3& p : lines.points) box.add(p);
@@ -29,7 +29,7 @@ double thickness_of(const Length& given, const Scene& scene, const std::vector<L
     return thickness;
 }
 
-/// One primitive for each material that occurs, in the order of the scene's.
+/// Makes a primitive for each material in use, in the scene's order.
 void set_materials(Mesh& mesh, std::vector<Index> face_material) {
     std::vector<Index> used(face_material);
     sort_unique(used);

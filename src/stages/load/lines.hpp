@@ -1,13 +1,13 @@
 #pragma once
-// Lines of a file that become parts.
+// Converts lines of a file to parts.
 
 #include "mesh/lines.hpp"
 #include "stage/context.hpp"
 
 namespace facetmill::load_stage {
 
-/// Adds a part to the file's scene for each of the lines: tubes of that thickness, a percentage being of the
-/// diagonal of the scene with its lines. Warns (W-LINES) where there were none, and where tubes go through
+/// Adds a part with tubes to the file's scene for each of the lines. A percentage of thickness refers to the
+/// diagonal of the scene with its lines. Warns (W-LINES) if the file has no lines, or if tubes intersect
 /// themselves.
 void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickness, int sides,
                Context& context);

@@ -1,11 +1,11 @@
 #pragma once
-// measure, of a mesh in cells.
+// measure for a mesh in cells.
 
 #include "stages/measure/options.hpp"
 
 namespace facetmill::measure_stage {
 
-/// Why the options need the mesh in memory, in words; none when they do not.
+/// The reason why the options need the mesh in memory, for messages; none if they do not.
 std::optional<std::string> why_not_on_cells(const MeasureOptions& o);
 void measure_on_cells(const MeasureOptions& o, CellFlow& flow, Context& context);
 

@@ -18,7 +18,7 @@ struct Row {
     const PolygonResult& polygon;
 };
 
-/// Columns that belong together, and what the help says of them.
+/// Related columns, and their help text.
 struct Columns {
     std::vector<const char*> names;
     const char* help;

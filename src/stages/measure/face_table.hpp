@@ -1,6 +1,5 @@
 #pragma once
-// The table of faces that measure writes: its columns are declared once, for the heading, the rows and the
-// help.
+// The face table of measure. Its columns are declared once, for the heading, the rows and the help.
 
 #include "mesh/mesh.hpp"
 
@@ -12,7 +11,7 @@ namespace facetmill::measure_stage {
 std::string face_table_head();
 /// One row per face of the part, whose mesh is in world space.
 std::string face_table_rows(const std::string& part, const Mesh& mesh);
-/// "part (its name), face (its number, from 0), ...": the columns as the help tells them.
+/// The help text of the columns: "part (its name), face (its number, from 0), ...".
 std::string face_table_help();
 
 } // namespace facetmill::measure_stage

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about measure.
+// The help and manual texts of measure.
 
 namespace facetmill::help::measure {
 

@@ -6,7 +6,7 @@
 
 namespace facetmill::measure_stage {
 
-/// The name of one that measure keeps as an attribute.
+/// The name of a quantity that measure keeps as an attribute.
 struct QuantityName {
     const Quantity* quantity = nullptr;
 };
@@ -21,14 +21,14 @@ struct MeasureOptions {
 };
 
 void declare_measure(Declare<MeasureOptions>& d);
-/// What the declaration cannot say: the formats of the files.
+/// Checks beyond the declaration: the formats of the files.
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems);
 StageFiles files_of_measure(const MeasureOptions& o);
 
-/// Whether the file gets a line for every face, rather than all results as JSON.
+/// Whether the file lists every face, instead of all results as JSON.
 bool lists_faces(const PathText& path);
 
-/// Whether an attribute is from the scene as loaded.
+/// Whether an attribute compares with the scene as loaded.
 bool is_from_load(const MeasureOptions& o);
 
 } // namespace facetmill::measure_stage

@@ -22,7 +22,7 @@ std::optional<Vec3> known_point(bool known, const Vec3& p) {
     return known && is_finite(p) ? std::optional(p) : std::nullopt;
 }
 
-/// amount: the area or volume that the inertia is of, with density 1.
+/// amount: the area or volume of the body with this inertia, at density 1.
 std::optional<PrincipalInertia> principal(const Symmetric& i, double amount, double density) {
     if (!is_finite({i.xx, i.yy, i.zz}) || !is_finite({i.xy, i.xz, i.yz})) return {};
     const Eigen3 e = eigen(i);
@@ -31,7 +31,7 @@ std::optional<PrincipalInertia> principal(const Symmetric& i, double amount, dou
     for (std::size_t k = 0; k < 3; ++k) {
         p.moments[k] = e.values[k] * density;
         const double square = amount != 0 ? e.values[k] / amount : 0;
-        // What has an area or a volume has moments: they vanish only below the range of numbers.
+        // Bodies with area or volume have nonzero moments, except below the range of doubles.
         if (square > 0)
             p.radii[k] = std::sqrt(square);
         else if (amount == 0)
@@ -192,7 +192,7 @@ std::string attribute_text(const KeptAttribute& kept) {
 }
 
 std::vector<std::string> lines_of(const MeasureReport& report) {
-    constexpr std::size_t few = 5; // parts that are told one by one
+    constexpr std::size_t few = 5; // parts listed individually
     const auto& parts = report.parts;
     if (parts.empty()) return {"nothing to measure"};
     std::vector<std::string> lines{mass_text(report.total.shell, report.total.solid, report)};

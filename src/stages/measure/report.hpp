@@ -1,5 +1,5 @@
 #pragma once
-// What measure reports.
+// The report of measure.
 
 #include "geometry/measure/measure.hpp"
 #include "options/fields.hpp"
@@ -22,11 +22,11 @@ struct MeasuredSolid {
 };
 MeasuredSolid measured(const SolidMass& solid, double density);
 
-/// What was kept as an attribute.
+/// A quantity kept as an attribute.
 struct KeptAttribute {
     std::string name, unit, elements; ///< elements: faces or vertices
     std::size_t missing = 0;          ///< faces or vertices without a number
-    Statistics values;                ///< of the others
+    Statistics values;                ///< of the elements with a number
 };
 
 struct MeasuredPart {
@@ -51,7 +51,7 @@ struct MeasureReport {
 void declare_measure_report(DeclareFields<MeasureReport>& d);
 
 void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context);
-/// The files that the options name. table: of the faces, for those that list them.
+/// Writes the files that the options name. table: the rows for files that list faces.
 void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
                    Context& context);
 

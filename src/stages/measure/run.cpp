@@ -41,10 +41,10 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
                          turns.edges, std::move(turns.curvature)});
 }
 
-/// What deviation is from; null where none is asked for.
+/// The surface that deviation refers to; null if not requested.
 std::unique_ptr<FaceTree> other_surface(const MeasureOptions& o, const Scene& scene, Context& context) {
     if (is_from_load(o)) {
-        context.mark_uncacheable(); // the scene as loaded is no part of what a result is known by
+        context.mark_uncacheable(); // the cache key does not include the scene as loaded
         return std::make_unique<FaceTree>(surface_as_loaded(context), FaceTree::Use::near);
     }
     if (!o.with) return nullptr;

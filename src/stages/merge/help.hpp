@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about merge.
+// The help and manual texts of merge.
 
 namespace facetmill::help::merge {
 

@@ -37,7 +37,7 @@ void declare_report(DeclareFields<MergeReport>& d) {
     d.field("merged", &MergeReport::merged, "The names of the parts that were joined, in order.");
 }
 
-/// The number of the part that each face came from: what `separate: group` parts by.
+/// Numbers the faces by their original part, for `separate: group`.
 void mark_group(Mesh& mesh, std::uint32_t number) {
     mesh.drop("group", Domain::face);
     mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false,

@@ -10,7 +10,7 @@ namespace facetmill::optimize_stage {
 
 namespace {
 
-/// What the faces of a mesh need altogether; none when that is not known.
+/// The combined needs of the mesh's materials; none if unknown.
 std::optional<io::MaterialNeeds>
 needs_of(const Mesh& mesh,
          const std::function<std::optional<io::MaterialNeeds>(Index material)>& needs_of_material) {
@@ -36,8 +36,8 @@ std::pair<std::string_view, std::string_view> displaced(std::string_view name) {
     return {name.substr(0, end + 1), name.substr(end + 1)};
 }
 
-/// Whether each morph target would displace something without what it displaces of this name: none may become
-/// empty, since weights count them.
+/// Whether every morph target keeps at least one attribute when this semantic goes. Weights count the
+/// targets, so none may become empty.
 bool targets_can_lose(const Mesh& mesh, std::string_view semantic) {
     std::map<std::string_view, std::size_t> left;
     for (const Attribute& a : mesh.attributes) {
@@ -48,7 +48,7 @@ bool targets_can_lose(const Mesh& mesh, std::string_view semantic) {
     return std::all_of(left.begin(), left.end(), [](const auto& target) { return target.second > 0; });
 }
 
-/// Colours multiply those of the material: white changes nothing.
+/// Colours multiply the material's colour, so white changes nothing.
 bool is_white(const Attribute& a) {
     for (std::size_t i = 0; i < a.size(); ++i)
         for (int c = 0; c < a.components; ++c)
@@ -64,8 +64,7 @@ bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
     if (name == "TANGENT") return !needs.tangents;
     if (a.role == Role::morph_vector) return false;
     if (a.name == "COLOR_0") return is_white(a);
-    if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1)
-        return false; // beyond nine: whoever knows
+    if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1) return false; // beyond nine
     return !needs.uvs.contains(a.name.back() - '0');
 }
 

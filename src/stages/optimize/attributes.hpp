@@ -1,5 +1,5 @@
 #pragma once
-// Attributes that no material looks at.
+// Removes attributes that no material uses.
 
 #include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/scene.hpp"
@@ -9,16 +9,16 @@
 namespace facetmill::optimize_stage {
 
 struct UnusedKinds {
-    bool standard = true; ///< that glTF knows
-    bool own = false;     ///< that it does not: of the user's own, which no viewer reads
+    bool standard = true; ///< attributes that glTF defines
+    bool own = false;     ///< custom attributes, which no viewer reads
 };
 
-/// Drops texture coordinates that no texture reads, tangents without a map of normals, and normals of unlit
-/// materials, with what morph targets displace of them (unless a target would be left with nothing), where
-/// all primitives of the mesh can do without; colours that are white throughout, which change nothing;
-/// attributes of one's own at vertices; then wedges that have become equal are one. Other colours, skins and
-/// morph targets stay. Nothing is dropped from a mesh with primitives that have extensions. needs: of a
-/// scene's material; none when it is not known. Returns the names.
+/// Drops unused attributes of a mesh, and returns their names. These are texture coordinates without a
+/// texture, tangents without a normal map, and normals of unlit materials, if no primitive of the mesh needs
+/// them. Their morph targets go too, unless a target would become empty. All-white colours and custom vertex
+/// attributes are also dropped. Other colours, skins and morph targets stay. Wedges that become equal are
+/// merged. A mesh whose primitives have extensions stays unchanged. needs: of a scene's material; none if
+/// unknown.
 std::vector<std::string>
 drop_unused_attributes(Mesh& mesh,
                        const std::function<std::optional<io::MaterialNeeds>(Index material)>& needs,

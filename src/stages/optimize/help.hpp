@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about optimize.
+// The help and manual texts of optimize.
 
 namespace facetmill::help::optimize {
 

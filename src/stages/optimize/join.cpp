@@ -11,7 +11,7 @@ namespace facetmill::optimize_stage {
 
 namespace {
 
-/// By primitive, whether faces have it.
+/// By primitive, whether faces use it.
 std::vector<char> used_primitives(const Mesh& mesh) {
     std::vector<char> used(std::max<std::size_t>(mesh.primitives.size(), 1));
     for (Index f = 0; f < mesh.face_count(); ++f)
@@ -19,8 +19,8 @@ std::vector<char> used_primitives(const Mesh& mesh) {
     return used;
 }
 
-/// What two meshes have to have in common to be one: materials, and the kinds of their attributes. Empty for
-/// those whose primitives say more than that.
+/// The key that two meshes must share to be merged: materials and kinds of attributes. Empty for meshes
+/// whose primitives have further data.
 std::string kind_of(const Mesh& mesh) {
     std::set<Index> materials;
     for (const Primitive& p : mesh.primitives) {
@@ -28,7 +28,7 @@ std::string kind_of(const Mesh& mesh) {
         materials.insert(p.material);
     }
     if (materials.empty()) materials.insert(none);
-    std::set<std::string> attributes; // in whatever order they stand
+    std::set<std::string> attributes; // in any order
     for (const Attribute& a : mesh.attributes)
         if (a.name != primitive_attribute)
             attributes.insert(fmt::format("{} {} {} {} {} {}", a.name, int(a.domain), int(a.role),
@@ -103,7 +103,7 @@ void join(Scene& scene, const JoinedParts& group) {
     const auto into = inverse(first.transform);
     for (const std::size_t i : group.others) {
         Part& other = scene.parts[i];
-        // Parts of one place stay as they are, to the bit.
+        // Parts with equal transforms keep their exact coordinates.
         if (into && other.transform != first.transform) apply(other.mesh, *into * other.transform);
         append(first.mesh, other.mesh);
         other.mesh = {};

@@ -9,13 +9,13 @@ namespace facetmill::optimize_stage {
 
 namespace {
 
-/// The looks of one kind, and which material has which.
+/// The looks of the same kind, and the look of each material.
 struct Palette {
     int document = -1;
     std::vector<io::PlainLook> looks;
-    std::map<Index, std::size_t> of_material; ///< look of each material of the scene
+    std::map<Index, std::size_t> of_material; ///< the look of each of the scene's materials
     std::set<std::size_t> parts;
-    Index material = none; ///< of the scene, once it is made
+    Index material = none; ///< its index in the scene after creation
 };
 
 using Key = std::pair<int, std::string>; // document and kind
@@ -25,7 +25,7 @@ bool has_uvs(const Mesh& mesh) {
                        [](const Attribute& a) { return a.name.rfind("TEXCOORD_", 0) == 0; });
 }
 
-/// The kind that all of a part's materials are of; none when there is no such.
+/// The kind that all of a part's materials share; none if they differ.
 std::optional<Key> kind_of(const Scene& scene, const Mesh& mesh,
                            const std::map<Index, io::PlainLook>& looks) {
     std::optional<Key> kind;
@@ -69,7 +69,7 @@ void add_look(Palette& palette, Index material, const io::PlainLook& look) {
     if (same == palette.looks.end()) palette.looks.push_back(look);
 }
 
-/// By material of the scene.
+/// By index of the scene's materials.
 std::map<Index, io::PlainLook> plain_looks(const Scene& scene,
                                            const std::vector<io::DocumentOptimizer>& documents) {
     std::map<Index, io::PlainLook> looks;
@@ -116,7 +116,7 @@ PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& do
             paint(part.mesh, palette);
             part.changed = true;
             if (part.document == palette.document &&
-                part.source_mesh >= 0) // as written, when nothing else has it
+                part.source_mesh >= 0) // the mesh as written, if no other part has it
                 documents[static_cast<std::size_t>(part.document)].set_material(
                     static_cast<std::size_t>(part.source_mesh), static_cast<std::size_t>(material_index));
         }

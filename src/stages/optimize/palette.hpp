@@ -1,5 +1,5 @@
 #pragma once
-// Materials of plain colours as pixels of one.
+// Replaces materials of plain colours by pixels of a palette texture.
 
 #include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/scene.hpp"
@@ -9,15 +9,15 @@
 namespace facetmill::optimize_stage {
 
 struct PaletteCounts {
-    std::size_t palettes = 0, materials = 0; ///< made, and that went into them
-    std::size_t too_many_looks = 0; ///< the most of one that was not made for having more than most_looks
+    std::size_t palettes = 0, materials = 0; ///< palettes made, and materials merged into them
+    std::size_t too_many_looks = 0;          ///< the most looks of a palette beyond most_looks
 };
 
-/// Looks of one palette, so that the 12 bits of a texture coordinate tell them apart.
+/// The maximum number of looks in a palette, so that 12-bit texture coordinates distinguish them.
 inline constexpr std::size_t most_looks = 512;
 
-/// Gives parts without texture coordinates, whose primitives have plain materials, a palette's, where at
-/// least `least` different looks of one kind meet in it. Marks the parts as changed. parts: by their numbers.
+/// Gives parts without texture coordinates and with plain materials a palette material, if at least `least`
+/// different looks of the same kind share it. Marks the parts as changed. parts: part numbers.
 PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& documents,
                             const std::vector<std::size_t>& parts, std::size_t least);
 

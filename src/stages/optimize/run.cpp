@@ -69,7 +69,7 @@ std::size_t draw_calls_of(const Scene& scene) {
     return calls;
 }
 
-/// The scene while its documents are worked on.
+/// The scene during the optimization of its documents.
 class Optimizing {
   public:
     Optimizing(Scene& scene, const OptimizeOptions& o, Context& context, OptimizeReport& report)
@@ -116,26 +116,26 @@ class Optimizing {
                 if (p.material < instead.size()) p.material = instead[p.material];
     }
 
-    /// What equal materials have in common: the document and the material that stands for it there, or none
-    /// and the name; sides and colour.
+    /// The key of equal materials: the document and the representative material in it, or none and the name;
+    /// sides and colour.
     using MaterialKey = std::tuple<int, std::size_t, std::string, bool, std::array<std::uint64_t, 4>>;
 
     MaterialKey key_of(const Material& m, const std::vector<std::vector<std::size_t>>& stands_for) const {
         std::array<std::uint64_t, 4> colour;
         std::transform(std::begin(m.base_colour), std::end(m.base_colour), colour.begin(),
-                       [](double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }); // -0 is 0
+                       [](double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }); // -0 equals 0
         if (m.document < 0) return {m.document, 0, o_.keep_names ? m.name : "", m.double_sided, colour};
         return {m.document, stands_for[number(m.document)][number(m.index)], "", m.double_sided, colour};
     }
 
-    /// Nodes whose meshes are equal name the first of them. A mesh of which one part is bound stays its own.
+    /// Nodes with equal meshes reference the first of these. A mesh with a bound part stays separate.
     void merge_meshes() {
         const auto first = DistinctParts(scene_).first;
         using Source = std::pair<int, int>;
         const auto source = [&](std::size_t i) {
             return Source{scene_.parts[i].document, scene_.parts[i].source_mesh};
         };
-        std::map<Source, std::set<std::size_t>> variants; // the different meshes that one has become
+        std::map<Source, std::set<std::size_t>> variants; // the different meshes that a source mesh became
         std::set<Source> bound;
         for (std::size_t i = 0; i < first.size(); ++i) {
             variants[source(i)].insert(first[i]);
@@ -160,8 +160,8 @@ class Optimizing {
         }
     }
 
-    /// Of the meshes that may change: all parts that share one are selected, and nothing numbers its
-    /// vertices.
+    /// Merges vertices of meshes that may change: all parts with the mesh are selected, and no data refers
+    /// to vertex numbers.
     void merge_vertices() {
         for (const std::size_t i : changeable()) {
             Part& part = scene_.parts[i];
@@ -206,7 +206,7 @@ class Optimizing {
         return all;
     }
 
-    /// Selected parts whose mesh no other part has that is not selected.
+    /// Selected parts whose mesh is used by selected parts only.
     std::vector<std::size_t> changeable() const {
         std::set<std::pair<int, int>> fixed;
         for (const Part& part : scene_.parts)
@@ -245,7 +245,7 @@ class Optimizing {
             report_.flattened_parts += tidies_[d].flatten(nodes[d], requests_[d].emptied);
     }
 
-    /// Parts of one mesh, each alone at its node and not mirrored.
+    /// Parts by mesh, each alone at its node and not mirrored.
     std::map<std::pair<int, int>, std::vector<std::size_t>> parts_by_mesh() const {
         std::map<std::pair<int, int>, std::size_t> of_node;
         for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
@@ -294,7 +294,7 @@ class Optimizing {
         std::erase_if(scene_.parts, [&](const Part&) { return gone.contains(i++); });
     }
 
-    /// Parts that are drawn by themselves only because they are parts by themselves.
+    /// Parts that could be merged because nothing else requires them to be separate.
     std::vector<std::size_t> candidates() const {
         std::map<std::pair<int, int>, std::size_t> of_mesh, of_node;
         for (const Part& part : scene_.parts) {
@@ -314,8 +314,7 @@ class Optimizing {
         return all;
     }
 
-    /// Of each mesh that several parts share the parts, where all of them may be joined and still have the
-    /// same mesh, each at a node of its own.
+    /// For each shared mesh, its parts, if all of them may be joined and each has its own node.
     std::vector<std::vector<std::size_t>> shared_candidates() const {
         std::map<std::pair<int, int>, std::size_t> of_node;
         for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
@@ -393,7 +392,7 @@ class Optimizing {
         }
     }
 
-    /// Materials of the scene that no part has, those of dropped duplicates among them.
+    /// Removes unused materials of the scene, including merged duplicates.
     void drop_materials() {
         std::vector<Index> number_of(scene_.materials.size(), none);
         for (const Part& part : scene_.parts)
@@ -445,7 +444,7 @@ class Optimizing {
     std::vector<bool> bound_;
 };
 
-/// What was erased, without what was not: "2 nodes".
+/// The nonzero counts of erased items as text: "2 nodes".
 std::vector<std::string> told(const io::TidyCounts& erased) {
     std::vector<std::string> words;
     const auto add = [&](std::size_t count, const char* noun, const char* plural = "") {

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about orient.
+// The help and manual texts of orient.
 
 namespace facetmill::help::orient {
 

@@ -65,7 +65,7 @@ OrientedPart counts_of(const Part& part, const OrientResult& r) {
             count([](const Component& p) { return p.undecided; })};
 }
 
-/// Components that could not be oriented, or whose outside could not be told.
+/// Warns of components that could not be oriented, or whose outside is uncertain.
 void warn(const Part& part, const OrientResult& r, Context& context) {
     std::size_t crossed = 0, undecided = 0;
     const OrientedComponent* first = nullptr;

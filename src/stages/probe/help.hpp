@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about probe.
+// The help and manual texts of probe.
 
 namespace facetmill::help::probe {
 

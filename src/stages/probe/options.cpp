@@ -51,7 +51,7 @@ bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers
     }
     if (value.is_scalar()) {
         const auto list = list_in_text(value);
-        Problems of_row; // the whole text is what people are told of
+        Problems of_row; // a message about the whole text replaces the row's messages
         return (list && parse(*list, columns, numbers, file, of_row)) || refuse(value, columns, problems);
     }
     if (!value.is_list() || value.items.empty()) return refuse(value, columns, problems);

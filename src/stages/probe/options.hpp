@@ -1,5 +1,5 @@
 #pragma once
-// The options of probe, and rows of numbers as users give them: written out, or in a CSV file.
+// The options of probe, and rows of numbers as users give them: inline, or in a CSV file.
 
 #include "stage/stage.hpp"
 
@@ -9,14 +9,14 @@ namespace facetmill {
 template <std::size_t N>
 struct Rows {
     std::vector<std::array<double, N>> rows;
-    std::string file; ///< read when the stage runs; empty: rows are all
+    std::string file; ///< read when the stage runs; empty: use the inline rows
 };
 
 namespace rows {
 bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
            Problems& problems);
 Json schema(std::size_t columns);
-/// The numbers of the file, row by row; it is an input of the run.
+/// Reads the numbers of the file row by row, and records it as an input of the run.
 std::vector<double> read(const std::string& file, std::size_t columns, Context& context);
 } // namespace rows
 
@@ -59,9 +59,9 @@ struct ProbeOptions {
 };
 
 void declare_probe(Declare<ProbeOptions>& d);
-/// What the declaration cannot say: names of outputs, and options that do not go together.
+/// Checks beyond the declaration: names of outputs, and conflicting options.
 void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems);
-/// What is read and written.
+/// The files that probe reads and writes.
 StageFiles probe_files(const ProbeOptions& o);
 bool is_csv(const PathText& path);
 

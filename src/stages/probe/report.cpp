@@ -12,10 +12,10 @@ namespace facetmill::probe_stage {
 
 namespace {
 
-/// The t that users see: of a ray, the distance from its start.
+/// The parameter shown to users: for a ray, the distance from its start.
 double shown(const Line& line, double t) { return line.ray ? t * length(line.to - line.from) : t; }
 
-/// Puts the face's part and number into the answer; nothing for none.
+/// Sets the face's part and number in the answer; unset for none.
 template <class Answer>
 void name_face(Answer& answer, const FaceNames& faces, Index face) {
     const auto [part, number] = faces.of(face);
@@ -154,7 +154,7 @@ std::string line_of(const ProbedLine& a) {
 }
 
 std::vector<std::string> lines_of(const ProbeReport& report) {
-    constexpr std::size_t few = 5; // answers that are told one by one
+    constexpr std::size_t few = 5; // answers listed individually
     std::vector<std::string> counts;
     const auto add = [&](std::uint64_t count, const std::string& kind) {
         if (count > 0) counts.push_back(fmt::format("{} {}", grouped(count), kind));

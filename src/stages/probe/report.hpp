@@ -1,5 +1,5 @@
 #pragma once
-// What probe reports of its answers, and their tables.
+// The report of probe's answers, and their tables.
 
 #include "geometry/measure/measure.hpp"
 #include "geometry/probe/probe.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill::probe_stage {
 
-/// Faces of a surface of several parts, by part and number there.
+/// Maps faces of a joined surface to the part and the face number in it.
 class FaceNames {
   public:
     explicit FaceNames(const std::vector<const Part*>& parts);
@@ -23,7 +23,7 @@ class FaceNames {
 struct LineAnswers {
     std::vector<Line> lines;
     HitLists hits;
-    std::vector<SegmentFacet> meetings; ///< with one face, when that was asked; else empty
+    std::vector<SegmentFacet> meetings; ///< with the requested face; empty if none was requested
 };
 
 struct ProbedPoint {
@@ -37,7 +37,7 @@ struct ProbedPoint {
 };
 
 struct ProbedHit {
-    double t = 0; ///< 0 to 1 along a segment; of a ray a distance
+    double t = 0; ///< 0 to 1 along a segment; a distance for a ray
     Vec3 at;
     bool enters = false;
     std::optional<std::string> part;
@@ -52,22 +52,22 @@ struct ProbedLine {
     Vec3 from;
     std::optional<Vec3> direction, to; ///< of a ray, of a segment
     std::vector<ProbedHit> hits;
-    std::optional<std::string> meeting; ///< with the one face
+    std::optional<std::string> meeting; ///< with the requested face
     std::optional<InPlane> plane;
 };
 using ProbeAnswer = std::variant<ProbedPoint, ProbedLine>;
 
 struct ProbeReport {
     std::size_t count = 0;
-    std::optional<std::array<std::size_t, 4>> sides; ///< points by Side
+    std::optional<std::array<std::size_t, 4>> sides; ///< point counts by Side
     std::optional<std::size_t> hit, missed, hits;    ///< of lines
     std::optional<NamedCounts> meetings;
     std::optional<Statistics> distance;
-    std::vector<ProbeAnswer> answers; ///< the first of them
+    std::vector<ProbeAnswer> answers; ///< the first answers
 };
 void declare_probe_report(DeclareFields<ProbeReport>& d);
 
-/// The report, with at most so many answers.
+/// The report, with at most `limit` answers.
 ProbeReport report_of(std::span<const Vec3> points, std::span<const PointAnswer> answers,
                       const FaceNames& faces, std::size_t limit);
 ProbeReport report_of(const LineAnswers& answers, const FaceNames& faces, std::size_t limit);

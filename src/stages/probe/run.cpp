@@ -15,12 +15,12 @@ namespace facetmill::probe_stage {
 
 namespace {
 
-/// The surface that is asked, and the parts that bring points with them.
+/// The queried surface, and the parts whose vertices are the query points.
 struct Questions {
     std::vector<const Part*> surface, sources;
 };
 
-/// Usage error (E-PART) when points_of names no part.
+/// Usage error (E-PART) if points_of matches no part.
 Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context& context) {
     Questions q;
     const PartFilter sources{o.points_of};
@@ -38,7 +38,7 @@ Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context&
     return q;
 }
 
-/// The points of the option or its file, or the vertices of the sources; world space.
+/// The points of the option or its file, or the vertices of the sources, in world space.
 std::vector<Vec3> points_asked(const ProbeOptions& o, const Questions& q, Context& context) {
     std::vector<Vec3> points;
     if (!o.points) {
@@ -69,8 +69,8 @@ std::vector<Line> lines_asked(const ProbeOptions& o, Context& context) {
     return lines;
 }
 
-/// Normals of vertices in the world, of the faces there by their area; faces of a mirrored part keep their
-/// front.
+/// Vertex normals in world space, weighted by the area of the adjacent faces. Faces of a mirrored part keep
+/// their front.
 std::vector<Vec3> normals_of_faces(const Part& part) {
     const Mesh world = in_world(part);
     std::vector<Vec3> sums(world.vertex_count());
@@ -81,7 +81,7 @@ std::vector<Vec3> normals_of_faces(const Part& part) {
     return sums;
 }
 
-/// The attribute's directions at the vertices, in the world; wedges of a vertex are added up.
+/// The attribute's directions at the vertices, in world space, summed over the wedges of a vertex.
 std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
     const Mesh& mesh = part.mesh;
     const Attribute* found = mesh.find(name, Domain::vertex);
@@ -93,7 +93,7 @@ std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
             ErrorKind::stage, "E-ATTRIBUTE",
             fmt::format("part '{}' has no attribute '{}' of three numbers at vertices", part.name, name),
             "facetmill info lists the attributes of a file; NORMAL is always available");
-    Mesh alone; // turned as the part is
+    Mesh alone; // transformed like the part
     alone.attributes.push_back(*found);
     apply(alone, part.transform);
     const Attribute& a = alone.attributes.front();
@@ -107,8 +107,8 @@ std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
     return directions;
 }
 
-/// Rays from the vertices of all parts of the surface along the attribute `along`, of length 1. Stage error
-/// (E-ATTRIBUTE) when a part has no such attribute.
+/// Rays of length 1 from the vertices of all parts of the surface along the attribute `along`. Stage error
+/// (E-ATTRIBUTE) if a part lacks the attribute.
 std::vector<Line> lines_along(const ProbeOptions& o, const Questions& q) {
     std::vector<Line> lines;
     for (const Part* part : q.surface) {
@@ -122,8 +122,8 @@ std::vector<Line> lines_along(const ProbeOptions& o, const Questions& q) {
     return lines;
 }
 
-/// The corners of a face, parts counted through, in world space. Usage error (E-FACE) when there is no such
-/// face.
+/// The corners of a face in world space; the number counts through all parts. Usage error (E-FACE) if the
+/// face does not exist.
 std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
     std::int64_t left = number;
     for (const Part* part : q.surface) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about relax.
+// The help and manual texts of relax.
 
 namespace facetmill::help::relax {
 

@@ -12,9 +12,9 @@ using Boundary = RelaxSettings::Boundary;
 using Method = RelaxSettings::Method;
 using Neighbours = RelaxSettings::Neighbours;
 
-/// How many iterations there are at most, with until.
+/// The maximum number of iterations with until.
 constexpr std::int64_t max_iterations_until = 1000;
-/// What hc pulls back with until: without any, it shrinks too in the end.
+/// The default alpha of hc with until: without pull-back, hc too shrinks the mesh in the end.
 constexpr double alpha_until = 0.1;
 
 void declare_methods(Declare<RelaxOptions>& d) {

@@ -1,5 +1,5 @@
 #pragma once
-// The options of relax, and what they come to.
+// The options of relax and their conversion to settings.
 
 #include "geometry/relax/relax.hpp"
 #include "stage/options/mask.hpp"
@@ -15,17 +15,17 @@ struct RelaxOptions {
     std::optional<Angle> feature_angle;
     std::optional<Length> until;
     double pass_band = RelaxSettings{}.pass_band;
-    std::optional<double> alpha; ///< none: 0, or 0.1 with until, so that there is a place to come to rest at
+    std::optional<double> alpha; ///< none: 0, or 0.1 with until, so that the iteration converges
     double beta = RelaxSettings{}.beta;
     Caps caps = Caps::fixed;
     std::optional<MaskSettings> mask;
 };
 
 void declare_relax(Declare<RelaxOptions>& d);
-/// What the declaration cannot say: options of other methods, a lambda that a method cannot take.
+/// Checks beyond the declaration: options of other methods, a lambda invalid for the method.
 void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems);
 
-/// What is the same for all parts; until, mask and the transform are each part's own.
+/// The settings shared by all parts; until, mask and the transform are set per part.
 RelaxSettings relax_settings(const RelaxOptions& o);
 
 } // namespace facetmill::relax_stage

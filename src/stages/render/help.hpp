@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about render.
+// The help and manual texts of render.
 
 namespace facetmill::help::render {
 

@@ -20,7 +20,7 @@ bool any_has(const Scene& scene, const std::string& attribute,
     });
 }
 
-/// Of the parts that are drawn, each once.
+/// The attribute names of the drawn parts, each once.
 std::vector<std::string> attribute_names(const Scene& scene,
                                          const std::function<bool(const Part&)>& selects) {
     std::vector<std::string> names;
@@ -32,7 +32,7 @@ std::vector<std::string> attribute_names(const Scene& scene,
     return names;
 }
 
-/// The part without attributes, but for those that tell the sides of its faces.
+/// The part without attributes, except attributes for the sides of its faces.
 Part faces_of(const Part& part) {
     Part out;
     out.name = part.name;

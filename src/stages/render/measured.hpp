@@ -1,5 +1,5 @@
 #pragma once
-// Attributes that a scene has not, and that render measures in order to draw them.
+// Attributes that the scene lacks and that render measures to draw them.
 
 #include "geometry/quantities/quantities.hpp"
 #include "stages/render/options.hpp"
@@ -8,21 +8,22 @@
 
 namespace facetmill::render_stage {
 
-/// What is measured; null: the attribute that is asked for is one of the scene, or of the other, or none is.
-/// Throws stage (E-ATTRIBUTE) where it is neither there nor one that can be measured.
+/// The quantity to measure. Null if no attribute is requested, or if the scene or the other scene has it.
+/// Throws stage (E-ATTRIBUTE) if the attribute neither exists nor can be measured.
 const Quantity* quantity_to_measure(const RenderOptions& o, const Scene& scene, const Scene* other,
                                     const Context& context);
 
-/// Whether the attribute is from the scene as loaded.
+/// Whether the attribute compares with the scene as loaded.
 bool is_from_load(const RenderOptions& o);
 
-/// What the unit of the legend is. Throws usage (E-UNIT) where another is given than the numbers have.
+/// The unit of the legend. Throws usage (E-UNIT) if the requested unit differs from the numbers' unit.
 std::string unit_of_legend(const RenderOptions& o, const Quantity* quantity, Unit unit,
                            const Context& context);
 
-/// The selected parts with their numbers as an attribute: of what compares, from the surface behind `other`.
-/// bind: the scene is skinned or morphed: it is measured as stages see it, and stays in one piece, to be
-/// posed. Of deviation large faces are cut into small ones, unless their edges are to be drawn.
+/// The selected parts with the measured numbers as an attribute; quantities that compare measure against
+/// `other`. bind: the scene is skinned or morphed. It is measured in bind pose as stages see it, and not
+/// taken apart, so that it can be posed. For deviation, large faces are cut into small faces, unless their
+/// edges are drawn.
 Scene measured(const RenderOptions& o, const Quantity& quantity, const Scene& scene,
                const std::function<bool(const Part&)>& selects, const FaceTree* other, bool bind);
 

@@ -39,7 +39,7 @@ const NamedChoice<Viewpoint>* viewpoint_named(const std::string& name) {
     return nullptr;
 }
 
-/// How many pictures the options ask for, and how many of them stand in a row.
+/// The number of pictures, and of pictures per row.
 std::pair<std::size_t, std::size_t> count_and_columns(const RenderOptions& o) {
     std::size_t count = 0;
     for (const auto& view : o.views) count += view == turntable ? turns : 1;
@@ -85,7 +85,7 @@ bool OptionType<ColourRange>::parse(const Value& value, ColourRange& out, Proble
                 out.kind = kind;
                 return true;
             }
-    const Value list = listed(value); // "0,2.5", as the one-liner writes it
+    const Value list = listed(value); // "0,2.5" in the one-liner's syntax
     for (const auto& item : list.items) numbers.push_back(item.as_real());
     if (numbers.size() != 2 || !numbers[0] || !numbers[1] || !(*numbers[0] < *numbers[1]))
         return wrong_type(value, expected, problems, "the first number is less than the second");
@@ -243,7 +243,7 @@ PictureSettings common_settings(const RenderOptions& o, const Scene& scene, cons
     s.width = static_cast<int>(o.width);
     s.height = static_cast<int>(o.height);
     s.viewpoint = o.view;
-    if (o.from) s.from = *o.from / largest_component(*o.from); // squares of the smallest numbers are 0
+    if (o.from) s.from = *o.from / largest_component(*o.from); // squares of tiny numbers are 0
     if (o.perspective) s.perspective = o.perspective->radians;
     s.at = o.at;
     s.zoom = o.zoom.value_or(o.at ? 4 : 1);

@@ -31,18 +31,18 @@ struct RenderOptions {
 };
 
 void declare_render(Declare<RenderOptions>& d);
-/// What the declaration cannot say: other formats than PNG, directions that are none, names of views, sizes
-/// of sheets.
+/// Checks beyond the declaration: formats other than PNG, invalid directions, names of views, sizes of
+/// sheets.
 void verify_render(const RenderOptions& o, const Value& given, Problems& problems);
 
-/// Of the parts that the context selects: one for each picture, row by row, with how many stand in a row.
-/// They have one scale.
+/// The pictures of the parts that the context selects, row by row, with the number per row. They share a
+/// scale.
 struct Shots {
     std::vector<PictureSettings> settings;
     std::size_t columns = 1;
 };
 Shots shots_of(const RenderOptions& o, const Scene& scene, const PictureSettings& common);
-/// What all pictures of a scene have in common.
+/// The settings shared by all pictures of a scene.
 PictureSettings common_settings(const RenderOptions& o, const Scene& scene, const Context& context);
 
 /// "auto", "percentile", "all", or two numbers.

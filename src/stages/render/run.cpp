@@ -24,8 +24,8 @@ std::shared_ptr<const ResolvedMaterials> looks_of(const RenderOptions& o, const 
     return materials;
 }
 
-/// Two scenes seen by one camera, which sees all of both, from where the first is seen. Numbers of the second
-/// have the colours of the first's.
+/// A picture of two scenes side by side. The camera shows all of both, from the first scene's viewpoint.
+/// Both use the first scene's colour range.
 Picture both(const PictureSettings& first, const Scene& a, const Scene& b,
              const std::shared_ptr<const ResolvedMaterials>& looks_b) {
     PictureSettings settings = first;
@@ -46,14 +46,14 @@ Picture both(const PictureSettings& first, const Scene& a, const Scene& b,
     return sheet;
 }
 
-/// What is drawn: the scenes as they are, or with numbers that were measured.
+/// The scenes to draw: the given scenes, or copies with measured numbers.
 struct Subject {
-    std::optional<Scene> own, other; ///< own: instead of the scene that was given
+    std::optional<Scene> own, other; ///< own: replaces the given scene
     const Quantity* quantity = nullptr;
-    std::size_t faces = 0; ///< before large ones were cut
+    std::size_t faces = 0; ///< before large faces were cut
 };
 
-/// Of the surface of a scene.
+/// The tree of a scene's surface.
 FaceTree tree_of(const Scene& scene) {
     return FaceTree(surface_or_points_of(scene, filled_surface), FaceTree::Use::near);
 }
@@ -62,7 +62,7 @@ void pose(std::optional<Scene>& scene) {
     if (auto posed = io::posed(*scene)) scene = std::move(posed);
 }
 
-/// Deviation is that of each scene from the other, or of the one from what was loaded.
+/// Measures deviation between both scenes, or from the scene as loaded.
 void measure(const RenderOptions& o, const Scene& scene, Subject& subject, Context& context) {
     const Quantity& quantity = *subject.quantity;
     const auto selects = [&](const Part& part) { return context.selects(part, scene); };
@@ -102,24 +102,24 @@ Subject subject_of(const RenderOptions& o, const Scene& scene, Context& context)
     return subject;
 }
 
-/// What positions in 32-bit floats may be off by, of the numbers that are measured of them.
+/// The relative error of quantities measured on float32 positions.
 constexpr double lost_by_floats = 1e-6;
 
 PictureSettings settings_of(const RenderOptions& o, const Scene& scene, const Quantity* quantity,
                             Context& context) {
     PictureSettings common = common_settings(o, scene, context);
     common.unit = unit_of_legend(o, quantity, scene.unit, context);
-    const Quantity* named = quantity ? quantity : quantity_named(o.attribute); // which measure may have kept
+    const Quantity* named = quantity ? quantity : quantity_named(o.attribute); // measure may have kept it
     common.range.diverging = named && named->is_signed;
     if (!quantity) return common;
     common.range.lost = lost_by_floats;
     common.attribute = quantity->name;
-    common.shows = {}; // those that were measured
+    common.shows = {};                                                                 // the measured parts
     if (quantity->compares && o.edges != EdgeLines::all) common.edges = EdgeLines::no; // faces were cut
     return common;
 }
 
-/// Deviations that positions in 32-bit floats do not hold have no colour.
+/// Widens the automatic range if all deviations are below float32 precision, so that they have no colour.
 void widen_to_floats(const Scene& scene, PictureSettings& settings) {
     if (settings.range.kind != ColourRange::Kind::automatic) return;
     const ValueRange found = value_range(scene, settings.attribute, settings.range, settings.shows);
@@ -265,7 +265,7 @@ const RegisterStage registered = make_stage<RenderStage>(
                   "render: {path: deviation.png, attribute: deviation}"},
      .tells = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all, // the scene passes on: nothing is to be compared
+     .may_lose = MayLose::all, // the scene passes unchanged, so a comparison is pointless
      .crossing_faces = CrossingFacePolicy::name},
     declare_render, declare_report);
 

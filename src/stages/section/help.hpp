@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about section.
+// The help and manual texts of section.
 
 namespace facetmill::help::section {
 

@@ -22,11 +22,11 @@ struct SectionOptions {
 };
 
 void declare_section(Declare<SectionOptions>& d);
-/// What the declaration cannot say: planes that are none, and names of drawings.
+/// Checks beyond the declaration: invalid planes, and names of drawings.
 void verify_section(const SectionOptions& o, const Value& given, Problems& problems);
 
-/// The lines for a scene: each section of a stack gets the same ones. Throws stage (E-HATCH) for a spacing
-/// that comes to 0.
+/// The hatch lines of a scene; all sections of a stack share them. Throws stage (E-HATCH) if the spacing
+/// resolves to 0.
 polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context);
 
 } // namespace facetmill::section_stage

@@ -25,9 +25,9 @@ void add(SectionReport& report, const Section& s) {
     }
 }
 
-/// listed: the contours that were listed so far.
+/// listed: the number of contours listed so far.
 ReportedSection reported(const io::Sheet& sheet, std::size_t& listed) {
-    constexpr std::size_t max_listed = 200; // a JSON drawing has all
+    constexpr std::size_t max_listed = 200; // JSON drawings list all
     ReportedSection section{sheet.height, sheet.frame.origin, 0, 0, {}};
     ReportedSection::Listed parts;
     for (const auto& part : sheet.parts) {

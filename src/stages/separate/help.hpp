@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about separate.
+// The help and manual texts of separate.
 
 namespace facetmill::help::separate {
 

@@ -43,8 +43,8 @@ FaceLabels by_material(const Part& part, const Scene& scene) {
     });
 }
 
-/// A part without numbers is one group where nobody named them and there are other parts: groups of an OBJ
-/// file may be its parts already.
+/// Groups of an OBJ file may already be parts. So a part without numbers counts as a single group if the
+/// attribute is the default and the scene has other parts.
 FaceLabels by_group(const Part& part, const Scene& scene, const std::string& attribute) {
     const Attribute* a = part.mesh.find(attribute, Domain::face);
     if (!a && attribute == SeparateOptions{}.attribute && scene.parts.size() > 1) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The options of separate, and what they take a part apart into.
+// The options of separate, and the pieces that they define.
 
 #include "stage/stage.hpp"
 
@@ -15,18 +15,18 @@ struct SeparateOptions {
 };
 
 void declare_separate(Declare<SeparateOptions>& d);
-/// Names what has no effect (E-CONFLICT).
+/// Reports options without effect (E-CONFLICT).
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems);
 
-/// What a part is taken apart into: a label for each face, and a name for each label, in the order of their
-/// first faces.
+/// The pieces of a part: a label for each face, and a name for each label, in the order of their first
+/// faces.
 struct FaceLabels {
     std::vector<Index> of_face;
     std::vector<std::string> names;
 };
 
-/// The pieces of the part; none where it stays as it is. Throws stage (E-GROUP) when it has no such attribute
-/// and is not one of several parts, or one whose values are not all whole numbers.
+/// The pieces of the part; none if it stays whole. Throws stage (E-GROUP) if a scene's only part lacks the
+/// attribute, or if a value is not a whole number.
 FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
 } // namespace facetmill::separate_stage

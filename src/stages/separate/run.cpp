@@ -28,7 +28,7 @@ void declare_report(DeclareFields<SeparateReport>& d) {
            });
 }
 
-/// Refuses to make more parts than is wanted.
+/// Refuses more parts than max_parts.
 void require_few(std::size_t parts, std::int64_t max_parts) {
     if (parts > static_cast<std::size_t>(max_parts))
         throw Error(
@@ -37,7 +37,7 @@ void require_few(std::size_t parts, std::int64_t max_parts) {
             "remove small components first (clean: {components: {min_faces: 10}}), or raise max_parts");
 }
 
-/// The first piece keeps the part's node, the others stand beside it; all keep its skin and its animation.
+/// The first piece keeps the part's node, and the others become siblings. All keep its skin and animation.
 Part part_of(const Part& part, Mesh mesh, std::string name) {
     Part piece;
     piece.name = std::move(name);

@@ -10,7 +10,7 @@ namespace facetmill::split_stage {
 
 namespace {
 
-/// What a pass does to attributes, as the first cell tells it.
+/// The attribute changes of a pass, taken from the first cell.
 AttributeChanges changes_of(const cells::Partition& partition) {
     const Mesh mesh = partition.cell(0).mesh;
     return split(mesh, {.method = SplitMethod::midpoint}).changes;
@@ -44,7 +44,7 @@ void split_on_cells(const SplitOptions& o, CellFlow& flow, Context& context) {
     for (; result.passes < passes; ++result.passes) {
         result.shared += cells::shared_spots(*flow.partition, flow.means);
         auto source = cells::split_source(flow.partition->shared_source());
-        flow.partition.reset(); // its temporary data goes first
+        flow.partition.reset(); // release temporary data first
         flow.partition = std::make_unique<cells::Partition>(std::move(source), flow.means);
     }
     told.after = cells::shape_of_cells(*flow.partition, flow.transform);

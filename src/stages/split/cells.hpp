@@ -1,11 +1,11 @@
 #pragma once
-// split, of a mesh in cells.
+// split for a mesh in cells.
 
 #include "stages/split/options.hpp"
 
 namespace facetmill::split_stage {
 
-/// Why the options need the mesh in memory, in words; none when they do not.
+/// The reason why the options need the mesh in memory, for messages; none if they do not.
 std::optional<std::string> why_not_on_cells(const SplitOptions& o);
 double triangles_of_one(const SplitOptions& o);
 void split_on_cells(const SplitOptions& o, CellFlow& flow, Context& context);

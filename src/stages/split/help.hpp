@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about split.
+// The help and manual texts of split.
 
 namespace facetmill::help::split {
 

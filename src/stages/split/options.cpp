@@ -110,7 +110,7 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
                                    to_string(method))});
     SplitSettings s;
     s.method = method;
-    // Whether there is a target, not which: its length is known in the scene only.
+    // Only marks that a target is set, because its length is known only with the scene.
     s.cut = o.cut;
     s.max_edge = o.max_edge ? 1 : 0;
     s.min_angle = o.min_angle ? 1 : 0;

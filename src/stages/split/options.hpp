@@ -1,5 +1,5 @@
 #pragma once
-// The options of split, and what they come to.
+// The options of split and their conversion to settings.
 
 #include "geometry/split/split.hpp"
 #include "stage/stage.hpp"
@@ -21,10 +21,10 @@ struct SplitOptions {
 };
 
 void declare_split(Declare<SplitOptions>& d);
-/// What the declaration cannot say: options and targets that do not go together.
+/// Checks beyond the declaration: conflicting options and targets.
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems);
 
-/// What is the same for all parts; max_edge, max_faces and the transform are each part's own.
+/// The settings shared by all parts; max_edge, max_faces and the transform are set per part.
 SplitSettings split_settings(const SplitOptions& o);
 
 } // namespace facetmill::split_stage

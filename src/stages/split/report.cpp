@@ -68,7 +68,7 @@ const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop) {
 
 namespace {
 
-/// The faces that a method without target splits, when it is not all of them.
+/// The faces that a method without a target splits, if not all.
 const char* only_splits(SplitMethod method) {
     switch (method) {
     case SplitMethod::fan:

@@ -1,5 +1,5 @@
 #pragma once
-// What split says of a part.
+// The report and warnings of split.
 
 #include "stages/split/options.hpp"
 
@@ -20,13 +20,13 @@ struct SplitReport {
 };
 void declare_split_report(DeclareFields<SplitReport>& d);
 
-/// What ended the work, by the option that asked for it.
+/// The option that ended the split.
 const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop);
 
-/// Says which target was not reached; `longest`: the longest edge that is left, in world units.
+/// Warns of targets that were not reached. longest: the longest remaining edge in world units.
 void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings& s, double longest,
                      Context& context);
-/// Says where faces cannot be split as well as the stage promises.
+/// Warns of faces that cannot be split as well as documented.
 void warn_of_spots(const Part& part, const SplitResult& r, SplitMethod method, Context& context);
 
 } // namespace facetmill::split_stage

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about textures.
+// The help and manual texts of textures.
 
 namespace facetmill::help::textures {
 

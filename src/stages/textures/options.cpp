@@ -13,7 +13,7 @@ namespace {
 
 using MaybeFormat = std::optional<Format>;
 
-constexpr std::int64_t longest_side = 16384; // that any image has that is read
+constexpr std::int64_t longest_side = 16384; // of any readable image
 
 template <class F>
 std::vector<NamedChoice<F>> formats() {

@@ -6,10 +6,10 @@
 namespace facetmill::textures_stage {
 
 enum class Format { keep, png, jpeg, webp, ktx2 };
-/// The word of the option: "png".
+/// The name in options: "png".
 std::string name_of(Format format);
 
-/// What is asked of images of one role.
+/// The requested options for images of a role.
 struct RoleOptions {
     std::optional<std::int64_t> max_size, quality;
     std::optional<bool> power_of_two, lossless;
@@ -24,7 +24,7 @@ struct TexturesOptions {
     RoleOptions normals, data;
 };
 
-/// What is done to images of a role.
+/// The settings for images of a role.
 struct ImageSettings {
     std::size_t max_size = SIZE_MAX;
     bool power_of_two = false, lossless = false;
@@ -36,10 +36,10 @@ ImageSettings for_normals(const TexturesOptions& o);
 ImageSettings for_data(const TexturesOptions& o);
 
 void declare_textures(Declare<TexturesOptions>& d);
-/// Whether images of some role are to be KTX2.
+/// Whether the options ask for KTX2 in a role.
 bool wants_ktx2(const TexturesOptions& o);
 
-/// lossless goes with WebP only, and KTX2 with a program that is there.
+/// Checks beyond the declaration: lossless needs WebP, and KTX2 needs an installed encoder.
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::textures_stage

@@ -15,7 +15,7 @@ namespace {
 
 using io::Pixels;
 
-constexpr std::size_t block = 4; ///< sides of KTX2 images in glTF are multiples of it (KHR_texture_basisu)
+constexpr std::size_t block = 4; ///< KTX2 sides in glTF are multiples of it (KHR_texture_basisu)
 
 std::string format_of(const io::Bytes& bytes) {
     const std::string type = io::media_type(bytes);
@@ -23,11 +23,11 @@ std::string format_of(const io::Bytes& bytes) {
     return type.substr(std::min(type.size(), type.find('/') + 1));
 }
 
-/// The width and height that the settings ask for, never more than there are.
+/// The width and height by the settings, never larger than the image.
 std::pair<std::size_t, std::size_t> size_for(const ImageState& image, const ImageSettings& s) {
     std::size_t width = image.width, height = image.height;
     if (const std::size_t longest = std::max(width, height); longest > s.max_size) {
-        const auto scaled = [&](std::size_t side) { // rounded to the nearest
+        const auto scaled = [&](std::size_t side) { // rounds to nearest
             return std::max<std::size_t>(1, (2 * side * s.max_size + longest) / (2 * longest));
         };
         width = scaled(width);
@@ -45,7 +45,7 @@ ImageSettings settings_for(const io::ImageUse& use, const TexturesOptions& o) {
     return use.normals ? for_normals(o) : use.numbers ? for_data(o) : for_colours(o);
 }
 
-/// In several roles, the plain numbers are what all of them have in common.
+/// An image in several roles counts as plain numbers, the common denominator.
 io::PixelKind kind_of(const io::ImageUse& use) {
     const int roles = int(use.colours) + int(use.normals) + int(use.numbers);
     if (roles != 1 || use.numbers) return io::PixelKind::numbers;
@@ -61,7 +61,7 @@ io::Bytes encoded(const Pixels& image, const std::string& format, const ImageSet
 }
 
 struct Reason {
-    const char* why = nullptr; ///< nothing: the image is to be worked on
+    const char* why = nullptr; ///< null: process the image
     bool warn = false;
 };
 
@@ -85,7 +85,7 @@ io::Bytes encoded_ktx2(Pixels image, const io::ImageUse& use, const ImageSetting
     return bytes;
 }
 
-/// Why an image that is worked on does not become KTX2.
+/// The reason why a processed image does not become KTX2.
 Reason reason_against_ktx2(const ImageState& image, const io::ImageUse& use) {
     if (use.fallback) return {"readers that do not know KTX2 need it"};
     if (use.colours && (use.normals || use.numbers))
@@ -100,9 +100,9 @@ ProcessedImage kept(const ImageState& state, std::string why, bool warn) {
     return out;
 }
 
-/// Why an image stays of which nothing but the header is read.
+/// The reason, from the header alone, to keep an image unchanged.
 Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
-    if (image.bytes == 0) return {"it is not there"}; // which was said when it was missed
+    if (image.bytes == 0) return {"it is not there"}; // an earlier warning reported it
     if (image.format.empty()) return {"it is of no kind that is read", true};
     if (use.held) return {"something else than the materials of these parts reads it"};
     if (use.nearest) return {"its pixels are read one by one, as those of a palette are"};
@@ -129,7 +129,7 @@ ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before,
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
     ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);
-    if (use.fallback && format == "webp") format = before.format; // who needs it does not know WebP
+    if (use.fallback && format == "webp") format = before.format; // its readers do not support WebP
     std::string why;
     bool warn = false;
     if (format == "ktx2") {

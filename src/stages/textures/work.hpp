@@ -1,12 +1,12 @@
 #pragma once
-// What textures does to one image.
+// Processes a single image for textures.
 
 #include "io/gltf/contents/textures.hpp"
 #include "stages/textures/options.hpp"
 
 namespace facetmill::textures_stage {
 
-/// An image as a file says it.
+/// An image as described by its file.
 struct ImageState {
     std::string format; ///< "png", "jpeg", "webp", "ktx2", "dds"; empty for others
     std::size_t width = 0, height = 0, bytes = 0;
@@ -14,15 +14,15 @@ struct ImageState {
 
 struct ProcessedImage {
     ImageState before, after;
-    io::Bytes bytes;   ///< empty: the image stays as it is
-    std::string why;   ///< it stays, where anything was asked of it; else empty
-    bool warn = false; ///< that is not what was asked for
+    io::Bytes bytes;   ///< empty: the image stays unchanged
+    std::string why;   ///< the reason, if an image with options stays unchanged; else empty
+    bool warn = false; ///< the result differs from the request
 };
 
-/// What its format and size are, of which the header is read.
+/// The format and size, from the header.
 ImageState state_of(const io::Bytes& bytes);
 
-/// The image, whose state_of is `before`, scaled and written as the options of its role say, or why it stays.
+/// The image, scaled and encoded by the options of its role, or the reason to keep it. before: its state_of.
 ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
                                const TexturesOptions& o);
 

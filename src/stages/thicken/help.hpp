@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about thicken.
+// The help and manual texts of thicken.
 
 namespace facetmill::help::thicken {
 

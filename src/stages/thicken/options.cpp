@@ -10,7 +10,7 @@ using Mode = ThickenOptions::Mode;
 
 namespace {
 
-/// A choice for which true and false are spellings, too.
+/// A choice that also accepts true and false.
 void declare_self_intersections(Declare<ThickenOptions>& d) {
     using enum ThickenOptions::SelfIntersections;
     Option& o =
@@ -33,7 +33,7 @@ void declare_self_intersections(Declare<ThickenOptions>& d) {
     o.may_be_true = true;
 }
 
-/// A thickness below zero, which other programs take for the other side, is answered with the side.
+/// Answers a negative thickness, which selects the other side in other programs, with the `side` option.
 void declare_thickness(Declare<ThickenOptions>& d) {
     Option& o = d.option("thickness", &ThickenOptions::thickness,
                          "The thickness of the solid, or the diameter of cylinders.")

@@ -1,5 +1,5 @@
 #pragma once
-// The options of thicken, and what they come to.
+// The options of thicken and their conversion to settings.
 
 #include "geometry/thicken/thicken.hpp"
 #include "stage/stage.hpp"

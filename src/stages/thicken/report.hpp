@@ -1,5 +1,5 @@
 #pragma once
-// What thicken says of a part.
+// The report and warnings of thicken.
 
 #include "stages/thicken/options.hpp"
 
@@ -7,15 +7,15 @@
 
 namespace facetmill::thicken_stage {
 
-/// Of a surface that became a solid.
+/// The result for a surface.
 struct ThickenedSurface {
     std::string part;
     ThickenResult result;
     bool has_faces = true;
-    bool looked = false;       ///< for self-intersections
+    bool looked = false;       ///< checked for self-intersections
     Unit unit = Unit::unknown; ///< of the scene
 };
-/// Of edges that became cylinders.
+/// The result for edges that became cylinders.
 struct ThickenedEdges {
     std::string part;
     std::size_t cylinders = 0, without_length = 0;
@@ -27,13 +27,13 @@ struct ThickenReport {
 };
 void declare_thicken_report(DeclareFields<ThickenReport>& d);
 
-/// The thickness in the world, and the scene's unit.
+/// The thickness in world space, and the scene's unit.
 struct WallAskedFor {
     double thickness = 0;
     Unit unit = Unit::unknown;
 };
 
-/// Warns where the solid is open, thinner than asked for, or runs into itself.
+/// Warns if the solid is open, thinner than requested, or intersects itself.
 void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor& wall,
                    const ThickenOptions& o, Context& context);
 

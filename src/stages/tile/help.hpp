@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about tile.
+// The help and manual texts of tile.
 
 namespace facetmill::help::tile {
 

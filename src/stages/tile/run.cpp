@@ -15,7 +15,7 @@ namespace {
 
 struct ReportedTile {
     std::string part;
-    std::array<std::optional<std::int64_t>, 3> cell{}; ///< by axis, of those that are cut
+    std::array<std::optional<std::int64_t>, 3> cell{}; ///< the cell by axis, for the cut axes
     std::size_t faces = 0;
 };
 
@@ -91,7 +91,7 @@ class TileRun {
         std::vector<Part> parts;
         std::vector<const Part*> cut;
         context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
-        auto next = cut.begin(); // they are in the order of the scene
+        auto next = cut.begin(); // parts are in the scene's order
         for (Part& part : scene.parts) {
             if (next == cut.end() || *next != &part) {
                 parts.push_back(std::move(part));
@@ -136,9 +136,9 @@ class TileRun {
     TileSettings settings_;
 };
 
-/// The scene with each part selected replaced by its tiles, named after part and cell ("body.x0.y-1").
-/// settings: the same for all; transform, memory and the caps' primitive are set part by part. Warns of open
-/// contours (W-CAP-OPEN) and of parts without faces (W-TILE-NOTHING).
+/// Replaces each selected part by its tiles, named after part and cell ("body.x0.y-1"). settings: shared by
+/// all parts; transform, memory and the caps' primitive are set per part. Warns of open contours
+/// (W-CAP-OPEN) and of parts without faces (W-TILE-NOTHING).
 Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& cap_material, Context& context,
                  TileReport& report) {
     return TileRun(settings, context).run(std::move(scene), cap_material, report);

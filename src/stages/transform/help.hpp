@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about transform.
+// The help and manual texts of transform.
 
 namespace facetmill::help::transform {
 

@@ -14,7 +14,7 @@ namespace {
 
 using Pivot = TransformOptions::Pivot;
 
-/// As `rotated` of mesh/transform.hpp turns a vector, as a matrix.
+/// The same rotation as `rotated` of mesh/transform.hpp, as a matrix.
 Transform rotation(const TransformRotation& r) {
     const Vec3 u = normalised(r.axis);
     const double c = cosine(r.angle.radians), s = sine(r.angle.radians);

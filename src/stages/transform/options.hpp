@@ -1,5 +1,5 @@
 #pragma once
-// The options of transform, and what they come to.
+// The options of transform and their conversion to a matrix.
 
 #include "stage/stage.hpp"
 
@@ -11,7 +11,7 @@ struct TransformRotation {
 };
 
 struct TransformOptions {
-    /// The point that scale, rotate and fit leave where it is.
+    /// The fixed point of scale, rotate and fit.
     enum class Pivot { origin, centre };
 
     std::vector<Length> translate, fit;
@@ -24,12 +24,12 @@ struct TransformOptions {
 };
 
 void declare_transform(Declare<TransformOptions>& d);
-/// What the declaration cannot say: how many numbers there must be, and matrices that flatten.
+/// Checks beyond the declaration: counts of numbers, and singular matrices.
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems);
 
 /// scale, then rotate, about the origin.
 Transform spin_of(const TransformOptions& o);
-/// matrix, or the identity when it is not given.
+/// The matrix option; the identity by default.
 Transform matrix_of(const TransformOptions& o);
 
 } // namespace facetmill::transform_stage

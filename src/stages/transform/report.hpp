@@ -1,5 +1,5 @@
 #pragma once
-// What transform says of a scene.
+// The report and warnings of transform.
 
 #include "io/convert.hpp"
 #include "stages/transform/options.hpp"
@@ -7,16 +7,16 @@
 namespace facetmill::transform_stage {
 
 struct TransformReport {
-    Transform all; ///< that moved the parts, as one
+    Transform all; ///< the combined transform of the parts
     double unit_factor = 1;
     std::optional<double> fit_factor;
-    std::string unit, up; ///< of the scene now
+    std::string unit, up; ///< of the resulting scene
 };
 void declare_transform_report(DeclareFields<TransformReport>& d);
 
-/// Says what was guessed when units or the up axis were converted.
+/// Warns of guesses in the conversion of units or the up axis.
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context);
-/// Says that a part is not baked.
+/// Warns that a part is not baked.
 void warn_of_animation(const std::string& part, Context& context);
 
 } // namespace facetmill::transform_stage

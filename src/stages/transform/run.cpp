@@ -25,7 +25,7 @@ Transform uniform(double factor) {
 
 class Mover {
   public:
-    /// box: around the only part, of which the scene is an outline, where the transform puts it.
+    /// box: of the only part after a transform, for a scene without its mesh.
     using BoxOf = std::function<Box(const Transform&)>;
     Mover(Scene& scene, const TransformOptions& o, Context& context, BoxOf box = {})
         : scene_(scene), o_(o), context_(context), box_(std::move(box)) {}
@@ -52,7 +52,7 @@ class Mover {
         return all.empty() ? Vec3{} : all.centre();
     }
 
-    /// A percentage that names no other whole is of the side that there is.
+    /// A percentage without another reference refers to the current side.
     static Length of_own_side(const Length& side, double own) {
         if (side.kind != Length::Kind::percent || side.of != Length::Of::stage) return side;
         Length length = Length::scene(side.amount / 100 * own);
@@ -60,7 +60,7 @@ class Mover {
         return length;
     }
 
-    /// What scales the box into that of fit; its sides without extent fit in any case.
+    /// The factor that scales the box to fit; sides without extent always fit.
     std::optional<double> fit_factor() const {
         if (o_.fit.empty() || box().empty()) return {};
         const Vec3 extent = box().max - box().min;
@@ -87,7 +87,7 @@ class Mover {
         return by;
     }
 
-    /// What rests the parts on the ground.
+    /// The translation that rests the parts on the ground.
     Vec3 drop() const {
         Vec3 by;
         const std::size_t up = scene_.up == UpAxis::y ? 1 : 2;
@@ -112,7 +112,7 @@ class Mover {
         }
     }
 
-    /// What is animated keeps its node: the animation would move the baked points about another place.
+    /// Animated parts keep their node, because the animation would move baked points about another origin.
     void bake() {
         const auto animated = io::animated_parts(scene_);
         context_.for_each_part(scene_, [&](Part& part) {

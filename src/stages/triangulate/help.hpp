@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about triangulate.
+// The help and manual texts of triangulate.
 
 namespace facetmill::help::triangulate {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about two-sided.
+// The help and manual texts of two-sided.
 
 namespace facetmill::help::two_sided {
 

@@ -44,7 +44,7 @@ void declare_report(DeclareFields<TwoSidedReport>& d) {
         .only_when("by: faces");
 }
 
-/// The number of the material, made when there is none.
+/// Makes a material for faces without any, and returns its index.
 Index plain_material(Scene& scene) {
     scene.materials.push_back({.name = "two-sided"});
     return static_cast<Index>(scene.materials.size() - 1);

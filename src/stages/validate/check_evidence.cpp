@@ -35,7 +35,7 @@ report::EvidenceEntry entry_of(const Property& property, const Evidence& e) {
     return entry;
 }
 
-/// What a location is known by among those of all parts.
+/// The keys of a part's locations, unique among all parts.
 class PartKeys {
   public:
     explicit PartKeys(const Part& part) {

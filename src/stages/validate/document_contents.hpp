@@ -1,5 +1,5 @@
 #pragma once
-// What glTF documents hold besides meshes: images, bytes, extensions.
+// The contents of glTF documents besides meshes: images, bytes, extensions.
 
 #include "mesh/scene.hpp"
 
@@ -8,27 +8,27 @@
 
 namespace facetmill::validate_stage {
 
-/// An image of a document, a PNG, JPEG or WebP by its header; of others the sides are 0.
+/// A document's image. Width and height come from PNG, JPEG and WebP headers; for other formats they are 0.
 struct DocumentImage {
     std::string name; ///< its name, its uri, or "image 3"
     std::size_t width = 0, height = 0;
     std::size_t pixels() const { return width * height; }
 };
-/// All images of the documents' lists of images, and files that no list names.
+/// All images in the documents' lists, and files outside these lists.
 std::vector<DocumentImage> images_of(const Scene& scene);
 
-/// A share of a document's bytes: its JSON, a buffer or an image beside it.
+/// Part of a document's size: its JSON, a buffer, or a separate image.
 struct DocumentBytes {
     std::string name; ///< "body.glb: JSON", "body.glb: buffer 0", "wood.png"
     std::size_t bytes = 0;
 };
 std::vector<DocumentBytes> bytes_of(const Scene& scene);
 
-/// An extension that a document names as used.
+/// An extension that a document lists as used.
 struct DocumentExtension {
     std::string name, document;
 };
-/// By name, once for each document.
+/// Sorted by name, each once per document.
 std::vector<DocumentExtension> extensions_of(const Scene& scene);
 
 } // namespace facetmill::validate_stage

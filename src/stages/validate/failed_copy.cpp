@@ -42,7 +42,7 @@ bool is_corner(const Mesh& mesh, const Location& location) {
 
 void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags) {
     const Mesh& mesh = part.mesh;
-    std::set<std::array<double, 3>> points; // of locations that are vertices
+    std::set<std::array<double, 3>> points; // of locations at vertices
     for (const Location& p : locations_against(part, assertion)) {
         if (p.face == none || is_corner(mesh, p)) points.insert({p.at.x, p.at.y, p.at.z});
         if (p.face != none) flags[p.face] = 1;

@@ -1,5 +1,5 @@
 #pragma once
-// A copy of a scene that shows where it fails.
+// A copy of a scene that highlights failures.
 
 #include "stage/assertions.hpp"
 
@@ -7,18 +7,16 @@
 
 namespace facetmill::validate_stage {
 
-/// Adds E-FORMAT when no codec writes such a file.
+/// Adds E-FORMAT if no codec writes the file's format.
 void verify_failed_copy(const std::string& path, const Value& given, Problems& problems);
 
-/// Sets the flags of the part's faces that speak against the assertion; against edges and vertices: of the
-/// faces there.
+/// Flags the part's faces that violate the assertion; for edges and vertices, the adjacent faces.
 void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags);
 
-/// The scene with the flagged faces of each part in a red material `failed` and 1 in the face attribute
-/// `failed`.
+/// The scene with the flagged faces in a red material `failed`, and with 1 in the face attribute `failed`.
 Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags);
 
-/// Writes that at once. Throws output.
+/// Writes the copy immediately. Throws output.
 void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,
                        const std::filesystem::path& path);
 

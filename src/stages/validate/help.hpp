@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about validate.
+// The help and manual texts of validate.
 
 namespace facetmill::help::validate {
 

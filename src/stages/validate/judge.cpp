@@ -16,7 +16,7 @@ namespace facetmill::validate_stage {
 
 namespace {
 
-/// Lends the parts of the given indices to body as a scene of their own, without a copy.
+/// Lends the parts with these indices to body as a separate scene, without a copy.
 template <class Body>
 void with_parts(Scene& scene, std::span<const std::size_t> indices, Body&& body) {
     Scene chosen{{}, scene.materials, scene.unit, scene.up, {}};
@@ -25,7 +25,7 @@ void with_parts(Scene& scene, std::span<const std::size_t> indices, Body&& body)
     for (std::size_t k = 0; k < indices.size(); ++k) scene.parts[indices[k]] = std::move(chosen.parts[k]);
 }
 
-/// How long it takes to judge each part, about.
+/// The approximate relative time to judge each part.
 std::vector<double> lengths_of(const Scene& scene, const std::vector<std::size_t>& parts) {
     std::vector<double> lengths;
     lengths.reserve(parts.size());
@@ -76,13 +76,13 @@ class Judge {
     }
 
   private:
-    /// What is judged as one, and how its parts and faces are numbered in the scene.
+    /// The subject of a check, and the numbers of its parts and faces in the scene.
     struct Subject {
-        std::string name;            ///< as it is told: a component has a number
-        std::string part, component; ///< what it is known by, whatever the numbers
+        std::string name;            ///< as shown: a component has a number
+        std::string part, component; ///< the stable identity, independent of numbers
         std::span<const std::size_t> parts;
-        const std::vector<Index>* faces; ///< of a component of the one part; null: as the part has them
-        bool shared = false; ///< it is one of several components of a solid: the outer, or a cavity
+        const std::vector<Index>* faces; ///< of a component of the only part; null: all faces
+        bool shared = false; ///< it is an outer component or a cavity of a solid with several components
     };
 
     Properties properties_of(const Scene& scene, const Subject& subject) const {
@@ -106,7 +106,7 @@ class Judge {
             Failure failure = failure_of(
                 check, subject, s_.baseline ? location_keys(scene, assertion) : std::vector<std::uint64_t>{});
             const auto verdict = known_.judge(failure);
-            // What is new comes first, of a failure of which some is known.
+            // New locations come first if other locations are already known.
             const bool some = verdict.known && !verdict.keys.empty();
             check.evidence =
                 some ? evidence_among(scene, assertion, verdict.keys) : evidence_against(scene, assertion);
@@ -171,7 +171,7 @@ class Judge {
         }
     }
 
-    /// Whether it holds, or is known not to.
+    /// Returns whether the check passes or its failure is known.
     bool take(report::Check check, Failure failure, const KnownFailures::Verdict& verdict) {
         check.severity = s_.severity;
         if (!check.passed) {
@@ -210,8 +210,8 @@ class Judge {
     KnownFailures known_, failed_;
     ValidateReport report_;
     std::size_t waived_ = 0, waived_locations_ = 0;
-    bool any_ = false;                              ///< failed and not waived
-    bool any_known_ = false;                        ///< failed, and did before
+    bool any_ = false;                              ///< a failure was not waived
+    bool any_known_ = false;                        ///< a failure was already known
     std::vector<std::vector<std::uint32_t>> flags_; ///< of the parts' faces
 };
 

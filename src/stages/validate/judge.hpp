@@ -1,5 +1,5 @@
 #pragma once
-// Holds a scene against assertions: what validate does.
+// Checks a scene against assertions for validate.
 
 #include "stage/assertions.hpp"
 #include "stages/validate/scene_limits.hpp"
@@ -9,10 +9,10 @@
 
 namespace facetmill::validate_stage {
 
-/// What the assertions are about.
+/// The subjects of the assertions.
 enum class Per {
     scene,     ///< sums over the parts, and truths of all parts
-    part,      ///< each part for itself
+    part,      ///< each part separately
     component, ///< each component of each part, connected through edges
 };
 
@@ -23,20 +23,20 @@ struct JudgeSettings {
     Per per = Per::scene;
     std::optional<std::filesystem::path> baseline = {}; ///< known failures, to read or to write
     bool update_baseline = false;                       ///< write it
-    std::optional<std::filesystem::path> mark = {};     ///< a copy with the faces that fail in red, if any do
+    std::optional<std::filesystem::path> mark = {};     ///< a copy with failing faces in red, if any fail
 };
 
-/// What a baseline came to; none without one.
+/// The results of the baseline; none without a baseline.
 struct ValidateReport {
     std::optional<std::size_t> waived, waived_locations; ///< known failures, and locations of failures
-    std::optional<std::size_t> fixed, fixed_locations;   ///< known ones that are no longer there
-    bool fails = false;                                  ///< something failed that was not known
+    std::optional<std::size_t> fixed, fixed_locations; ///< known failures and locations that no longer occur
+    bool fails = false;                                ///< a check has new failures
 };
 
-/// Adds one check to the context for every assertion and thing that it is about, failed ones with evidence:
-/// the first locations, with the faces as the part numbers them, and how many there are. Those of the
-/// baseline are waived as long as they get no worse. The scene is as before afterwards. Throws usage (E-UNIT)
-/// for lengths, missing and malformed for the baseline, output for the copy.
+/// Adds a check to the context for every assertion and subject. Failed checks have evidence: the first
+/// locations, with the part's face numbers, and the total. Failures of the baseline are waived while they
+/// get no worse. The scene is unchanged afterwards. Throws usage (E-UNIT) for lengths, missing and malformed
+/// for the baseline, output for the copy.
 ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 
 } // namespace facetmill::validate_stage

@@ -23,7 +23,7 @@ std::optional<double> number_of(const report::Found& found) {
     return number ? std::optional(*number) : std::nullopt;
 }
 
-/// Whether what is found now is no worse; what is no number is as good as its locations say, if it has any.
+/// Whether the new value is no worse. For values that are not numbers, only locations decide, if any.
 bool is_no_worse(const Failure& before, const Failure& now) {
     if (before.found == now.found) return true;
     const auto was = number_of(before.found), is = number_of(now.found);
@@ -38,7 +38,7 @@ std::uint64_t hash_of(std::span<const std::uint64_t> keys) {
     return h;
 }
 
-/// How many of the ascending keys go into a file: all that equal one of the lowest different ones.
+/// The number of ascending keys to write: all that equal a key among the lowest distinct ones.
 std::size_t listed(const Keys& keys) {
     std::size_t different = 0;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -66,7 +66,7 @@ std::optional<std::uint64_t> hexadecimal(std::string_view text) {
     return key;
 }
 
-/// Reads "0123456789abcdef x3"; false when it is none, or there are more in all than a check can have.
+/// Reads "0123456789abcdef x3"; false for invalid text, or for more keys than a check can have.
 bool read_key(const Json& json, Keys& keys) {
     if (!json.is_string()) return false;
     const auto& text = json.get_ref<const std::string&>();
@@ -111,9 +111,9 @@ bool read_failure(const Json& json, Failure& failure) {
     return more.has_value();
 }
 
-/// The locations of `now` that are new against `before`.
+/// Adds the locations of `now` that are new since `before`.
 void add_fresh(const Failure& before, const Failure& now, KnownFailures::Verdict& verdict) {
-    auto end = now.keys.end(); // of those that the file would list
+    auto end = now.keys.end(); // of the keys that the file would list
     if (before.more > 0)
         end = before.keys.empty() ? now.keys.begin()
                                   : std::upper_bound(now.keys.begin(), now.keys.end(), before.keys.back());

@@ -14,7 +14,7 @@ using Rows = std::vector<std::pair<std::string, Bound>>;
 
 void add(Rows& rows, const Rows& more) { rows.insert(rows.end(), more.begin(), more.end()); }
 
-/// What every surface should have.
+/// The properties that every surface should have.
 Rows sound_rows() {
     Rows rows;
     for (const Property& p : property_table())
@@ -61,7 +61,7 @@ Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits
     for (const auto& [name, bound] : rows_of(profile)) {
         const bool known = std::any_of(given.all.begin(), given.all.end(),
                                        [&name = name](const Assertion& a) { return a.property == name; });
-        // Attributes that a web mesh may lack are judged only when they are there.
+        // The web profile judges optional attributes only if they exist.
         if (!known) given.all.push_back({name, bound, where, profile == Profile::web});
     }
     return given;

@@ -1,5 +1,5 @@
 #pragma once
-// Named sets of assertions, by what a mesh is for.
+// Named sets of assertions by the purpose of a mesh.
 
 #include "stage/assertions.hpp"
 #include "stages/validate/scene_limits.hpp"
@@ -26,8 +26,8 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
         "A purpose, whose assertions are added to those given.");
 }
 
-/// What was given, and what the profile adds for properties that were not. When there is nothing at all: the
-/// marks of a sound solid.
+/// The given assertions, plus the profile's assertions for other properties. Without any, the checks of a
+/// sound solid.
 Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits, const Mark& where);
 
 } // namespace facetmill::validate_stage

@@ -46,7 +46,7 @@ void declare(Declare<ValidateOptions>& d) {
              "red and in the face attribute `failed`. It is written even when the run fails.");
 }
 
-/// What a baseline no longer needs to waive.
+/// Baseline entries that no longer need to be waived.
 std::vector<std::string> lines_of(const ValidateReport& r) {
     const std::size_t fixed = r.fixed.value_or(0), fixed_locations = r.fixed_locations.value_or(0),
                       waived_locations = r.waived_locations.value_or(0);

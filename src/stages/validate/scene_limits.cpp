@@ -17,13 +17,13 @@ namespace {
 
 using Of = report::EvidenceEntry::Of;
 
-/// Something that counts towards a limit.
+/// An item that counts towards a limit.
 struct Share {
     report::EvidenceEntry entry;
     std::size_t amount = 1;
 };
 
-/// A check of the sum of the shares, with the largest as evidence.
+/// Checks the sum of the shares, with the largest shares as evidence.
 template <class Limits>
 LimitCheck check_limit(const char* name, const std::optional<Limits>& bounds, std::vector<Share> shares) {
     const Bound& bound = *bounds;
@@ -46,7 +46,7 @@ LimitCheck check_limit(const char* name, const std::optional<Limits>& bounds, st
     return limit;
 }
 
-/// A word that has to match a pattern, and what is told of it when it does not.
+/// A word that must match a pattern, and the evidence if it does not.
 struct Word {
     std::string text;
     report::EvidenceEntry entry;
@@ -67,7 +67,7 @@ LimitCheck check_limit(const char* name, const std::vector<std::string>& pattern
         if (evidence.size() < max_evidence) evidence.push_back(w.entry);
         if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
         std::uint64_t key = 8;
-        const Json told = report::evidence_json(w.entry); // baselines know it by that
+        const Json told = report::evidence_json(w.entry); // baselines identify it by this text
         for (const char letter : told.dump(-1, ' ', false, Json::error_handler_t::replace))
             key = hashed(key, static_cast<unsigned char>(letter));
         limit.keys.push_back(key);
@@ -132,7 +132,7 @@ std::vector<Word> extension_names(const Scene& scene) {
     return words;
 }
 
-/// A limit: its option, where it is given, and what it is about, shares of a number or words.
+/// A limit: its option, the given value, and its subjects: shares of a number, or words.
 template <class Given, class Entry>
 struct Limit {
     const char* name;
@@ -144,8 +144,8 @@ template <class Given, class Entry>
 Limit(const char*, Given SceneLimits::*, const char*, std::vector<Entry> (*)(const Scene&))
     -> Limit<Given, Entry>;
 
-/// Calls with each limit. These are no rows of property_table: patterns are no numbers, and geometry/ knows
-/// nothing of documents and images.
+/// Calls look with each limit. The limits are not in property_table, because patterns are not numbers, and
+/// geometry/ does not depend on documents and images.
 template <class Look>
 void each_limit(Look&& look) {
     using L = SceneLimits;
