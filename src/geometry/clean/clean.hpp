@@ -54,14 +54,11 @@ struct UntangleBudget {
 
 /// Settings that turn each step on or off. Lengths are in mesh units.
 struct CleanSettings {
-    Nearness weld = Nearness::exact; ///< merges vertices at the same position; near: also ends of boundary
-                                     ///< edges
-    Nearness stitch = Nearness::off; ///< merges coincident boundary edges and their ends
-    Nearness t_junctions = Nearness::exact; ///< inserts vertices of other boundary edges into the boundary
-                                            ///< edges that they touch
-    bool degenerate = true;   ///< removes faces of exactly zero area, and repeated corners
-    bool duplicates = true;   ///< keeps one face of each set with the same vertices, and none of an inner
-                              ///< wall
+    Nearness weld = Nearness::exact;        ///< merges equal positions; near: also boundary ends
+    Nearness stitch = Nearness::off;        ///< merges coincident boundary edges and their ends
+    Nearness t_junctions = Nearness::exact; ///< inserts vertices into boundary edges that contain them
+    bool degenerate = true;                 ///< removes faces of exactly zero area, and repeated corners
+    bool duplicates = true;                 ///< keeps one face per set with the same vertices; no inner walls
     bool non_manifold = true; ///< splits edges of more than two faces and vertices of several fans
     /// Needs single, weld and non_manifold. Moves vertices that still coincide apart by a few float32 steps,
     /// because formats that store only triangles would merge them (move_apart).

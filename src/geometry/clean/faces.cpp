@@ -130,8 +130,7 @@ struct Doubles {
 std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, const std::vector<int>& balance,
                                     const std::vector<Doubles>& all) {
     DisjointSets patches(all.size());
-    std::map<Index, std::pair<std::size_t, int>> excess; // of an edge: a set there, and the balance lost with
-                                                         // one face
+    std::map<Index, std::pair<std::size_t, int>> excess; // per edge: a set, and its excess balance
     for (std::size_t g = 0; g < all.size(); ++g) {
         if (std::abs(all[g].ways) < 2) continue;
         const int more = all[g].ways > 0 ? all[g].ways - 1 : all[g].ways + 1;
@@ -307,8 +306,7 @@ bool remove_open_components(Work& work) {
 
 bool remove_inner_components(Work& work) {
     const Mesh& mesh = work.mesh;
-    const Components components = face_components(mesh, false); // all faces of an edge are in the same
-                                                                // component
+    const Components components = face_components(mesh, false); // same component across all edges
     if (components.count < 2) return false;
     const auto closed = closed_components(mesh, components);
     std::set<std::pair<Index, Index>> touching;

@@ -21,7 +21,7 @@ namespace facetmill::clean_steps {
 namespace {
 
 /// At least two steps, so that vertices stay distinct after scaling to another unit and rounding again.
-/// Between two powers of two, a float32 step can be twice as long after scaling.
+/// Relative to the value, the step varies by a factor of two between powers of two.
 constexpr int fewest_float_steps = 2, most_float_steps = 256;
 
 /// The distance between adjacent float32 numbers at the farthest coordinate.
