@@ -1,4 +1,4 @@
-// What a batch writes as JSON, declared once: its documents and their schema.
+// The JSON documents of a batch: their declarations, and their schema.
 
 #include "batch/batch.hpp"
 #include "batch/words.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using report::refer;
 
-/// An asset of a batch and what became of it.
+/// An asset of a batch with its outcome.
 struct AssetOutcome {
     const Asset* asset;
     const Outcome* out;
@@ -24,7 +24,7 @@ std::vector<AssetOutcome> outcomes_of(const Summary& summary, const std::vector<
     return all;
 }
 
-/// A getter of a member of what became of the asset.
+/// A getter of a member of the outcome.
 template <class T>
 auto of_outcome(T Outcome::*member) {
     return [member](const AssetOutcome& one) -> const T& { return one.out->*member; };
@@ -47,7 +47,7 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
     refer(d.list("errors", of_outcome(&Outcome::errors), "Why it failed",
                  report::declare_diagnostic<Diagnostic>),
           "diagnostic");
-    // Without places, which are not known of an asset that was kept.
+    // Without marks, which are unknown for skipped assets.
     d.list("warnings", of_outcome(&Outcome::warnings), "What its run warned of",
            [](DeclareFields<Diagnostic>& w) {
                w.field("id", &Diagnostic::id, "");

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of parameters: a row an asset, a column a parameter.
+// Tables of parameters: one asset per row, one parameter per column.
 
 #include "options/value.hpp"
 
@@ -12,15 +12,15 @@ namespace facetmill::batch {
 struct Cell {
     std::string param, text;
     Mark where;
-    std::optional<Value> list{}; ///< of YAML; text is then what -D would take
+    std::optional<Value> list{}; ///< from YAML; text then has -D's syntax
 };
-/// The cells that are not empty.
+/// The non-empty cells.
 using Row = std::vector<Cell>;
 
-/// Reads a table: YAML (.yaml, .yml) is a list of maps; anything else is CSV as RFC 4180 has it (Y.
-/// Shafranovich, "Common format and MIME type for comma-separated values (CSV) files", 2005), with a heading,
-/// separated by the first of comma, semicolon and tab that the heading has. Throws malformed (E-TABLE),
-/// missing when there is no file.
+/// Reads a table. YAML (.yaml, .yml) is a list of maps. Other files are CSV according to RFC 4180 (Y.
+/// Shafranovich, "Common format and MIME type for comma-separated values (CSV) files", 2005) with a heading.
+/// The separator is the first comma, semicolon or tab in the heading. Throws malformed (E-TABLE), missing
+/// when there is no file.
 std::vector<Row> read_params_table(const std::filesystem::path& file);
 
 } // namespace facetmill::batch
