@@ -35,7 +35,7 @@ struct FoundJson {
     }
 };
 
-/// Numbers that are not finite are null in JSON.
+/// Infinite numbers and NaN are null in JSON.
 std::optional<Vec3> corner_of(const Json& json) {
     if (!json.is_array() || json.size() != 3) return {};
     double numbers[3];
@@ -46,7 +46,7 @@ std::optional<Vec3> corner_of(const Json& json) {
     return Vec3{numbers[0], numbers[1], numbers[2]};
 }
 
-/// Null of a place, which is nobody's.
+/// Null for a location, which has no owner.
 const char* key_of(EvidenceEntry::Of of) {
     switch (of) {
     case EvidenceEntry::Of::place:

@@ -1,4 +1,4 @@
-// Inputs and outputs on a page: bytes and what they are spent on, digests, what reading back found.
+// Inputs and outputs on a page: bytes by kind, digests, the results of reading back.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

@@ -1,4 +1,4 @@
-// What was written, on a page: its shape beside that of the input, and how far it is from it.
+// The outputs on a page: their shape compared with the input, and their deviation from it.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

@@ -1,23 +1,23 @@
 #pragma once
-// The declared fields of what a run collects, from which the JSON of reports and its schema come.
+// The declared fields of a run's data, from which the JSON of reports and its schema are generated.
 
 #include "options/fields.hpp"
 #include "report/record.hpp"
 
 namespace facetmill::report {
 
-/// Of a Diagnostic: {id, message, where, hint}.
+/// The fields of a Diagnostic: {id, message, where, hint}.
 const Fields& diagnostic_fields();
-/// Of a StageRecord, a Check and a RunRecord, as the report has them.
+/// The fields of a StageRecord, a Check and a RunRecord in reports.
 const Fields& stage_fields();
 const Fields& check_fields();
 const Fields& run_fields();
-/// Of a RunRecord: what differs from run to run, and is therefore in no report.
+/// The fields of a RunRecord that differ between runs, and are therefore in no report.
 const Fields& timings_fields();
 
-// What the declarations of all that is written have in common.
+// Shared by the declarations of all documents.
 
-/// The objects of the field are those of a definition of the schema, which also says whether they may be
+/// Makes the field's objects refer to a definition of the schema, which also specifies whether they may be
 /// null.
 void refer(FieldRef field, const char* definition);
 
@@ -25,7 +25,7 @@ void refer(FieldRef field, const char* definition);
 struct Tool {};
 const Fields& tool_fields();
 
-/// What begins every document: its format, 1.
+/// The first field of every document: its format, 1.
 template <class R>
 void declare_format(DeclareFields<R>& d) {
     d.field(
@@ -39,7 +39,7 @@ void declare_tool(DeclareFields<R>& d) {
         "tool", [](const R&) { return Tool(); }, "",
         [](DeclareFields<Tool>& t) { t.fields = tool_fields(); });
 }
-/// Of a Diagnostic or what derives from it.
+/// The fields of a Diagnostic or a derived type.
 template <class D>
 void declare_diagnostic(DeclareFields<D>& d) {
     d.embed([](const D& it) -> const Diagnostic& { return it; },
