@@ -1,5 +1,5 @@
 #pragma once
-// Where the cache of this user is, and how large it may be.
+// The location of this user's cache, and its size limit.
 
 #include <cstdint>
 #include <filesystem>
@@ -7,24 +7,24 @@
 
 namespace facetmill::cache {
 
-/// The folder that FACETMILL_CACHE names, else facetmill in XDG_CACHE_HOME or ~/.cache. None for
-/// FACETMILL_CACHE=off, where there is no such place, and where the usual one is in a folder of another user,
-/// who could not remove what is put there (sudo with the HOME of whoever called it).
+/// The folder in FACETMILL_CACHE, else facetmill in XDG_CACHE_HOME or ~/.cache. None for FACETMILL_CACHE=off,
+/// or without such a location. Also none if the usual location belongs to another user, who could not remove
+/// the files (sudo with the caller's HOME).
 std::optional<std::filesystem::path> folder();
 
-/// Whether FACETMILL_CACHE names a folder: then the user asked for a cache.
+/// True if FACETMILL_CACHE names a folder: then the user explicitly requested a cache.
 bool is_named();
 
-/// Whether this is a job of a CI (CI=true): what is kept of such a job is said there or nowhere.
+/// True in a CI job (CI=true), where only its output can report what was cached.
 bool is_ci();
 
-/// How large the cache may be.
+/// The size limit of the cache.
 struct Limit {
     std::uint64_t bytes = 0;
-    double share = 1; ///< of what it and free space of its disk are together
+    double share = 1; ///< of the cache's size plus the free space of its disk
 };
 /// FACETMILL_CACHE_SIZE (5GB, 500MiB); by default 5 GiB and a tenth of the space. Throws usage (E-ARGUMENT)
-/// for what is no amount.
+/// for an invalid amount.
 Limit size_limit();
 
 } // namespace facetmill::cache
