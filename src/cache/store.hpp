@@ -93,8 +93,7 @@ class Store {
 
     /// State shared by stores of the same folder and process.
     struct Known {
-        std::mutex guard;                          ///< protects all following members, and used_ of each
-                                                   ///< store
+        std::mutex guard;                          ///< protects the following members, and used_
         std::map<std::filesystem::path, int> used; ///< number of stores that use the entry
         std::optional<std::uint64_t> total;        ///< current size, if known
         std::uint64_t limit = 0;                   ///< current limit

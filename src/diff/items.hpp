@@ -1,5 +1,5 @@
 #pragma once
-// The parts and the materials of two scenes by their names: what came, went and changed.
+// Pairs the parts and materials of two scenes by name, and finds added, removed and changed ones.
 
 #include "mesh/scene.hpp"
 
@@ -11,16 +11,16 @@ namespace facetmill::report {
 struct ItemChange {
     enum class Change { added, removed, changed, same };
     bool is_part = true; ///< else a material
-    std::string name;    ///< of several with one name, the first of one is the first of the other
+    std::string name;    ///< several items with the same name are paired in order
     Change change = Change::same;
-    std::string before, after; ///< what is told of each: "1,200 faces"; empty: it is not there
-    std::string note;          ///< how a changed one differs
+    std::string before, after; ///< description: "1,200 faces"; empty: missing
+    std::string note;          ///< the difference of a changed item
 };
 const char* to_string(ItemChange::Change change);
 
-/// Parts first, each list in the order of the first scene, then what only the second has. A part is the same
-/// when its counts are and none of its points is farther than `most` from its own before, in world space. A
-/// material is, when colour, sides and all that glTF says of it are. O(n).
+/// Parts first, each list in the order of the first scene, then items that only the second has. Two parts are
+/// equal if their counts match and no point moved farther than `most`, in world space. Two materials are
+/// equal if colour, sides and all glTF data match. O(n).
 std::vector<ItemChange> item_changes(const Scene& a, const Scene& b, double most);
 
 } // namespace facetmill::report

@@ -12,7 +12,7 @@ void add_without_area(Surface& to, const Vec3& a, const Vec3& b) {
     to.corners.insert(to.corners.end(), {first, first + 1, first + 1});
 }
 
-/// add(a, b, material) for each line, in the order of parts and lines.
+/// Calls add(a, b, material) for each line, in the order of parts and lines.
 template <class Add>
 void for_each_line(const Scene& scene, Add&& add) {
     for (const Part& part : scene.parts) {

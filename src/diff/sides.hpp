@@ -1,5 +1,5 @@
 #pragma once
-// Which way the faces of two scenes look.
+// Compares the orientation of faces in two scenes.
 
 #include "mesh/scene.hpp"
 
@@ -7,15 +7,15 @@
 
 namespace facetmill::report {
 
-/// Whether the second scene, or some components of it, are inside out against the first.
+/// Whether the second scene, or some of its components, are reversed relative to the first.
 struct Turned {
     bool round = false;
-    std::string note; ///< how many components, and the first of them; empty where the whole was looked at
+    std::string note; ///< the number of components, and the first; empty if the whole was compared
 };
 
-/// By the signs of volumes, and of open surfaces by which way the faces look in all. Component by component
-/// (connected over edges, part by part) where the scenes have as many components of the same areas at the
-/// same places in the same order; else the whole against the whole. O(n).
+/// Compares the signs of volumes, and for open surfaces the sums of area vectors. It compares components
+/// (connected across edges, within a part) if both scenes have the same number, areas and positions in the
+/// same order. Otherwise it compares the whole scenes. O(n).
 Turned turned_round(const Scene& a, const Scene& b);
 
 } // namespace facetmill::report
