@@ -39,7 +39,8 @@ void append_item(std::string& list, std::string_view item, std::string_view betw
 /// Joins the items that are not empty.
 std::string join_texts(const std::vector<std::string>& texts, std::string_view between = ", ");
 
-/// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).
+/// The length of the UTF-8 sequence at i; 0 if it is invalid (truncated, overlong, a surrogate, beyond
+/// U+10FFFF).
 std::size_t utf8_length(std::string_view text, std::size_t i);
 
 } // namespace facetmill
