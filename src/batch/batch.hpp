@@ -1,6 +1,6 @@
 #pragma once
-// Runs a pipeline on many assets in one process: finds the assets, runs each on shared threads, skips assets
-// that an earlier batch completed, and writes one summary.
+// Runs a pipeline on many assets in one process. It finds the assets, skips those that an earlier batch
+// completed, runs the others on shared threads, and writes one summary.
 
 #include "base/text/markup.hpp"
 #include "batch/figures.hpp"
@@ -36,7 +36,7 @@ struct Sources {
 
 /// The assets in the order of their sources, globs sorted by bytes, each file once. An asset's folder is the
 /// folder of its input relative to the base. The default base is the part of a pattern before its first
-/// wildcard, and the working directory for lists and tables; outside the base the folder is empty. Throws
+/// wildcard, and the working directory for lists and tables. Outside the base the folder is empty. Throws
 /// missing (E-FILE) when a pattern matches nothing, malformed (E-TABLE) for an unreadable table.
 std::vector<Asset> find_assets(const Sources& sources);
 

@@ -93,9 +93,9 @@ void read_more(const Descriptor& file, io::Bytes& bytes, std::size_t more) {
     bytes.resize(at + read_whole(file, std::span(bytes).subspan(at)));
 }
 
-/// Stops reading if the beginning is not an entry of that name, and reads nothing beyond the limit: the
-/// result is then shorter than a head. None if there is no file of this user. Reads instead of mapping,
-/// because a file that is truncated while mapped would end the process.
+/// Stops reading if the beginning is not an entry of that name, and reads nothing of an entry beyond the
+/// limit. The result is then shorter than a head. None if there is no file of this user. Reads instead of
+/// mapping, because a file that is truncated while mapped would end the process.
 std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std::uint64_t max_bytes) {
     const Descriptor file = open_file(path, {.follows_links = false, .waits = false});
     const auto about = file ? status_of(file) : std::nullopt;

@@ -53,8 +53,8 @@ struct MeantBound {
     std::string bound; ///< "{min: 1001}"; empty if there is no such bound
 };
 
-/// None for a word that is only another program's name of a property, if it is compared with another word:
-/// for example, both may be plain texts, such as points and solid.
+/// None for another program's name of a property that is compared with another word. Both may be plain texts,
+/// for example points and solid.
 std::optional<MeantBound> bound_of(std::string_view name, std::string_view op, std::string_view value) {
     const Property* meant = property_meant(name);
     if (!meant) return {};

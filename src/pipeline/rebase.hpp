@@ -13,8 +13,8 @@ enum class RunTimePaths {
     kept,    ///< the variable gives the base folder
 };
 
-/// Rewrites the relative input paths of a document's stages, and the defaults of its path params, so that
-/// they refer to the same files from another folder. Input paths are relative to the pipeline file.
+/// Rewrites the relative input paths of a document's stages, and the defaults of its path params. They then
+/// refer to the same files from another folder. Input paths are relative to the pipeline file.
 void rebase_inputs(Value& document, const std::filesystem::path& from, const std::filesystem::path& to,
                    RunTimePaths run_time);
 

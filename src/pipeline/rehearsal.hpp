@@ -1,6 +1,6 @@
 #pragma once
-// Predicts a plan's output files if only its stages can determine them, for example textures converted to
-// WebP only where that is smaller, or unused images.
+// Predicts a plan's output files if only its stages can determine them. For example, textures may be
+// converted to WebP only where that is smaller, and unused images dropped.
 
 #include "pipeline/plan.hpp"
 

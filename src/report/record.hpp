@@ -44,7 +44,7 @@ struct Corners {
 };
 
 /// The found value of a check, by the kind of its property: a truth value, a count, a number, a word, a box
-/// or names; none when the property does not apply.
+/// or names. None when the property does not apply.
 using Found =
     std::variant<std::monostate, bool, std::int64_t, double, std::string, Corners, std::vector<std::string>>;
 

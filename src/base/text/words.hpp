@@ -30,7 +30,7 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
 std::string_view trimmed(std::string_view text);
 
 /// The texts between commas, without blanks around them: "a, b" is a and b. Two commas enclose an empty
-/// item, and so do a comma and an end, so that the caller can refuse it; a blank text has no items.
+/// item, and so do a comma and an end, so that the caller can refuse it. A blank text has no items.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Adds an item to a list in text; an empty one adds nothing.

@@ -22,12 +22,12 @@ struct NearPoint {
 /// one. So the winding number is at least 1 at each core point. The core is convex, as an intersection of
 /// half-spaces. It is the interior of a convex solid, but empty for most other solids.
 ///
-/// Let K be the union of the cores of certain components: all of a union, the subtracted components of a
-/// difference, or the second operand of an intersection. A core is excluded if its box meets the box of a
-/// component that may have a negative winding number. (A difference or an intersection counts only the second
-/// operand.) That may be any component that neither has a core nor is manifold, outward and known to be free
-/// of self-intersections. So inside K, a union has a winding number of at least 1, and a difference removes
-/// everything: the result has no face in K.
+/// Let K be the union of the cores of certain components. These are all of a union, the subtracted components
+/// of a difference, or the second operand of an intersection. A core is excluded if its box meets the box of
+/// a component that may have a negative winding number. (A difference or an intersection counts only the
+/// second operand.) That may be any component that neither has a core nor is manifold, outward and known to
+/// be free of self-intersections. So inside K, a union has a winding number of at least 1, and a difference
+/// removes everything: the result has no face in K.
 ///
 /// **Faces that meet only in K need not be cut along each other.** Suppose that all other pairs are cut. A
 /// leaf is a piece or an uncut face.

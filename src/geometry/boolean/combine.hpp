@@ -38,7 +38,7 @@ struct CombineResult {
 };
 
 /// Combines closed, consistently oriented meshes. The solid of a mesh is the set of points with a winding
-/// number of at least 1, so meshes may intersect themselves and contain cavities. Faces without area are
+/// number of at least 1. So meshes may intersect themselves and contain cavities. Faces without area are
 /// removed first.
 ///
 /// Intersecting faces are cut along each other, exactly (Q. Zhou et al., "Mesh arrangements for solid

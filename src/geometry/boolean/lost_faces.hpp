@@ -22,7 +22,7 @@ namespace facetmill::clean_steps {
 /// off the other operand where its winding number decides as above. A lost face has a point in K, and all
 /// skipped intersections of its operand are in its K. K ends only at the other operand's faces, and
 /// everything is cut along these. So a leaf (a piece or an uncut face) of the operand is entirely in K or has
-/// no point in K. A leaf in K is removed, and any test point shows that: a ray counts exactly how often the
+/// no point in K. A leaf in K is removed, and any test point shows that. A ray counts exactly how often the
 /// other operand winds, because the point is on none of its faces. Its neighbour across an edge without other
 /// leaves is also in K. All other leaves are cut along all faces that they meet.
 ///

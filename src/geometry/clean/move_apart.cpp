@@ -179,9 +179,9 @@ class Separation {
         return n;
     }
 
-    /// Directions to try: the 26 along and between the axes, to the neighbours of the vertex, to the centres
-    /// of its faces, and along their mean normal. Their longest coordinate is 1. Those to the neighbours come
-    /// first, because they pull the fan away from the others.
+    /// Directions to try: the 26 along and between the axes, and along the mean normal of the vertex's faces.
+    /// Others point to its neighbours and to the centres of its faces. Their longest coordinate is 1. Those
+    /// to the neighbours come first, because they pull the fan away from the others.
     std::vector<Vec3> directions(Index v) const {
         Vec3 towards, normal;
         std::vector<Vec3> all;

@@ -67,7 +67,7 @@ bool take_apart_non_manifold(Work& work, const EdgeDivision& how, std::optional<
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of boundary edges according to the settings; holes that touch at a vertex are filled
 /// separately. Loops with an edge of other_than stay open. So do loops whose patch would intersect faces
-/// (unless may_cross), or would lie on adjacent faces within 32-bit rounding: the border of a flat sheet is
+/// (unless may_cross), or would lie on adjacent faces within 32-bit rounding. The border of a flat sheet is
 /// not a hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
 /// Removes components with boundary edges, if a closed one is left.
@@ -122,8 +122,8 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
                   const CleanSettings& settings);
 /// Repairs each place of intersection separately: removes the intersecting faces, if necessary with up to
 /// four rings around them, and fills the hole. A place stays unchanged if that would leave an intersection or
-/// a new boundary edge, change the topology, remove half of a component, or exceed the budget. Faces that
-/// touch only at vertices with the same position do not count.
+/// a new boundary edge, or change the topology. It also does if that would remove half of a component, or
+/// exceed the budget. Faces that touch only at vertices with the same position do not count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
 
 } // namespace facetmill::clean_steps

@@ -40,9 +40,9 @@ class Walls {
     /// The post on the wall that is nearest to a point near the wall; the same for all walls at that post.
     const Stand& nearest_stand(Index wall, const Vec2& p) const;
 
-    /// The wall nearest to an edge projected from p to q. It compares the distance of the midpoint and,
-    /// because the edge may extend past the wall, of its ends to the wall's line. Rounding is ignored; ties
-    /// go to the lowest.
+    /// The wall nearest to an edge projected from p to q. It compares the midpoint's distance from the wall.
+    /// Because the edge may extend past the wall, it also compares the distance of its ends from the wall's
+    /// line. Rounding is ignored; ties go to the lowest.
     Index nearest(const Vec2& p, const Vec2& q) const;
     /// True if the edge is on the wall within rounding.
     bool is_on(Index wall, const Vec2& p, const Vec2& q) const;

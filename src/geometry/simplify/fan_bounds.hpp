@@ -1,7 +1,7 @@
 #pragma once
-// Bounds on the distances between points and the triangles around a vertex, both ways: from the points to the
-// triangles, and from sample points on the triangles. They are computed in float32, four at a time, so that
-// most pairs need no exact test.
+// Bounds on the distances between points and the triangles around a vertex. They go both ways: from the
+// points to the triangles, and from sample points on the triangles. They are computed in float32, four at a
+// time, so that most pairs need no exact test.
 
 #include "base/math/simd.hpp"
 #include "base/math/vec.hpp"

@@ -1,6 +1,6 @@
 // The order of collapses. Each pass chooses a threshold for the costs of all edges. It collapses the edges
-// below the threshold in order of cost, at most once per vertex, and updates the costs of the changed edges
-// after each collapse. A cost depends only on the edge's two ends, and an untouched end keeps its quadric, so
+// below the threshold in order of cost, at most once per vertex. After each collapse it updates the costs of
+// the changed edges. A cost depends only on the edge's two ends, and an untouched end keeps its quadric, so
 // every cost is exact when its edge collapses.
 //
 // Several states share a goal through a common threshold: the costs of each are scaled to the unit of the

@@ -144,10 +144,9 @@ struct SimplifyResult {
 /// Simplifies a mesh. Has no preconditions: open, non-manifold and degenerate input is accepted. Non-manifold
 /// vertices stay, with all edges between them.
 ///
-/// Before the collapses, polygons are triangulated, unused vertices dropped, and normal-only seams merged
-/// (merge_normal_seams). Where neighbours face opposite ways, faces are reversed during the work (not for
-/// cluster) and restored at the end. A non-orientable surface (a Moebius strip) counts as not manifold where
-/// neighbours disagree.
+/// First, polygons are triangulated, unused vertices dropped, and normal-only seams merged
+/// (merge_normal_seams). Where neighbours disagree, faces are reversed during the work (not for cluster) and
+/// restored at the end. A non-orientable surface (a Moebius strip) counts as not manifold there.
 ///
 /// Guarantees: every collapse satisfies the link condition, so manifoldness, closedness, the genus and the
 /// numbers of components and boundary loops stay. A closed component keeps at least four faces. No collapse
@@ -161,9 +160,9 @@ struct SimplifyResult {
 /// (bounds.cpp). If the final deviation exceeds the bound, the log of collapses is cut by bisection. Every
 /// prefix of the log is a mesh with all guarantees.
 ///
-/// self_intersections: avoid: while the result intersects itself more often than the input, vertices of the
-/// intersecting faces get half the error, and the work is repeated. After ten rounds they stay fixed. Not for
-/// levels.
+/// self_intersections: avoid: while the result intersects itself more often than the input, the work is
+/// repeated, with half the error at the intersecting faces. After ten rounds their vertices stay fixed. Not
+/// for levels.
 ///
 /// Methods: constrained keeps boundaries, seams and borders vertex by vertex, and has no largest_error,
 /// max_error or levels. cluster (J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for
@@ -179,13 +178,13 @@ struct SimplifyResult {
 /// (attributes.hpp). Weights add the attribute error to the quadrics (H. Hoppe, 'New quadric metric for
 /// simplifying meshes with appearance attributes', 1999). The result is in Morton order.
 ///
-/// Errors: usage for the first setting that check_simplify_settings refuses. About O(n log n), parallel; the
-/// same bytes for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using
-/// quadric error metrics' (1997).
+/// Errors: usage for the first refusal of check_simplify_settings. About O(n log n), parallel; the same bytes
+/// for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric error
+/// metrics' (1997).
 SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 
-/// All settings that simplify refuses, in the order in which it reports them: settings that exclude each
-/// other (E-CONFLICT), then a missing target, or settings out of range (E-RANGE).
+/// All settings that simplify refuses, in its order of reporting. First come settings that exclude each other
+/// (E-CONFLICT), then a missing target, or settings out of range (E-RANGE).
 std::vector<Refusal> check_simplify_settings(const SimplifySettings& settings);
 
 /// Returns one result per ratio of settings.levels, from fine to coarse. Each level continues the collapses

@@ -49,8 +49,8 @@ std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 void for_each_place_of_instances(
     const Scene& scene, const Function<void(std::size_t part, const Transform& place, double times)>& visit);
 
-/// The smallest number of position bits, from `min_bits` to 24, at which distinct float32 vertex positions
-/// stay distinct on the grid; none if 24 are not enough.
+/// The smallest number of position bits, from `min_bits` to 24, that keeps distinct float32 vertex positions
+/// distinct on the grid. None if 24 are not enough.
 std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits);
 
 } // namespace facetmill::io

@@ -116,9 +116,9 @@ std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
     return count;
 }
 
-/// Refuses input that the library's k-d tree decoder does not check: attributes without components, and more
-/// points in the tree than in the header, which would overflow its memory. The buffer is positioned after the
-/// number of points.
+/// Refuses input that the library's k-d tree decoder does not check. It may have attributes without
+/// components, or more points in the tree than in the header, which would overflow memory. The buffer is
+/// positioned after the number of points.
 void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
     constexpr std::uint32_t most_numbers = 256; // of a point: memory grows with its square
     const auto byte = [&] {
@@ -148,10 +148,10 @@ void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
         fail(fmt::format("its tree has {} points, and its header {}", in_tree, points));
 }
 
-/// Reads the declared numbers of faces and points, and refuses numbers that the bytes or the memory cannot
-/// hold, because the library allocates before it decodes. Returns the number of bytes that the library may
-/// request at once. Other numbers in the data, such as texture orientations or symbols, also make it
-/// allocate, however few bytes are left.
+/// Reads the declared numbers of faces and points. Refuses numbers that the bytes or the memory cannot hold,
+/// because the library allocates before it decodes. Returns the number of bytes that the library may request
+/// at once. Other numbers in the data, such as texture orientations or symbols, also make it allocate,
+/// however few bytes are left.
 std::size_t check_counts(::draco::DecoderBuffer buffer, bool is_mesh) {
     ::draco::DracoHeader header;
     const auto status = ::draco::PointCloudDecoder::DecodeHeader(&buffer, &header);

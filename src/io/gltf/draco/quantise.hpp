@@ -8,7 +8,7 @@
 
 namespace facetmill::io {
 
-/// A grid of equal steps along every axis, in float32 as Draco stores it: `range` is divided into 2^bits - 1
+/// A grid of equal steps along every axis, in float32 as Draco stores it. `range` is divided into 2^bits - 1
 /// steps, and every component has its own origin.
 struct DracoGrid {
     std::vector<float> origin;

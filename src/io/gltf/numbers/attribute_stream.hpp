@@ -1,7 +1,7 @@
 #pragma once
 // Mode ATTRIBUTES of KHR_meshopt_compression version 1, which older libraries do not support. Implements its
-// appendix A: bytes of elements are split into planes of differences, in groups of 16 with 0, 1, 2, 4 or 8
-// bits each.
+// appendix A: it splits bytes of elements into planes of differences. Groups of 16 differences have 0, 1, 2,
+// 4 or 8 bits each.
 
 #include "io/bytes.hpp"
 

@@ -206,8 +206,8 @@ void for_each_instanced(
 
 std::vector<double> errors_of_instances(const Scene& scene, bool filters) {
     constexpr double of_float = 1.0 / (1 << 23);
-    // Each component of the quaternion has an error of 1.1e-5 when stored and 1.5e-5 when decoded; the
-    // largest component of up to sqrt(3) times as much. The total is an angle below this value.
+    // Each component of the quaternion has an error of 1.1e-5 when stored and 1.5e-5 when decoded. The error
+    // of the largest component is up to sqrt(3) times as much. The total is an angle below this value.
     constexpr double of_rotation = 2e-4;
     std::vector<double> errors(scene.parts.size());
     for_each_instanced(scene, [&](std::size_t i, const Transform& at, const gltf::Instances&) {
