@@ -102,7 +102,7 @@ namespace {
 
 constexpr std::size_t widest_line = 160;
 
-/// The line of the source that the mark is in, without its end.
+/// The source line that contains the mark, without its line end.
 std::string source_line(const Mark& mark) {
     const std::string& text = mark.source->text;
     std::size_t begin = 0;

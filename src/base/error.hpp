@@ -13,7 +13,7 @@ namespace facetmill {
 
 /// Who can fix it; the value is the process's exit code.
 enum class ErrorKind : int {
-    check = 1,     ///< a validate or ensure did not hold
+    check = 1,     ///< a validate or ensure failed
     usage = 2,     ///< the command line or the pipeline is wrong
     missing = 3,   ///< an input is missing or not permitted
     output = 4,    ///< an output cannot be written
@@ -23,7 +23,7 @@ enum class ErrorKind : int {
     bug = 70,      ///< a bug in facetmill
 };
 
-/// The exit code and what it means: "2 (the command line or the pipeline is wrong)".
+/// The exit code and its meaning: "2 (the command line or the pipeline is wrong)".
 std::string to_string(ErrorKind kind);
 
 enum class Severity { error, warning, note };
@@ -31,14 +31,14 @@ enum class Severity { error, warning, note };
 struct Diagnostic {
     Severity severity = Severity::error;
     std::string id;      ///< stable, documented: E-KEY, W-UNITS
-    std::string message; ///< one sentence without a full stop: what was expected and what was found
+    std::string message; ///< one sentence without a full stop: the expected and the found value
     Mark where;          ///< may be unknown
     std::string hint;    ///< how to fix it, or empty
     /// It failed for lack of memory, and may succeed with less work in parallel.
     bool out_of_memory = false;
 };
 
-/// One or more diagnostics and whose fault they are.
+/// One or more diagnostics, and who can fix them.
 class Error : public std::exception {
   public:
     Error(ErrorKind kind, std::string id, std::string message, std::string hint = {}, Mark where = {});
@@ -62,7 +62,7 @@ class Error : public std::exception {
     std::string text_;
 };
 
-/// Of kind limit (E-MEMORY), with out_of_memory set.
+/// An error of kind limit (E-MEMORY), with out_of_memory set.
 Error out_of_memory(std::string message, std::string hint = {}, Mark where = {});
 
 /// Whether --allow lists the warning: the ids are from the user.
@@ -89,7 +89,7 @@ class Problems {
     std::set<std::string> known_; ///< the contents of all_, as text
 };
 
-/// The diagnostic as people read it: "file:line:col: error[ID]: message", the source line, a caret, the hint.
+/// The diagnostic as text: "file:line:col: error[ID]: message", the source line, a caret, the hint.
 std::string render(const Diagnostic& diagnostic, bool colour = false);
 
 } // namespace facetmill

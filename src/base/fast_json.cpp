@@ -48,7 +48,7 @@ class QuickReader {
         while (at_ != end_ && (*at_ == ' ' || *at_ == '\n' || *at_ == '\r' || *at_ == '\t')) ++at_;
     }
 
-    /// Whether this character comes next, after space; it is passed over then.
+    /// True if this character comes next, after white space; skips it.
     bool takes(char c) {
         skip_space();
         if (at_ == end_ || *at_ != c) return false;
@@ -114,7 +114,7 @@ class QuickReader {
         return depth == 1 && std::find(unread_.begin(), unread_.end(), key) != unread_.end();
     }
 
-    /// As value, but that arrays and objects come out empty.
+    /// Like value, but returns arrays and objects empty.
     bool emptied(Json& out, int depth) {
         skip_space();
         if (at_ == end_ || (*at_ != '{' && *at_ != '[')) return value(out, depth);
@@ -265,12 +265,12 @@ class QuickReader {
     const char* const end_;
     const int deepest_;
     const std::span<const std::string_view> unread_;
-    std::string passed_string_; // that nobody asks for
+    std::string passed_string_; // skipped strings
     Json passed_;
     std::deque<Level> levels_; // addresses stay valid when the deque grows
 };
 
-/// Whether a string is written as it is: ASCII, and nothing that is escaped.
+/// True if a string needs no escapes: ASCII without special characters.
 bool is_plain(const std::string& text) {
     return std::all_of(text.begin(), text.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
@@ -294,7 +294,7 @@ void write_integer(std::string& out, T value) {
     out.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-/// Real numbers as the library spells them, by its own function.
+/// Real numbers in the library's format, by its own function.
 void write_real(std::string& out, double value) {
     if (!std::isfinite(value)) {
         out += "null";
@@ -339,7 +339,7 @@ void write_value(std::string& out, const Json& json) {
     case Json::value_t::boolean:
         out += json.get_ref<const Json::boolean_t&>() ? "true" : "false";
         return;
-    default: // null, and what no text gives
+    default: // null, and values without a text
         out += json.dump(-1, ' ', false, Json::error_handler_t::replace);
     }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// JSON as files mostly have it, read, written and given up several times as fast as by the library.
+// Reads, writes and destroys typical JSON several times as fast as the library.
 
 #include "base/json.hpp"
 
@@ -23,11 +23,11 @@ std::optional<Json> fast_json(std::string_view text, int deepest = 256,
 /// recurses, as the library does.
 std::string fast_text(const Json& json);
 
-/// Makes a value null. The library moves all that is below a value to a list first, lest it recurse; this
-/// recurses.
+/// Makes a value null. It is recursive; the library avoids recursion by first moving everything below the
+/// value to a list.
 void destroy(Json& json);
 
-/// Discards a value where its scope ends.
+/// Destroys a value at the end of the scope.
 class ScopedDestroy {
   public:
     explicit ScopedDestroy(Json& json) : json_(json) {}

@@ -10,7 +10,7 @@ namespace facetmill {
 
 std::string sha256(std::span<const std::byte> bytes) {
     constexpr std::size_t piece = std::size_t{16} << 20;
-    const bool tells = bytes.size() > piece; // it takes long
+    const bool tells = bytes.size() > piece; // reports progress, because it takes long
     Sha256 sum;
     for (std::size_t at = 0; at < bytes.size(); at += piece) {
         if (tells) ProgressScope::report(static_cast<double>(at) / static_cast<double>(bytes.size()));

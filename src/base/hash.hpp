@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 of files and bytes (Nettle's), as hexadecimal.
+// SHA-256 of files and bytes (by Nettle), as hexadecimal.
 
 #include <cstddef>
 #include <memory>
@@ -10,7 +10,7 @@ namespace facetmill {
 
 std::string sha256(std::span<const std::byte> bytes);
 
-/// The SHA-256 of bytes that come in pieces.
+/// The SHA-256 of bytes added in pieces.
 class Sha256 {
   public:
     Sha256();

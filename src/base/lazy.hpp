@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// Copies share the value. Asking is safe from several threads; make() runs once. Empty: a default T.
+/// Copies share the value. Access is thread-safe; make() runs once. Empty: a default T.
 template <class T>
 class Lazy {
   public:

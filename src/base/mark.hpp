@@ -6,7 +6,7 @@
 
 namespace facetmill {
 
-/// A text and the name that people know it by.
+/// A text and its name in messages.
 struct SourceText {
     std::string name;
     std::string text; ///< empty when only the name is known (binary files)

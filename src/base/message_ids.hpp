@@ -29,11 +29,11 @@ class ErrorKinds {
     std::size_t size_ = 0;
 };
 
-/// A stable id, and what its messages have in common.
+/// A stable id, and the data that its messages share.
 struct MessageId {
     std::string_view id;      ///< "E-KEY", "W-UNITS"
     std::string_view meaning; ///< one or two sentences
-    std::string_view hint;    ///< what to do; a message may have a more specific hint
+    std::string_view hint;    ///< a suggestion; a message may have a more specific one
     ErrorKinds kinds = {};    ///< the exit codes of an error
 
     bool is_warning() const { return id.starts_with("W-"); }

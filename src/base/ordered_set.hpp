@@ -1,5 +1,5 @@
 #pragma once
-// Values in the order in which they came first, each once.
+// A set that keeps the order of insertion.
 
 #include <set>
 #include <vector>
@@ -10,7 +10,7 @@ namespace facetmill {
 template <class T>
 class OrderedSet {
   public:
-    /// Whether the value is new.
+    /// Returns true if the value is new.
     bool add(const T& value) {
         if (!known_.insert(value).second) return false;
         all_.push_back(value);

@@ -16,7 +16,7 @@ bool is_out_of_memory(const std::exception& e) {
 bool is_want_of_threads(const std::exception& e) {
     if (const auto* const call = dynamic_cast<const std::system_error*>(&e))
         return call->code() == std::errc::resource_unavailable_try_again;
-    return std::string_view(e.what()).starts_with("pthread_create has failed"); // TBB has words only
+    return std::string_view(e.what()).starts_with("pthread_create has failed"); // TBB gives only a text
 }
 
 std::optional<Error> told_as_limit(const std::exception& e, const std::string& what, Mark where) {

@@ -7,12 +7,12 @@
 
 namespace facetmill {
 
-/// Whether memory ran out, for the program itself or for a system call (ENOMEM), as the functions of
-/// std::filesystem report it.
+/// True if memory ran out, for the program itself or for a system call (ENOMEM), which functions of
+/// std::filesystem report.
 bool is_out_of_memory(const std::exception& e);
 
-/// Whether no thread could be started, for lack of memory for its stack or because of a limit of threads,
-/// which the system does not distinguish. std::thread and TBB report it.
+/// True if no thread could be started, because of missing memory for its stack or a limit of threads; the
+/// system does not distinguish them. std::thread and TBB report it.
 bool is_want_of_threads(const std::exception& e);
 
 /// Converts these exceptions to an error of kind limit (E-MEMORY); none for other exceptions. what: the

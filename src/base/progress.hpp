@@ -14,10 +14,10 @@ class Progress {
     virtual ~Progress() = default;
     /// A stage begins: number of number_of, and its name.
     virtual void stage(int number, int number_of, const std::string& name) = 0;
-    /// Work outside the stages begins: a picture or a report is made.
+    /// Work outside the stages begins: for example, a picture or a report.
     virtual void beside_stages(const std::string& what) = 0;
-    /// The completed share of the present stage, or of the work outside stages, from 0 to 1. Repeated work
-    /// may lower it. Called by the thread that runs the stage.
+    /// The completed share of the current stage, or of work outside stages, from 0 to 1. Repeated work may
+    /// lower it. Called by the thread that runs the stage.
     virtual void share(double done) = 0;
     virtual void done() = 0;
 };
@@ -94,7 +94,7 @@ class ProgressSteps {
     ProgressScope::Range whole_;
 };
 
-/// Rounds of a work whose number is not known before: each has half of the share that is left.
+/// Progress for an unknown number of rounds: each takes half of the remaining share.
 class ProgressRounds {
   public:
     ProgressRounds();
@@ -102,7 +102,7 @@ class ProgressRounds {
     ProgressRounds(const ProgressRounds&) = delete;
     ProgressRounds& operator=(const ProgressRounds&) = delete;
 
-    /// A round has ended, the next begins.
+    /// Ends a round, and begins the next.
     void next();
 
   private:

@@ -9,8 +9,8 @@
 namespace facetmill {
 
 struct Refusal {
-    std::string option;  ///< as users name it: "min_angle"
-    std::string message; ///< "'min_angle' goes with no other target"; whose option it is comes before it
+    std::string option;  ///< name of the option: "min_angle"
+    std::string message; ///< "'min_angle' goes with no other target"; the owner of the option precedes it
     std::string hint = {};
     std::string id = "E-CONFLICT";
 };

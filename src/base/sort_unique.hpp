@@ -1,5 +1,5 @@
 #pragma once
-// Values in order, each once.
+// Sorts values and removes duplicates.
 
 #include <algorithm>
 #include <utility>

@@ -1,11 +1,11 @@
 #pragma once
-// How long something takes.
+// Measures elapsed time.
 
 #include <chrono>
 
 namespace facetmill {
 
-/// Runs from where it is made.
+/// Starts when constructed.
 class Stopwatch {
   public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

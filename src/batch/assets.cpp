@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* input_param = "input";
 
-/// The part of a pattern before its first wildcard; for a file, its folder.
+/// The folder part of a pattern before its first wildcard; for a file, its folder.
 fs::path fixed_prefix(const fs::path& pattern) {
     fs::path prefix;
     for (const auto& component : pattern.parent_path()) {
@@ -33,14 +33,14 @@ bool holds_something(const fs::path& folder) {
     return fs::directory_iterator(folder, error) != fs::directory_iterator() && !error;
 }
 
-/// The folder of the input from the base; empty beyond it.
+/// The folder of the input relative to the base; empty outside it.
 fs::path mirrored(const fs::path& input, const fs::path& base) {
     const auto whole = [](const fs::path& folder) {
         return (folder.empty() ? fs::current_path() : fs::absolute(folder)).lexically_normal();
     };
     const fs::path near = whole(input.parent_path() / ".").lexically_relative(whole(base / "."));
     if (near.empty() || near == "." || *near.begin() == "..") return {};
-    return near.has_filename() ? near : near.parent_path(); // without a slash at its end
+    return near.has_filename() ? near : near.parent_path(); // no slash at its end
 }
 
 class AssetFinder {
@@ -58,7 +58,7 @@ class AssetFinder {
   private:
     void add_pattern(const std::string& pattern) {
         std::error_code ignored;
-        const bool is_file = fs::exists(pattern, ignored); // a file name may contain wildcard characters
+        const bool is_file = fs::exists(pattern, ignored); // a name may look like a pattern
         const fs::path base = sources_.base.empty()
                                   ? (is_file ? fs::path(pattern).parent_path() : fixed_prefix(pattern))
                                   : fs::path(sources_.base);
@@ -68,8 +68,8 @@ class AssetFinder {
         for (const auto& file : files) add_file(file, base);
     }
 
-    /// Nothing may be left to make but to prune. That nothing can be seen of a folder (its disk is not there)
-    /// is no reason to remove what was made of it.
+    /// A pattern without matches is allowed if earlier assets must be pruned. If the folder itself is
+    /// unreadable (its disk is missing), that is no reason to prune.
     void add_nothing(const std::string& pattern) {
         std::string hint =
             is_glob(pattern)
@@ -86,7 +86,7 @@ class AssetFinder {
                             sources_.place(pattern), std::move(hint)});
     }
 
-    /// Whether an earlier batch found a match.
+    /// True if an earlier batch found an asset with this pattern.
     bool was_there(const std::string& pattern) const {
         return sources_.former &&
                std::any_of(sources_.former->begin(), sources_.former->end(),
@@ -99,7 +99,7 @@ class AssetFinder {
             {file.string(), file, mirrored(file, base), false, {{input_param, file.string()}}, {}, {}});
     }
 
-    /// Names on lines of their own, or each ended by a NUL as `find -print0` writes them.
+    /// Adds names, one per line, or terminated by NUL as `find -print0` writes them.
     void add_list(const std::string& list) {
         const auto input = io::Input::open(list);
         std::string_view text = io::as_text(input.bytes());
@@ -139,7 +139,7 @@ class AssetFinder {
         }
     }
 
-    /// Its input, else its first cell.
+    /// The asset's input, else its first cell.
     static std::string name_of(const Row& row) {
         for (const auto& cell : row)
             if (cell.param == input_param) return cell.text;

@@ -1,6 +1,6 @@
 #pragma once
-// The figures of an asset: the columns of numbers in the summary of a batch. JSON, its schema, HTML,
-// Markdown, text and the journal read columns().
+// The figures of an asset: the numeric columns in the summary of a batch. JSON, its schema, HTML, Markdown,
+// text and the journal use columns().
 
 #include "report/record.hpp"
 
@@ -20,7 +20,7 @@ struct Column {
     const char* help;  ///< in the schema
     std::uint64_t Figures::*value;
     std::string (*cell)(std::uint64_t);
-    std::string (*phrase)(const Figures&); ///< on the asset's line of a text; null or empty: none
+    std::string (*phrase)(const Figures&); ///< in the asset's line of a text; null or empty: none
 };
 
 /// In the order of the tables.

@@ -1,4 +1,4 @@
-// The results of a batch, as a page and as Markdown.
+// The summary of a batch, as a page and as Markdown.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
@@ -34,7 +34,7 @@ std::string notes_of(const Outcome& out) {
     return notes;
 }
 
-/// Pictures stay in the page, as long as it stays one that a browser opens at once.
+/// Embeds pictures until the page would become too large for a browser to open quickly.
 std::string picture_cell(const Asset& asset, const Outcome& out, std::size_t& bytes) {
     constexpr std::size_t most = 32 << 20;
     if (out.picture.empty() || bytes + out.picture.size() > most) return cell("");

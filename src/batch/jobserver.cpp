@@ -11,7 +11,7 @@ namespace facetmill::batch {
 
 namespace {
 
-/// The value of the last option of this kind, as make writes it.
+/// The value of the last option of this kind, in make's syntax.
 std::string auth_in(const std::string& makeflags) {
     std::istringstream words(makeflags);
     std::string value;
@@ -21,7 +21,7 @@ std::string auth_in(const std::string& makeflags) {
     return value;
 }
 
-/// A description of its own, so that not waiting for a token is nobody else's affair.
+/// Reopens the descriptor, so that its non-blocking mode does not affect other processes.
 Descriptor reopened(const std::string& descriptor, OpenFor what) {
     const auto number = parse_integer(descriptor);
     if (!number || *number < 0) return {};
@@ -45,7 +45,7 @@ std::unique_ptr<Jobserver> Jobserver::offered(const std::string& makeflags) {
     const std::string auth = auth_in(makeflags), fifo = jobserver_file(makeflags);
     Descriptor in, out;
     if (!fifo.empty()) {
-        // For both at once, since a FIFO without a reader cannot be opened to write.
+        // Opens the FIFO for both directions, because it cannot be opened for writing without a reader.
         in = open_file(fifo, {.what = OpenFor::both, .waits = false});
         if (in) out = duplicate(in);
     } else if (const auto comma = auth.find(','); comma != auth.npos) {

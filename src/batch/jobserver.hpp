@@ -1,5 +1,5 @@
 #pragma once
-// The jobserver of GNU make: tokens shared by all that a make runs, one for each job beyond a program's
+// The jobserver of GNU make: tokens shared by all programs of a make run, one for each job beyond a program's
 // first.
 
 #include "platform/descriptor.hpp"
@@ -12,14 +12,14 @@ namespace facetmill::batch {
 
 class Jobserver {
   public:
-    /// What these MAKEFLAGS offer (--jobserver-auth=fifo:PATH or R,W; --jobserver-fds=R,W of older makes), or
-    /// null: when they offer none, or the descriptors were not passed on (a recipe without +).
+    /// The jobserver in these MAKEFLAGS (--jobserver-auth=fifo:PATH or R,W; --jobserver-fds=R,W of older
+    /// makes). Null if there is none, or if the descriptors were not inherited (a recipe without +).
     static std::unique_ptr<Jobserver> offered(const std::string& makeflags);
-    ~Jobserver(); ///< gives all back
+    ~Jobserver(); ///< returns all tokens
     Jobserver(const Jobserver&) = delete;
     Jobserver& operator=(const Jobserver&) = delete;
 
-    /// Takes a token if one is available.
+    /// Takes a token; false if none is available.
     bool take();
     void give();
     void give_all();
@@ -28,10 +28,10 @@ class Jobserver {
     Jobserver(Descriptor in, Descriptor out) : in_(std::move(in)), out_(std::move(out)) {}
     Descriptor in_, out_;
     std::mutex guard_;
-    std::string tokens_; ///< what was taken: a token goes back as it was
+    std::string tokens_; ///< taken tokens, which must be returned unchanged
 };
 
-/// The FIFO that these MAKEFLAGS name; empty for none.
+/// The FIFO named in these MAKEFLAGS; empty if there is none.
 std::string jobserver_file(const std::string& makeflags);
 
 } // namespace facetmill::batch

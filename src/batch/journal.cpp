@@ -64,7 +64,7 @@ Done done_from(const Json& json) {
     done.outputs = stamps_from(json.at("outputs"));
     json.at("absent").get_to(done.absent);
     json.at("former").get_to(done.former);
-    for (const Column& column : columns()) // another release may lack some
+    for (const Column& column : columns()) // another release may lack some columns
         done.figures.*column.value = json.value(column.key, std::uint64_t{0});
     json.at("written").get_to(done.written);
     json.at("warnings").get_to(done.warnings);
@@ -72,7 +72,7 @@ Done done_from(const Json& json) {
     return done;
 }
 
-/// Lines that a kill has cut short are left out.
+/// Skips truncated lines, which a killed process leaves.
 template <class Take>
 void for_each_done(std::string_view text, Take&& take) {
     while (!text.empty()) {
@@ -85,7 +85,7 @@ void for_each_done(std::string_view text, Take&& take) {
     }
 }
 
-/// Whether the file is as it was, and its stamp as it is now. A file with another time is read.
+/// True if the file is unchanged; updates its stamp. Files with another time are read.
 bool is_as_it_was(const fs::path& file, Stamp& stamp, bool& renewed) {
     const auto now = stamp_of(file);
     if (!now || now->bytes != stamp.bytes) return false;
@@ -105,7 +105,7 @@ bool is_as_it_was(const fs::path& file, Stamp& stamp, bool& renewed) {
 std::optional<Stamp> stamp_of(const fs::path& file) {
     const auto about = status_of(file);
     if (!about || about->kind != FileKind::regular) return {};
-    // Kernels count the times of files in ticks of up to 10 ms, some file systems in steps of 2 s.
+    // Kernels update file times in ticks of up to 10 ms, some file systems in steps of 2 s.
     constexpr std::int64_t recent = 2'000'000'000;
     const std::int64_t time = about->stamp.modified;
     const bool settled = nanoseconds_now() - time > recent;
@@ -158,7 +158,7 @@ void Journal::open_locked() {
                         "wait for its end, or write elsewhere with --output-dir");
         const auto held = FileStamp::of(file_), named = FileStamp::of(path_);
         if (held && named && held->is_same_file(*named)) return;
-        file_.close(); // a batch that just ended wrote it anew
+        file_.close(); // a batch that just ended has replaced the file
     }
 }
 
@@ -222,7 +222,7 @@ std::optional<Diagnostic> Journal::add(Done done) {
     try {
         line = done_json(done).dump() + "\n";
     } catch (const Json::exception&) {
-        return {}; // a name that is not UTF-8: it will be done again
+        return {}; // a name that is not UTF-8: the asset will run again
     }
     const auto n = write_some(file_, std::as_bytes(std::span(line)));
     const int error = n ? ENOSPC : errno;
@@ -237,7 +237,7 @@ bool Journal::remove_output(const std::string& path, const std::string& sha) {
     stamp.sha256 = sha;
     const auto now = stamp_of(file);
     std::error_code ignored;
-    if (!now || fs::is_symlink(file, ignored)) return false; // no batch writes links
+    if (!now || fs::is_symlink(file, ignored)) return false; // batches never write links
     stamp.bytes = now->bytes;
     bool renewed = false;
     if (!is_as_it_was(file, stamp, renewed)) return false;
@@ -280,7 +280,7 @@ std::optional<Diagnostic> Journal::compact() {
     Descriptor file = open_file(
         part, {.what = OpenFor::both, .create = Create::if_missing, .truncates = true, .appends = true});
     if (!file) return unwritable(errno);
-    try_lock(file); // nobody else has a name for it
+    try_lock(file); // the file has no name that others could use
     const auto n = write_some(file, std::as_bytes(std::span(text)));
     if (n != text.size() || !rename_file(part, path_)) {
         const int error = n ? ENOSPC : errno;

@@ -1,5 +1,5 @@
 #pragma once
-// The record of batches in an output folder, so that the next batch skips unchanged assets.
+// Records completed runs in an output folder, so that the next batch skips unchanged assets.
 
 #include "base/error.hpp"
 #include "batch/figures.hpp"
@@ -16,65 +16,65 @@
 
 namespace facetmill::batch {
 
-/// A file as it was.
+/// The state of a file at some time.
 struct Stamp {
-    std::string path; ///< absolute; of an output from the output folder
+    std::string path; ///< absolute; for an output, relative to the output folder
     std::uint64_t bytes = 0;
-    std::int64_t time = 0; ///< nanoseconds; 0: compare only the digest
+    std::int64_t time = 0; ///< nanoseconds; 0: unknown, compare the digest
     std::string sha256;
 };
 
-/// A run that went well; or the reports of one that did not, beside what was there before it.
+/// A successful run; or the reports of a failed run, with the outputs of earlier runs.
 struct Done {
     std::string asset;
-    std::string digest;      ///< of Work; empty: it failed, and is never unchanged
-    std::string source;      ///< the asset's input, absolute; empty: a row without one
-    std::string mount_point; ///< of the source; empty: not known
+    std::string digest;      ///< of Work; empty: it failed, so it never counts as unchanged
+    std::string source;      ///< the asset's input, absolute; empty: a row without input
+    std::string mount_point; ///< of the source; empty: unknown
     bool of_table = false;
     std::vector<Stamp> inputs, outputs;
-    std::vector<std::string> absent; ///< files that inputs name and that did not exist
-    std::vector<std::pair<std::string, std::string>> former; ///< outputs of runs before, and their digests
+    std::vector<std::string> absent;                         ///< missing files that inputs refer to
+    std::vector<std::pair<std::string, std::string>> former; ///< outputs of earlier runs with their digests
     Figures figures;
-    std::vector<std::string> written; ///< outputs without reports, as a summary has them
+    std::vector<std::string> written;                          ///< outputs without reports, for the summary
     std::vector<std::pair<std::string, std::string>> warnings; ///< ids and messages
     std::string picture;
 };
 
-/// The file's size and time now, and no digest. A time so recent that a change could follow unseen is left
-/// out. None when there is no such file.
+/// The current size and time of a file, without digest. Omits a time so recent that a later change could keep
+/// it. None if the file does not exist.
 std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 
-/// A file of JSON lines, appended to as runs end: what a killed batch leaves is whole but for its last line,
-/// which is then left out. It is locked while it is open.
+/// A file of JSON lines, appended after each run. If a batch is killed, only its last line can be incomplete,
+/// which is then ignored. The file is locked while it is open.
 class Journal {
   public:
-    /// name: of the pipeline. Makes the folder. Throws output: E-BUSY when another batch holds it, E-WRITE.
+    /// name: of the pipeline. Creates the folder. Throws output: E-BUSY when another batch holds the lock,
+    /// E-WRITE.
     Journal(const std::filesystem::path& folder, const std::string& name);
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    /// The file in this folder: named after the pipeline, and by where that is, so that two of one name have
-    /// two.
+    /// The journal file in this folder. Its name contains the pipeline's name and a hash of its location, so
+    /// that pipelines with the same name have separate journals.
     static std::filesystem::path path_in(const std::filesystem::path& folder, const std::string& name);
 
-    /// The assets that a journal in this folder has, also while another batch holds it.
+    /// The assets in a journal of this folder; works while another batch has it locked.
     static std::vector<std::string> assets_in(const std::filesystem::path& folder, const std::string& name);
 
     const std::map<std::string, Done>& all() const { return all_; }
-    /// The outputs of batches of other pipelines in the folder.
+    /// The files that batches of other pipelines have written in the folder.
     std::set<std::string> outputs_of_others() const;
-    /// What was done for the asset with these options, if its inputs and outputs are as they were then. Times
-    /// that changed without the content are noted. For several threads, as long as nothing is added or
-    /// removed.
+    /// The record of the asset with these options, if its inputs and outputs are unchanged. Updates changed
+    /// times of unchanged contents. Thread-safe while no records are added or removed.
     const Done* unchanged(const std::string& asset, const std::string& digest);
-    /// Notes a run. A full disk is no failure; it is told once, by what is returned.
+    /// Records a run. A full disk is not a failure; the returned diagnostic reports it once.
     std::optional<Diagnostic> add(Done done);
-    /// Removes outputs that the asset no longer has, where they still are what was written, and empty folders
-    /// above them. Returns those removed.
+    /// Removes former outputs of the asset, if their contents are unchanged, and folders that become empty.
+    /// Returns the removed files.
     std::vector<std::string> remove_former(const std::string& asset, const std::set<std::string>& current);
-    /// ... all outputs of an asset, which is then forgotten.
+    /// Removes all outputs of an asset, and its record.
     std::vector<std::string> remove_all(const std::string& asset, const std::set<std::string>& current);
-    /// Rewrites the file without lines that later lines replace.
+    /// Rewrites the file without superseded lines.
     std::optional<Diagnostic> compact();
 
   private:

@@ -25,7 +25,7 @@ bool Pool::take_slot(bool& has_token) {
 }
 
 bool Pool::begin(Begun& begun) {
-    constexpr std::chrono::milliseconds between_looks(20); // no event signals a returned token
+    constexpr std::chrono::milliseconds between_looks(20); // returned tokens cause no notification
     std::unique_lock lock(guard_);
     while (true) {
         if (stopped_ || (waiting_.empty() && running_ == 0)) return false;
@@ -72,9 +72,8 @@ void Pool::take_jobs(const InArena& in_arena) {
 }
 
 void Pool::run() {
-    // All jobs are in one arena, so that loops inside them have the threads that are free, and there are
-    // never more than that. A job is isolated: while it waits for its loops it does not begin another job's
-    // work.
+    // All jobs share an arena, so that their loops can use all free threads, but never more than the limit.
+    // Jobs are isolated: while a job waits for its loops, its thread does not start work of another job.
     tbb::task_arena shared(settings_.jobs);
     const auto on_thread = [&] {
         tbb::task_arena own(1);

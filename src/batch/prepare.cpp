@@ -1,4 +1,4 @@
-// Everything about a batch that is known before it runs: plans, files, memory.
+// Prepares a batch before it runs: plans, files, memory.
 
 #include "base/hash.hpp"
 #include "base/text/spelling.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 std::string digest_of(const std::string& text) { return sha256(std::as_bytes(std::span(text))); }
 
-/// The pipeline without its comments and blanks.
+/// The pipeline without comments and blanks.
 std::string content_of(const std::string& text) {
     Problems ignored; // planning has reported them
     return pipeline::emit_yaml(
@@ -36,8 +36,9 @@ std::vector<std::string> asset_roots_in(const pipeline::Plan& plan) {
     return folders;
 }
 
-/// What a result depends on besides the content of inputs: this program, the pipeline, what the plan resolves
-/// to. The pipeline is in it since values that depend on the names of parts have no text in a plan.
+/// A digest of everything that a result depends on except the inputs' contents: this program, the pipeline,
+/// and the resolved plan. The pipeline's text is included because values that depend on part names are not in
+/// the plan.
 std::string options_digest(const std::string& pipeline, const pipeline::Plan& plan,
                            const Settings& settings) {
     const Json all = {{"build", build_id()},
@@ -49,7 +50,7 @@ std::string options_digest(const std::string& pipeline, const pipeline::Plan& pl
     return digest_of(all.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Whether the file is much smaller than what it holds.
+/// True if the file is compressed, so that its contents are much larger.
 bool is_packed(const fs::path& file) {
     const std::string extension = file.extension().string();
     if (extension == ".drc" || io::packing_named(file) != io::Packing::none) return true;
@@ -62,8 +63,8 @@ bool is_packed(const fs::path& file) {
            head.find("EXT_meshopt_compression") != head.npos;
 }
 
-/// Bytes that a run may take for each byte of its inputs: 70,000 faces in a binary PLY of 1.3 MB took 48 MB
-/// in quickstart, which makes four faces of each.
+/// Estimated memory per input byte: 70,000 faces in a binary PLY of 1.3 MB needed 48 MB in quickstart, which
+/// quadruples the faces.
 std::uint64_t memory_for(const std::vector<fs::path>& inputs) {
     constexpr std::uint64_t least = 16 << 20, per_byte = 48, per_packed_byte = 300;
     std::uint64_t bytes = least;
@@ -75,7 +76,7 @@ std::uint64_t memory_for(const std::vector<fs::path>& inputs) {
     return bytes;
 }
 
-/// The files of all assets, with case ignored as on a case-insensitive disk.
+/// The files of all assets, compared without case.
 class FileOwners {
   public:
     explicit FileOwners(Problems& problems) : problems_(problems) {}
@@ -88,7 +89,7 @@ class FileOwners {
                       "give each report a name of its own");
     }
 
-    /// beside: what goes beside outputs because an input names it; assets of one folder share it.
+    /// beside: additional output files that an input refers to; assets in the same folder share them.
     void add(const Asset& asset, const std::vector<fs::path>& outputs, const std::vector<fs::path>& beside) {
         for (const auto& path : outputs) claim(asset, path, false);
         for (const auto& path : beside) claim(asset, path, true);
@@ -100,12 +101,12 @@ class FileOwners {
                       "give the file by a param, or its name in the pipeline");
     }
 
-    /// Complains when the file would be written.
+    /// Adds a problem if an asset would write this input file.
     void check_read(const fs::path& path, const std::string& reader) {
         const auto owner = owners_.find(key(path));
         if (path == "-" || owner == owners_.end() || io::identity(owner->second.path) != io::identity(path))
             return;
-        if (owner->second.beside) return; // a texture that is copied to where it is stays as it is
+        if (owner->second.beside) return; // a texture copied onto itself stays unchanged
         problems_.add({}, "E-OVERWRITE",
                       fmt::format("'{}' would overwrite an input of {}", owner->second.path.string(), reader),
                       "write elsewhere with --output-dir");
@@ -115,7 +116,7 @@ class FileOwners {
     struct Owner {
         std::string name;
         fs::path path, input;
-        std::optional<fs::path> beside; ///< the folder of the input that names it
+        std::optional<fs::path> beside; ///< the folder of the input that refers to it
     };
 
     static std::string key(const fs::path& path) { return lower_case(io::identity(path).string()); }
@@ -137,7 +138,7 @@ class FileOwners {
             hint_of(other.input, asset.input));
     }
 
-    /// What the names of the two inputs have that those of the outputs lack.
+    /// The parts of the input names that are missing in the output names.
     static std::string hint_of(const fs::path& one, const fs::path& other) {
         const auto lower = [](const fs::path& path) { return lower_case(path.string()); };
         const bool are_two = !one.empty() && !other.empty() && one != other;
@@ -172,10 +173,10 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
     for (const auto& asset : assets) {
         Problems of_asset;
         const auto plan = settings.plan(asset, of_asset);
-        for (const auto& d : of_asset.all()) // warnings come with the run
+        for (const auto& d : of_asset.all()) // the run reports warnings
             if (d.severity == Severity::error) problems.add(d.where, d.id, d.message, d.hint);
         if (of_asset.any_errors()) continue;
-        out.allowed = plan.allowed; // the same for all
+        out.allowed = plan.allowed; // equal in all plans
         const auto headers =
             settings.rehearse ? pipeline::rehearsed_headers(plan) : pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
@@ -192,7 +193,7 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
     }
     for (const auto& work : out.works)
         for (const auto& input : work.inputs) owners.check_input(input, work.asset.name);
-    for (const auto& asset : assets) // those that could not be planned, too
+    for (const auto& asset : assets) // includes assets whose plans failed
         if (!asset.input.empty()) owners.check_read(asset.input, asset.name);
     for (const auto& path : settings.read) owners.check_read(path, "the batch itself");
     out.files_collide = collisions.any_errors();

@@ -1,5 +1,5 @@
 #pragma once
-// Distinguishes a deleted source from an unmounted disk. Outputs of the latter are not pruned.
+// Distinguishes a deleted source from a missing disk: outputs of the latter are not pruned.
 
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@ namespace facetmill::batch {
 std::string mount_point_of(const std::filesystem::path& file);
 
 enum class Presence {
-    there,        ///< or its presence cannot be determined
-    out_of_reach, ///< its file system is not mounted, or a link above it is broken
+    there,        ///< also if it cannot be checked
+    out_of_reach, ///< its disk is not mounted, or a link in its path is broken
     gone
 };
 /// source: absolute. mount_point: of the source when it was read; empty: unknown.

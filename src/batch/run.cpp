@@ -1,4 +1,4 @@
-// A batch from its planned assets to its summary.
+// Runs a batch, from its planned assets to its summary.
 
 #include "base/hash.hpp"
 #include "base/out_of_memory.hpp"
@@ -29,7 +29,7 @@ namespace {
 
 using Verdict = Outcome::Verdict;
 
-/// From the output folder of the batch.
+/// The path relative to the output folder of the batch.
 std::string from_folder(const Asset& asset, const std::string& output) {
     return (fs::path(output).is_absolute() ? fs::path(output) : asset.folder / output)
         .lexically_normal()
@@ -84,7 +84,7 @@ class BatchRun {
         choose_jobs();
         const auto keeping = find_kept();
         std::vector<Job> jobs;
-        std::set<fs::path> folders; // that no job may write to
+        std::set<fs::path> folders; // folders that no job may write to
         for (std::size_t i = 0; i < works_.size(); ++i)
             if (!keeping[i])
                 jobs.push_back({i, works_[i].memory, false});
@@ -124,7 +124,7 @@ class BatchRun {
         const auto look = [&](std::size_t i) {
             kept[i] = journal_.unchanged(works_[i].asset.name, works_[i].digest);
         };
-        if (tokens_) // only one thread exists so far
+        if (tokens_) // there is only one thread so far
             for (std::size_t i = 0; i < works_.size(); ++i) look(i);
         else
             parallel_for(works_.size(), look, 1);
@@ -143,7 +143,7 @@ class BatchRun {
         return out;
     }
 
-    /// On a thread of the pool.
+    /// Runs on a thread of the pool.
     Next work(const Job& job, const std::function<bool()>& beside_others) {
         {
             const std::lock_guard lock(guard_);
@@ -174,8 +174,8 @@ class BatchRun {
     Outcome run_asset(const Work& work, std::optional<Done>& done) {
         Problems problems;
         const auto plan = settings_.plan(work.asset, problems);
-        problems.throw_if_any(ErrorKind::usage); // it was planned before, and the pipeline has changed since
-        std::vector<Stamp> before;               // what changes while it is read is not the same afterwards
+        problems.throw_if_any(ErrorKind::usage); // it was planned before, so the pipeline has changed since
+        std::vector<Stamp> before;               // from before reading
         for (const auto& input : work.inputs)
             if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
         std::vector<Diagnostic> warnings;
@@ -184,7 +184,7 @@ class BatchRun {
         run.check_invariants = settings_.check_invariants;
         run.commit.sync = settings_.sync;
         run.last_picture = settings_.pictures;
-        std::optional<cache::Store> store; // what this asset has used may go when it is done
+        std::optional<cache::Store> store; // this asset's entries may be evicted when it is done
         if (settings_.store) run.store = &store.emplace(*settings_.store);
         run.on_output = [&](const io::Outputs::File& file) { claim(work.asset, file); };
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
@@ -204,7 +204,7 @@ class BatchRun {
         return out;
     }
 
-    /// So that they can be pruned; the outputs of an earlier run are still there.
+    /// Records reports so that they can be pruned; outputs of an earlier run still exist.
     Done reports_of_failed(const Work& work, const report::RunRecord& record) {
         Done done = named_done(work);
         for (const auto& report : record.reports)
@@ -239,7 +239,7 @@ class BatchRun {
         const auto is_absent = [&](const std::string& name) {
             return std::find(done.absent.begin(), done.absent.end(), name) != done.absent.end();
         };
-        for (const auto& input : work.inputs) { // a baseline is read, and no record tells it
+        for (const auto& input : work.inputs) { // a baseline is an input, but is in no record
             const std::string name = absolute_name(input);
             if (input != "-" && !is_absent(name)) sums.emplace(name, "");
         }
@@ -261,7 +261,7 @@ class BatchRun {
         return done;
     }
 
-    /// With the size of the file, and its digest where that is not known.
+    /// Adds the file's size, and its digest if it is missing.
     static void complete(Stamp& stamp, const fs::path& file) {
         std::error_code error;
         const auto size = fs::file_size(file, error);
@@ -276,7 +276,7 @@ class BatchRun {
         return stamp;
     }
 
-    /// A warning of the batch itself, under the guard.
+    /// Reports a warning of the batch itself; the caller holds the guard.
     void warn(std::optional<Diagnostic> warning) {
         if (!warning || is_allowed(*warning, settings_.allowed)) return;
         if (auto error = pipeline::strict_failure(*warning, settings_.strict)) {
@@ -298,8 +298,8 @@ class BatchRun {
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
 
-    /// Names that are known only at run time (of parts) may lead two assets to one file, or to the input of
-    /// another. Throws output before anything is written.
+    /// Registers an output. File names known only at run time (of parts) may give two assets the same output,
+    /// or make it the input of another asset. Throws output before anything is written.
     void claim(const Asset& asset, const io::Outputs::File& file) {
         if (!file.stream.empty() || file.is_input) return;
         const fs::path self = io::identity(file.resolved);
@@ -317,7 +317,7 @@ class BatchRun {
                     "name it by the asset: ${input.stem}");
     }
 
-    /// The outputs that assets have or will have when they are made, and those of other pipelines.
+    /// The outputs that the assets have or would have after a run, and the outputs of other pipelines.
     std::set<std::string> current_outputs() const {
         std::set<std::string> current = journal_.outputs_of_others();
         const fs::path folder = fs::absolute(settings_.output_dir).lexically_normal();
@@ -331,11 +331,11 @@ class BatchRun {
         return current;
     }
 
-    /// Removes outputs of deleted assets, and outputs that assets no longer have.
+    /// Removes outputs of removed assets, and outdated outputs of other assets.
     void prune() {
         const bool all_made = std::all_of(summary_.outcomes.begin(), summary_.outcomes.end(),
                                           [](const Outcome& out) { return out.verdict == Verdict::ok; });
-        if (!all_made) { // the outputs of the other assets are unknown
+        if (!all_made) { // the outputs of assets that did not run are unknown
             warn(Diagnostic{Severity::warning,
                             "W-PRUNE",
                             "nothing is pruned, because not all assets were made",
@@ -390,10 +390,10 @@ class BatchRun {
         summary_.seconds = watch_.seconds();
     }
 
-    /// A signal ends the process after this: the guard stays locked, so that nothing is told afterwards.
+    /// Called before a signal ends the process: the guard stays locked, so that no more callbacks follow.
     void interrupted() {
         guard_.lock();
-        if (over_) return; // the summary is with whoever called
+        if (over_) return; // the caller already has the summary
         close_summary();
         if (listener_.on_interrupt) listener_.on_interrupt(summary_);
         if (tokens_) tokens_->give_all();
@@ -404,13 +404,13 @@ class BatchRun {
     const Stopwatch watch_;
     const std::vector<Work> works_;
     std::unique_ptr<Jobserver> tokens_;
-    std::mutex guard_; ///< guards all following members
+    std::mutex guard_; ///< protects all following members
     Journal journal_;
     Summary summary_;
-    std::vector<bool> started_; ///< and not yet ended
+    std::vector<bool> started_; ///< and not yet finished
     bool over_ = false;
-    std::map<fs::path, std::string> sources_; ///< by identity: inputs, and of which asset
-    /// By identity: outputs, whose, and their digests.
+    std::map<fs::path, std::string> sources_; ///< by identity: inputs, and their assets
+    /// By identity: outputs, their assets, and their digests.
     std::map<fs::path, std::pair<std::string, std::string>> written_;
 };
 

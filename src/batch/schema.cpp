@@ -1,4 +1,4 @@
-// The JSON of a batch, declared once: its documents and their schema.
+// The JSON documents of a batch: their declarations, and their schema.
 
 #include "batch/batch.hpp"
 #include "batch/words.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using report::refer;
 
-/// An asset of a batch and its outcome.
+/// An asset of a batch with its outcome.
 struct AssetOutcome {
     const Asset* asset;
     const Outcome* out;
@@ -47,7 +47,7 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
     refer(d.list("errors", of_outcome(&Outcome::errors), "Why it failed",
                  report::declare_diagnostic<Diagnostic>),
           "diagnostic");
-    // Without places, which are not known of an asset that was kept.
+    // Without marks, which are unknown for skipped assets.
     d.list("warnings", of_outcome(&Outcome::warnings), "What its run warned of",
            [](DeclareFields<Diagnostic>& w) {
                w.field("id", &Diagnostic::id, "");

@@ -1,4 +1,4 @@
-// The results of a batch, as text and JUnit.
+// The summary of a batch as text and JUnit.
 
 #include "base/ordered_set.hpp"
 #include "base/text/markup.hpp"
@@ -16,7 +16,7 @@ namespace facetmill::batch {
 
 namespace {
 
-/// The worst last: a problem with the asset, the machine, the pipeline, the program.
+/// By severity, the worst last: problems of the asset, the machine, the pipeline, the program.
 constexpr std::array by_gravity{0, 1, 3, 6, 5, 7, 4, 2, 70};
 
 std::size_t gravity(int code) {
@@ -24,7 +24,7 @@ std::size_t gravity(int code) {
                                     by_gravity.begin());
 }
 
-/// The rank of an outcome in a summary.
+/// The group of an outcome in a summary.
 std::size_t place_of(const Outcome& out) {
     const std::size_t codes = by_gravity.size();
     switch (out.verdict) {
@@ -49,7 +49,7 @@ std::string ids_of(const std::vector<Diagnostic>& errors) {
     return fmt::format("{}", fmt::join(ids.all(), ", "));
 }
 
-/// A line of the table, and in a report the errors below it.
+/// Adds a line of the table, and in reports the errors below it.
 void add_line(const Asset& asset, const Outcome& out, BatchForm form, Painted& text) {
     const bool terminal = form == BatchForm::terminal;
     const std::string word = terminal && out.kept ? "kept" : verdict_word(out.verdict);
@@ -117,7 +117,7 @@ std::string one_line(std::string_view text) {
 }
 
 Painted to_terminal(const Summary& summary, bool colour, bool all) {
-    constexpr std::size_t most = 40; // of what went well
+    constexpr std::size_t most = 40; // successful assets
     const auto went_well = [&](std::size_t i) {
         const auto verdict = summary.outcomes[i].verdict;
         return verdict == Outcome::Verdict::ok || verdict == Outcome::Verdict::not_run;

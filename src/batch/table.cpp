@@ -27,7 +27,7 @@ class CsvReader {
             if (heading.find(c) != heading.npos) delimiter_ = c;
     }
 
-    /// Reads the next record, its cells with their marks; false at the end. Skips empty lines.
+    /// Reads the next record: its cells with their marks; false at the end. Skips empty lines.
     bool next(std::vector<Cell>& record) {
         const std::string& text = source_->text;
         while (at_ < text.size() && (text[at_] == '\n' || text[at_] == '\r')) advance();
@@ -42,7 +42,7 @@ class CsvReader {
     }
 
   private:
-    /// The column counts characters: UTF-8 continuation bytes do not advance it.
+    /// Moves on one character; continuation bytes do not change the column.
     void advance() {
         const char c = source_->text[at_++];
         if (c == '\n') {
@@ -150,7 +150,7 @@ std::vector<Row> read_params_table(const std::filesystem::path& file) {
     std::string_view bytes = io::as_text(input.bytes());
     const std::string extension = file.extension().string();
     const bool yaml = extension == ".yaml" || extension == ".yml";
-    if (!yaml) bytes = without_byte_order_mark(bytes); // the YAML reader counts it in its marks
+    if (!yaml) bytes = without_byte_order_mark(bytes); // the YAML reader includes it in its marks
     const std::string name = file == "-" ? "standard input" : file.string();
     const auto source = std::make_shared<const SourceText>(SourceText{name, std::string(bytes)});
     auto rows = yaml ? yaml_rows(source) : csv_rows(source);

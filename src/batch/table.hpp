@@ -1,5 +1,5 @@
 #pragma once
-// Tables of parameters: a row per asset, a column per parameter.
+// Tables of parameters: one asset per row, one parameter per column.
 
 #include "options/value.hpp"
 
@@ -12,15 +12,15 @@ namespace facetmill::batch {
 struct Cell {
     std::string param, text;
     Mark where;
-    std::optional<Value> list{}; ///< for a YAML list; text is then the notation of -D
+    std::optional<Value> list{}; ///< from YAML; text then has -D's syntax
 };
-/// The nonempty cells.
+/// The non-empty cells.
 using Row = std::vector<Cell>;
 
-/// Reads a table. YAML (.yaml, .yml) is a list of maps. Other files are CSV as in RFC 4180 (Y. Shafranovich,
-/// "Common format and MIME type for comma-separated values (CSV) files", 2005) with a heading. The separator
-/// is the first of comma, semicolon and tab that occurs in the heading. Throws malformed (E-TABLE), and
-/// missing if the file does not exist.
+/// Reads a table. YAML (.yaml, .yml) is a list of maps. Other files are CSV according to RFC 4180 (Y.
+/// Shafranovich, "Common format and MIME type for comma-separated values (CSV) files", 2005) with a heading.
+/// The separator is the first comma, semicolon or tab in the heading. Throws malformed (E-TABLE), missing
+/// when there is no file.
 std::vector<Row> read_params_table(const std::filesystem::path& file);
 
 } // namespace facetmill::batch

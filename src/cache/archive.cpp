@@ -14,7 +14,7 @@ bool same_bits(double a, double b) {
 
 bool are_floats(const double* from, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) {
-        // Beyond the range of floats the conversion is undefined; a NaN may lose its payload.
+        // Outside the range of floats, the conversion is undefined; a NaN may lose its payload.
         if (!(from[i] >= -3.4e38 && from[i] <= 3.4e38)) return false;
         if (!same_bits(as_float32(from[i]), from[i])) return false;
     }
@@ -22,7 +22,7 @@ bool are_floats(const double* from, std::size_t n) {
 }
 
 constexpr unsigned bits_of_byte = 8;
-constexpr std::size_t at_a_time = std::size_t{1} << 16; ///< numbers, when bytes are given away in pieces
+constexpr std::size_t at_a_time = std::size_t{1} << 16; ///< numbers per piece, when bytes are passed on
 
 using Indices = std::span<const std::uint32_t>;
 
@@ -45,7 +45,7 @@ void unpack(const std::byte* from, std::vector<std::uint32_t>& all) {
 
 namespace {
 
-/// Stops where values are nested deeper than anything that is stored: reading and destroying them recurses.
+/// Stops at values nested deeper than any stored value, because reading and destroying them is recursive.
 class DepthLimit : public nlohmann::json_sax<Json> {
   public:
     bool null() override { return true; }
@@ -73,8 +73,8 @@ class DepthLimit : public nlohmann::json_sax<Json> {
 
 namespace {
 
-/// A writer of our own, because the library writes each byte by a virtual call. RFC 8949; values outside
-/// JSON become null.
+/// The library writes each byte by a virtual call; this does not. RFC 8949; values that JSON does not have
+/// become null.
 class CborWriter {
   public:
     explicit CborWriter(io::Bytes& out) : out_(out) {}

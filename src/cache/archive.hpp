@@ -1,6 +1,6 @@
 #pragma once
-// Converts records to bytes and back. Members (cache/fields.hpp) lists the members of a record once for both
-// directions. Counts are checked against the remaining bytes before anything is allocated.
+// Converts records to bytes and back. Each record lists its fields once, in its Members (cache/fields.hpp),
+// for both directions. Counts are checked against the remaining bytes before allocation.
 
 #include "base/json.hpp"
 #include "base/math/vec.hpp"
@@ -36,28 +36,28 @@ struct Last;
 template <class T>
 concept Number = std::is_arithmetic_v<T>;
 
-/// Bytes that end too early, or that no writer wrote.
+/// Truncated bytes, or bytes that ByteWriter did not write.
 struct Corrupt : std::exception {
     const char* what() const noexcept override { return "the bytes are not as they were written"; }
 };
 
-/// Throws Corrupt for invalid CBOR, or for nesting deeper than 200.
+/// Throws Corrupt for invalid CBOR, or nesting of more than 200 levels.
 Json json_of_cbor(io::Span cbor);
 
-/// Points as numbers, three each; null for null.
+/// Points as arrays of three numbers each; null for null.
 inline const double* coordinates(const Vec3* points) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     return reinterpret_cast<const double*>(points);
 }
 inline double* coordinates(Vec3* points) { return reinterpret_cast<double*>(points); }
 
-/// Numbers are in machine order, because the bytes never leave the machine.
+/// Writes numbers in the machine's byte order, because the data never leaves the machine.
 class ByteWriter {
   public:
     io::Bytes bytes;
 
     ByteWriter() = default;
-    /// Gives the bytes to take, a piece at a time, instead of keeping them all; the last with flush().
+    /// Passes the bytes to take in pieces instead of collecting them; the last piece with flush().
     explicit ByteWriter(std::function<void(io::Span)> take) : take_(std::move(take)) {}
     void flush() {
         if (take_) take_(bytes);
@@ -72,7 +72,7 @@ class ByteWriter {
   private:
     static constexpr std::size_t piece = std::size_t{1} << 20;
 
-    /// Appends so many bytes and returns them.
+    /// Appends uninitialised bytes, and returns them.
     std::byte* room(std::size_t size) {
         if (take_ && bytes.size() + size > piece) flush();
         bytes.resize(bytes.size() + size);
@@ -143,15 +143,15 @@ class ByteWriter {
         std::visit([this](const auto& all) { put(all); }, data);
     }
 
-    /// As floats, where that loses no bit of any.
+    /// As floats, if that is lossless for all.
     void doubles(const double* from, std::size_t n);
-    /// In as few bytes each as the largest needs.
+    /// With as few bytes per number as the largest needs.
     void indices(const std::vector<std::uint32_t>& all);
 
     std::function<void(io::Span)> take_;
 };
 
-/// Throws Corrupt for whatever a ByteWriter would not have written.
+/// Throws Corrupt for bytes that a ByteWriter would not have written.
 class ByteReader {
   public:
     explicit ByteReader(io::Span bytes) : left_(bytes) {}
@@ -160,7 +160,7 @@ class ByteReader {
     void operator()(T&... values) {
         (get(values), ...);
     }
-    /// Nothing may follow.
+    /// Checks that no bytes are left.
     void end() const {
         if (!left_.empty()) throw Corrupt();
     }
@@ -176,7 +176,7 @@ class ByteReader {
         const io::Span from = take(size);
         if (size > 0) std::memcpy(to, from.data(), size);
     }
-    /// A count of things of which each takes that many bytes or more.
+    /// A count of items of at least `each` bytes.
     std::size_t count(std::size_t each) {
         std::uint64_t n = 0;
         get(n);
@@ -225,7 +225,7 @@ class ByteReader {
             all.resize(count(sizeof(T)));
             raw(all.data(), all.size() * sizeof(T));
         } else {
-            all.clear(); // one by one, so that a count that is too large ends at the end of the bytes
+            all.clear(); // one by one, so that an excessive count stops at the end of the bytes
             for (std::size_t n = count(1); n > 0; --n) get(all.emplace_back());
         }
     }

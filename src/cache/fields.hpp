@@ -1,6 +1,6 @@
 #pragma once
-// The members of each stored record. The bindings name every member, so a new member does not compile until
-// it is listed here.
+// The fields of each stored record. The bindings name every member, so a new member does not compile until it
+// is added here.
 
 #include "cache/archive.hpp"
 #include "mesh/cut_memory.hpp"
@@ -40,7 +40,7 @@ FACETMILL_STORED(report::PartChange, part, change)
 FACETMILL_STORED(io::ByteKinds, geometry, textures, json)
 FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back, kinds)
 
-/// Without its location, which the step that reports it adds.
+/// Without its mark, which comes from the step.
 template <>
 struct Members<Diagnostic> {
     static void each(auto& record, auto&& take) {
@@ -50,7 +50,7 @@ struct Members<Diagnostic> {
     }
 };
 
-/// Without the members that the run sets for every stage: its name, location and options, times, pictures.
+/// Without data that the run sets for every stage: its name, position and options, times, pictures.
 template <>
 struct Members<report::StageRecord> {
     static void each(auto& record, auto&& take) {

@@ -19,7 +19,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-/// Whether the folder belongs to this user, or does not exist.
+/// True if the folder belongs to this user, or does not exist.
 bool is_own_or_missing(const fs::path& folder) {
     const auto about = status_of(folder);
     return about ? about->is_own() : errno == ENOENT;
@@ -39,7 +39,7 @@ std::optional<fs::path> folder() {
     if (named == "off") return {};
     if (!named.empty()) return fs::absolute(named).lexically_normal();
     const fs::path caches = variable("XDG_CACHE_HOME"), home = variable("HOME");
-    if (caches.is_absolute()) // others are to be ignored
+    if (caches.is_absolute()) // relative paths must be ignored
         return is_own_or_missing(caches) ? std::optional(caches / "facetmill") : std::nullopt;
     if (!home.is_absolute() || !is_own(home) || !is_own_or_missing(home / ".cache")) return {};
     return home / ".cache" / "facetmill";

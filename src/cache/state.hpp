@@ -1,5 +1,5 @@
 #pragma once
-// The stored results of a stage: its output scene and, separately, everything that the run reports of it.
+// The stored data of a stage: its resulting scene, and separately its report.
 
 #include "io/bytes.hpp"
 #include "mesh/scene.hpp"
@@ -7,30 +7,30 @@
 
 namespace facetmill::cache {
 
-/// The whole scene: equal bytes for equal scenes, whatever their addresses.
+/// The complete scene: equal scenes give equal bytes, independent of addresses.
 io::Bytes encoded(const Scene& scene);
-/// The SHA-256 of encoded(), without a copy of the scene.
+/// The SHA-256 of encoded(), computed without storing the bytes.
 std::string digest_of(const Scene& scene);
-/// None for bytes that are no scene.
+/// None for invalid bytes.
 std::optional<Scene> decoded_scene(io::Span bytes);
-/// About as many bytes as encoded() gives, without making them.
+/// The approximate size of encoded(), without computing it.
 std::size_t size_of(const Scene& scene);
 
-/// The report of a stage that need not run again.
+/// The report of a stage that need not run.
 struct Memory {
-    report::StageRecord record;             ///< without its name, place and times
+    report::StageRecord record;             ///< without its name, position and times
     std::vector<report::FileRecord> inputs; ///< files that it read
-    std::vector<std::string> absent;        ///< files that it looked for and that did not exist
-    std::string scene;                      ///< the key of the scene that left it
-    std::string told_name;                  ///< its name, if its warnings have it; else empty
-    Box bounds;                             ///< of that scene
+    std::vector<std::string> absent;        ///< missing files that it looked for
+    std::string scene;                      ///< key of the resulting scene
+    std::string told_name;                  ///< its name, if warnings contain it; else empty
+    Box bounds;                             ///< of the resulting scene
 };
 io::Bytes encoded(const Memory& memory);
-/// With that record in the place of its own, which is not copied.
+/// Encodes the memory with this record instead of its own, to avoid a copy.
 io::Bytes encoded(const Memory& memory, const report::StageRecord& record);
 std::optional<Memory> decoded_memory(io::Span bytes);
 
-/// A key of whatever depends on these texts and nothing else.
+/// A key that depends on exactly these texts.
 std::string key_of(const std::vector<std::string>& texts);
 
 } // namespace facetmill::cache

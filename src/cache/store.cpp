@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// An entry: these bytes, the SHA-256 of all that follows it as text, its name, a line's end, its bytes.
+// The format of an entry: these bytes, the hexadecimal SHA-256 of the rest, its name, a line end, its bytes.
 constexpr std::string_view magic = "facetmill cache 1\n";
 constexpr std::size_t digits = 64;
 constexpr std::string_view suffixes[] = {".memory", ".scene", ".last"};
 constexpr std::string_view temporary = ".part";
 
-/// The digits of a SHA-256: what goes into a path is nothing else.
+/// True for the digits of a SHA-256; no other text is used in a path.
 bool is_key(const std::string& text) {
     return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
 }
@@ -42,13 +42,13 @@ bool is_entry(const fs::path& path) {
 
 io::Span span_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-/// What stands before the bytes of an entry.
+/// The bytes before the contents of an entry.
 std::string head_of(const std::string& name, io::Span bytes) {
     const std::string sums = sha256(bytes) + name;
     return fmt::format("{}{}{}\n", magic, sha256(span_of(sums)), name);
 }
 
-/// Folders of the store have names of two digits; others are not looked into.
+/// Folders of the store have two-digit names; others are ignored.
 template <class Take>
 void for_each_file(const fs::path& folder, Take&& take) {
     std::error_code error;
@@ -64,7 +64,7 @@ void for_each_file(const fs::path& folder, Take&& take) {
     }
 }
 
-/// Of looking at all entries, by those of one folder of 256: keys are spread evenly.
+/// Estimates the time to list all entries from one of 256 folders, because keys are evenly distributed.
 double seconds_to_count(const fs::path& folder) {
     constexpr double folders = 256, seconds_of_an_entry = 2e-6;
     std::error_code error;
@@ -74,27 +74,28 @@ double seconds_to_count(const fs::path& folder) {
     return static_cast<double>(entries) * folders * seconds_of_an_entry;
 }
 
-/// Whether what is too small to count is counted this time: by chance, so that it has its limit, too.
+/// Decides at random whether to count an entry that is normally too small to count, so that small entries are
+/// limited too.
 bool is_one_in_many() {
     constexpr int many = 64;
     return nanoseconds_now() / 1000 % many == 0;
 }
 
-/// Only what this user has put there is believed: a plain file of his own, not a link or a pipe.
+/// Trusts only regular files of this user, not links or pipes.
 bool is_own_file(const std::optional<FileStatus>& about) {
     return about && about->kind == FileKind::regular && about->is_own();
 }
 
-/// Reads at most so many bytes more.
+/// Reads at most `more` additional bytes.
 void read_more(const Descriptor& file, io::Bytes& bytes, std::size_t more) {
     const std::size_t at = bytes.size();
     bytes.resize(at + more);
     bytes.resize(at + read_whole(file, std::span(bytes).subspan(at)));
 }
 
-/// What is not begun as an entry of that name is not read further, and nothing of one beyond the limit: the
-/// result is then shorter than a head. None when there is no file of ours. Read rather than mapped: a file
-/// that shrinks while it is mapped would end the process.
+/// Stops reading if the beginning is not an entry of that name, and reads nothing of an entry beyond the
+/// limit. The result is then shorter than a head. None if there is no file of this user. Reads instead of
+/// mapping, because a file that is truncated while mapped would end the process.
 std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std::uint64_t max_bytes) {
     const Descriptor file = open_file(path, {.follows_links = false, .waits = false});
     const auto about = file ? status_of(file) : std::nullopt;
@@ -111,23 +112,23 @@ std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std:
 
 constexpr unsigned of_the_user = 0700;
 
-/// Makes what is missing of it, the last one for this user alone.
+/// Creates the folder if it is missing, for this user only.
 void make_own_folder(const fs::path& folder) {
     if (!make_folder(folder, of_the_user) && errno != EEXIST)
         throw fs::filesystem_error("mkdir", folder, std::error_code(errno, std::generic_category()));
 }
 
-/// Others need the disk more than the cache does: twice the entry stays free beside this much.
+/// Leaves space for other programs: twice the entry plus this amount must stay free.
 constexpr std::uint64_t reserve = std::uint64_t{64} << 20;
 
 bool has_space(const fs::path& folder, std::uint64_t bytes) {
     const auto space = free_space(folder);
-    return !space || *space >= 2 * bytes + reserve; // writing will tell
+    return !space || *space >= 2 * bytes + reserve; // otherwise writing fails
 }
 
-/// Measured on slow machines; what a store has seen takes its place.
+/// Measured on slow machines; replaced by the store's own measurements.
 constexpr double usual_bytes_per_second = 150e6;
-/// Of a file, however small: three calls of the system, and a folder at times.
+/// For any file: three system calls, and sometimes a folder.
 constexpr double seconds_of_a_file = 0.0005;
 
 } // namespace
@@ -150,7 +151,7 @@ fs::path Store::path_of(const std::string& key, Kind kind) const {
 }
 
 void Store::use(const fs::path& path) {
-    touch_file(path); // one that is not ours to touch is only removed earlier
+    touch_file(path); // failure only means earlier eviction
     const std::lock_guard lock(known_->guard);
     if (used_.insert(path).second) ++known_->used[path];
 }
@@ -225,15 +226,15 @@ void Store::tell_of_full_disk() {
 
 namespace {
 
-/// A file beside an entry, until it takes its name; a signal removes it, too.
+/// A temporary file next to an entry, until it is renamed; a signal removes it.
 struct PartFile {
     fs::path path;
     io::CleanUp* clean_up = nullptr;
     Descriptor file;
 
     explicit PartFile(const fs::path& folder) {
-        static std::atomic<std::uint64_t> number{0}; // stores of one process may share a folder
-        constexpr int max_attempts = 1000;           // leftovers of a process of the same id
+        static std::atomic<std::uint64_t> number{0}; // stores of the same process may share a folder
+        constexpr int max_attempts = 1000;           // for leftovers of a process with the same id
         for (int attempt = 0;; ++attempt) {
             path = folder / fmt::format(".{}-{}{}", process_id(), number++, temporary);
             clean_up = io::clean_up_file(path);
@@ -251,7 +252,7 @@ struct PartFile {
         remove_file(path);
         io::keep(clean_up);
     }
-    /// Whether the file took the name: not when somebody has cleared the cache. Throws output.
+    /// Renames the file to its final name. False if the cache was cleared meanwhile. Throws output.
     bool take_name(const fs::path& name) {
         const bool renamed = file.close() && rename_file(path, name);
         if (!renamed && errno != ENOENT) io::cannot_write(path, errno);
@@ -290,7 +291,7 @@ bool Store::is_usable() const {
 bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
     const fs::path path = path_of(key, kind);
     if (!is_key(key) || !is_usable()) return false;
-    // A scene is all that its key says. What is told of a load depends on the files at its paths, too.
+    // A scene is determined by its key. The report of a load also depends on the files at its paths.
     if (kind == Kind::scene && has(key, kind)) return true;
     try {
         const std::string head = head_of(path.filename().string(), bytes);
@@ -320,7 +321,7 @@ double Store::seconds_for(std::size_t bytes) const {
 }
 
 void Store::took(std::size_t bytes, double seconds) {
-    constexpr std::size_t enough = 1 << 20; // less says nothing of the rate
+    constexpr std::size_t enough = 1 << 20; // smaller amounts do not show the rate
     if (bytes < enough || !(seconds > 0)) return;
     const std::lock_guard lock(known_->guard);
     known_->bytes_per_second = (known_->bytes_per_second + static_cast<double>(bytes) / seconds) / 2;
@@ -354,7 +355,7 @@ bool Store::make_room(std::uint64_t bytes, Kind kind) {
     }
     if (bytes > limit) return false;
     if (*total + bytes > limit) {
-        // More than needed at a time, so that not every put looks at all entries.
+        // Frees more than necessary, so that not every put lists all entries.
         const std::uint64_t room = std::max(bytes, limit / 10);
         shrink(limit - std::min(room, limit));
         total = contents().bytes;
@@ -376,7 +377,7 @@ Contents Store::contents() const {
     return all;
 }
 
-/// With the lock held.
+/// The caller holds the lock.
 Contents Store::shrink(std::uint64_t limit) {
     struct Entry {
         std::int64_t used;
@@ -421,7 +422,7 @@ Contents Store::collect() {
 }
 
 Contents Store::clear() {
-    remove_leftovers(std::numeric_limits<std::int64_t>::min()); // who is writing one finds that it is gone
+    remove_leftovers(std::numeric_limits<std::int64_t>::min()); // a current writer notices the missing file
     Contents gone;
     for_each_file(settings_.folder, [&](const fs::path& path, const FileStamp& about) {
         if (!is_entry(path) || !remove_file(path)) return;

@@ -1,6 +1,6 @@
 #pragma once
-// A folder of entries addressed by keys. Entries are written and replaced atomically. When the store is too
-// large, the least recently used entries are removed first. Any number of processes may share it.
+// A folder of entries with keys. Entries are written and replaced atomically. If there are too many, the
+// least recently used are removed first. Any number of processes may share the folder.
 
 #include "base/error.hpp"
 #include "io/bytes.hpp"
@@ -15,68 +15,67 @@
 
 namespace facetmill::cache {
 
-/// The kind of an entry, which is the suffix of its file.
+/// The kind of an entry, which is also its file's suffix.
 enum class Kind { memory, scene, last_run };
 
 struct StoreSettings {
     std::filesystem::path folder;
     std::uint64_t max_bytes = 0;
-    bool everything = false; ///< also store results that are cheap to compute (tests)
-    /// Is told what hinders the store: W-CACHE, once, when it cannot be written; notes of corrupt entries.
-    /// May be empty.
+    bool everything = false; ///< also stores results that are cheap to compute (tests)
+    /// Called for problems: W-CACHE, once, when the store cannot be written; notes about corrupt entries. May
+    /// be empty.
     std::function<void(const Diagnostic&)> tell = {};
-    double max_share = 1; ///< relative to the entries plus the free space of their disk
+    double max_share = 1; ///< of the entries plus the free space of their disk
 };
 
-/// The size of the store.
+/// The number and size of entries.
 struct Contents {
     std::uint64_t entries = 0, bytes = 0, scenes = 0;
 };
 
-/// Creates the folder of a store and its parents; returns whether it exists afterwards.
+/// Creates the folder of a store and its ancestors; returns true if it exists then.
 bool make_folders(const std::filesystem::path& folder);
 
-/// Keys are 64 hexadecimal digits; other keys have no entry. Files of other users are ignored. Thread-safe.
-/// Failures are reported, not thrown: a run works without its cache.
+/// A cache folder. Keys are 64 hexadecimal digits; other keys, and files of other users, count as missing.
+/// Thread-safe. Problems are reported and not thrown, because a run also works without its cache.
 class Store {
   public:
     explicit Store(StoreSettings settings);
-    /// Another for the same folder, which knows what this one knows: for one of many runs at a time, whose
-    /// entries need not stay when it is over.
+    /// A store for the same folder with shared state: for one of many concurrent runs, whose entries need not
+    /// stay after it.
     explicit Store(const Store& other);
     Store& operator=(const Store&) = delete;
     ~Store();
 
-    /// The bytes that were put, or nothing. An entry whose bytes are not what was written is removed, with a
-    /// note. What was asked for counts as used, and stays as long as this object lives: as it does for the
-    /// others of the process that know of it.
+    /// The stored bytes, or none. An entry with changed bytes is removed, with a note. A requested entry
+    /// counts as used, and stays as long as this object or another user of it in the process exists.
     std::optional<io::Bytes> get(const std::string& key, Kind kind);
-    /// Whether an entry exists, which then counts as used.
+    /// True if there is an entry, which then counts as used.
     bool has(const std::string& key, Kind kind);
-    /// Whether it is there afterwards: not when it cannot be written, there is no room beside what stays, or
-    /// the disk has less free than twice the entry and 64 MiB. Replaces what is there, but for scenes, which
-    /// are all that their keys say.
+    /// Stores bytes; returns true if the entry exists afterwards. Fails if it cannot be written, the
+    /// remaining entries leave no room, or less than twice its size plus 64 MiB is free on disk. Replaces an
+    /// existing entry, except scenes, which are determined by their keys.
     bool put(const std::string& key, Kind kind, io::Span bytes);
-    /// get() of bytes that turned out to mean nothing: removed, with the note.
+    /// Removes an entry whose bytes from get() were invalid, with the note.
     void reject(const std::string& key, Kind kind);
 
-    /// Whether a put has not failed yet.
+    /// True until a put fails.
     bool is_usable() const;
-    /// The time that the first put of a process needs to scan the store; 0 afterwards.
+    /// The time that the first put of a process needs to list the entries; 0 afterwards.
     double seconds_to_begin() const;
-    /// How long a put of that many bytes takes, made ready before, as far as this object has seen.
+    /// The expected time of a put of this size, with encoded bytes, by the measurements of this object.
     double seconds_for(std::size_t bytes) const;
     void took(std::size_t bytes, double seconds);
 
     Contents contents() const;
-    /// How many bytes there may be beside so many that are there: max_bytes, or less on a disk that is full.
+    /// The size limit if the entries have this size: max_bytes, or less on a full disk.
     std::uint64_t limit(std::uint64_t bytes) const;
-    /// Why nothing can be put; empty: it can, as far as that is seen without doing it.
+    /// The reason why put would fail; empty if none is known without trying.
     std::string hindrance() const;
-    /// Removes the remains of processes that ended early, and entries until all are within the limit.
-    /// Returns the removed amount.
+    /// Removes leftovers of processes that ended early, and entries until the limit is met. Returns what was
+    /// removed.
     Contents collect();
-    /// Removes all entries. How much went.
+    /// Removes all entries. Returns what was removed.
     Contents clear();
     const StoreSettings& settings() const { return settings_; }
 
@@ -86,22 +85,22 @@ class Store {
     bool write(const std::filesystem::path& path, io::Span head, io::Span bytes);
     bool make_room(std::uint64_t bytes, Kind kind);
     Contents shrink(std::uint64_t limit);
-    /// Removes files of writers that ended early: no entry takes an hour to write.
+    /// Removes leftovers of writers that ended early: no entry takes an hour to write.
     void remove_leftovers(std::int64_t older_than = 3600) const;
     void cannot_write(const std::string& why);
     void tell_of_full_disk();
     void drop(const std::filesystem::path& path, const char* why);
 
-    /// The state shared by the stores of one folder in a process.
+    /// State shared by stores of the same folder and process.
     struct Known {
-        std::mutex guard;                          ///< of all that follows, and of used_ of each
-        std::map<std::filesystem::path, int> used; ///< by how many of them
-        std::optional<std::uint64_t> total;        ///< bytes there, as far as known
-        std::uint64_t limit = 0;                   ///< ... and how many there may be
-        std::optional<double> seconds_to_count;    ///< what is there, as long as it is not known
-        std::uint64_t since_counted = 0;           ///< bytes put since then: other processes put some, too
-        bool is_told_full = false;                 ///< that the disk is full, once
-        bool broken = false;                       ///< it cannot be written: not tried again
+        std::mutex guard;                          ///< protects the following members, and used_
+        std::map<std::filesystem::path, int> used; ///< number of stores that use the entry
+        std::optional<std::uint64_t> total;        ///< current size, if known
+        std::uint64_t limit = 0;                   ///< current limit
+        std::optional<double> seconds_to_count;    ///< the expected listing time, until the size is known
+        std::uint64_t since_counted = 0;           ///< bytes put since then: other processes also write
+        bool is_told_full = false;                 ///< the full disk was reported
+        bool broken = false;                       ///< writing failed: not tried again
         double bytes_per_second = 0;
     };
 

@@ -14,7 +14,7 @@ namespace {
 struct FoundAttribute {
     std::set<std::string> types; ///< of all parts that have it
     std::size_t elements = 0;
-    std::vector<const Attribute*> arrays; ///< one per part that has it
+    std::vector<const Attribute*> arrays; ///< one for each part that has it
 
     Json about() const { return fmt::format("{}", fmt::join(types, ", ")); }
 };
@@ -24,7 +24,7 @@ bool turns_with_part(const Attribute& a) {
     return a.role == Role::normal || a.role == Role::tangent || a.role == Role::morph_vector;
 }
 
-/// Directions of transformed parts in the world; other attributes are unchanged.
+/// The directions of rotated parts in world space; other attributes do not change.
 class WorldAttributes {
   public:
     explicit WorldAttributes(const Scene& scene) {
@@ -57,14 +57,14 @@ class WorldAttributes {
     std::list<Mesh> turned_;
 };
 
-/// Nothing between equal numbers, infinite ones and NaNs included; infinity where one alone is none.
+/// The difference: 0 for equal numbers, including infinities and NaN; infinity if only one is NaN.
 double apart(double x, double y) {
     if (x == y || (std::isnan(x) && std::isnan(y))) return 0;
     const double d = std::abs(x - y);
     return std::isnan(d) ? HUGE_VAL : d;
 }
 
-/// Values are compared where both sides have the same elements.
+/// Compares values if both sides have the same elements.
 void compare_values(const Comparing& with, const std::string& name, const FoundAttribute& a,
                     const FoundAttribute& b) {
     const bool alike = std::equal(a.arrays.begin(), a.arrays.end(), b.arrays.begin(), b.arrays.end(),

@@ -1,5 +1,5 @@
 #pragma once
-// Compares two scenes: the result of `facetmill diff`.
+// Compares two scenes, for `facetmill diff`.
 
 #include "diff/conversion.hpp"
 #include "diff/items.hpp"
@@ -12,23 +12,23 @@
 
 namespace facetmill::report {
 
-/// The sections of a comparison, in the order they are shown.
+/// The sections of a comparison, in display order.
 inline constexpr const char* comparison_sections[] = {"counts",    "topology", "geometry", "attributes",
                                                       "materials", "parts",    "document"};
 
 struct ComparisonSettings {
-    std::set<std::string> ignored; ///< sections that are shown but do not decide
+    std::set<std::string> ignored; ///< sections that are shown but do not affect the verdict
     DeviationSettings deviation;
-    /// The allowed distance of the surfaces, in units of the first scene, or in percent of its diagonal.
-    /// Without any limit the maximum may be a ten-thousandth of a percent: the precision of float32
+    /// The allowed distance between the surfaces, in units of the first scene, or in percent of its diagonal.
+    /// Without limits, the maximum is a ten-thousandth of a percent: the rounding error of float32
     /// coordinates.
     struct Limit {
         double amount = 0;
         bool percent = false;
     };
     std::optional<Limit> maximum, rms, mean;
-    double attribute_limit = 1e-6; ///< how far attribute values may be apart
-    std::optional<Origin> origin;  ///< none: what the scenes have is what their files state
+    double attribute_limit = 1e-6; ///< largest allowed difference of attribute values
+    std::optional<Origin> origin;  ///< empty: the scenes are in the conventions of their files
 };
 
 /// One line of the comparison.
@@ -37,62 +37,62 @@ struct Difference {
     Json a, b;
     bool same = true;
     std::string note;       ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
-    bool compared = true;   ///< false: not comparable, and the note has the reason
-    bool of_places = false; ///< for a material: its position differs, not its properties
+    bool compared = true;   ///< false: comparing was impossible, for the reason in note
+    bool of_places = false; ///< of a material: its position instead of its appearance
 };
 
-/// Something of a file that was not read, so that nothing is known of it.
+/// A part of a file that was not read, and therefore not compared.
 struct LeftOut {
-    bool of_a = false; ///< of the first file, else of the second
+    bool of_a = false; ///< in the first file, else in the second
     std::string what;
 };
 
-/// The bytes of a file and of the files it refers to, and their use.
+/// The bytes of a file and the files that it refers to, by kind.
 struct SizeOnDisk {
     std::uint64_t bytes = 0;
     io::ByteKinds kinds;
 };
 
 struct Comparison {
-    std::vector<Difference> lines;            ///< equal ones too
-    std::optional<DeviationResult> deviation; ///< none when geometry is ignored
-    const char *geometry_a = "nothing",
-               *geometry_b = "nothing"; ///< the kind of geometry: surface, points, nothing
+    std::vector<Difference> lines;                               ///< including equal ones
+    std::optional<DeviationResult> deviation;                    ///< none if geometry is ignored
+    const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< surface, points or nothing
     std::vector<LeftOut> left_out;
     std::set<std::string> ignored;
     Properties properties_a, properties_b;
-    std::vector<ItemChange> items; ///< parts and materials by their names
+    std::vector<ItemChange> items; ///< parts and materials by name
     std::optional<SizeOnDisk> size_a = {}, size_b = {};
-    std::string hint; ///< a unit or an up axis that would explain how the geometry differs
+    std::string hint; ///< a unit or an up axis that would explain the difference
 
-    /// Whether a line that decides differs.
+    /// True if a relevant line differs.
     bool differs() const;
-    /// Whether nothing was left out, and no line that decides could not be compared.
+    /// True if everything was read, and every relevant line could be compared.
     bool complete() const;
 };
 
-/// The properties of property_table() one by one; the deviation both ways, of the surfaces, or of the points
-/// where a scene has no faces; attributes by name, domain and type, and by value where both have as many
-/// elements; materials by name, look and the faces they are on; parts by name; of glTF documents what is
-/// beside meshes. In world space, both scenes in the same convention.
+/// Compares the properties of property_table() one by one. The deviation is measured both ways, between the
+/// surfaces, or between the points if a scene has no faces. Attributes are compared by name, domain and type,
+/// and by value if both have the same number of elements. Materials are compared by name, appearance and
+/// faces, parts by name. For glTF documents, contents other than meshes are compared too. In world space;
+/// both scenes must use the same convention.
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
 
 /// {a, b, same, complete, left_out, sections: {counts: {same, decides, lines: [{name, a, b, same, compared,
 /// note}]}, ...}, geometry_of: {a, b}, deviation}.
 Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
-/// A table; lines that are equal only with `all`.
+/// A table; equal lines only with `all`.
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all);
-/// One self-contained page: the verdict, both scenes by one camera with a slider, both files beside each
-/// other, parts and materials that came, went or changed, distances as colours, and the lines that differ.
-/// Files are called by the shortest names that tell them apart.
+/// A self-contained page with the verdict, and both scenes by the same camera with a slider. It shows both
+/// files side by side, added, removed and changed parts and materials, distances as colours, and the
+/// different lines. Files have the shortest names that distinguish them.
 std::string to_html(const Comparison& comparison, const std::string& path_a, const std::string& path_b,
                     const ComparisonPictures& pictures);
 /// "agree", "differ", "agree in everything that was compared".
 std::string verdict_of(const Comparison& comparison);
-/// "counts, geometry": the sections with a line that decides and differs.
+/// "counts, geometry": the sections with a relevant difference.
 std::string differs_in(const Comparison& comparison);
-/// Tables for the description of a change, with names as to_html has them.
+/// Tables for the description of a change, with the same names as to_html.
 std::string to_markdown(const Comparison& comparison, const std::string& path_a, const std::string& path_b);
 Json comparison_schema();
 

@@ -12,13 +12,13 @@ namespace facetmill::report {
 
 namespace {
 
-/// The position of a scene: its box, and a point in it that distinguishes rotations with the same box.
+/// The box of a scene, and a point in it that distinguishes rotations of the same box.
 struct Lie {
     Box box;
     Vec3 middle;
 };
 
-/// The weighted mean of points.
+/// A weighted mean of points.
 class WeightedMean {
   public:
     void add(const Vec3& p, double weight) {
@@ -52,7 +52,7 @@ WeightedMean mean_of_vertices(const Scene& scene) {
     return mean;
 }
 
-/// Both by the centroids of their surfaces; by their vertices where one has no area.
+/// Both by the centroids of their surfaces; by their vertices if one has no area.
 std::pair<Lie, Lie> lies_of(const Scene& a, const Scene& b) {
     WeightedMean first = mean_of_surface(a), second = mean_of_surface(b);
     if (!first.is_of_something() || !second.is_of_something()) {
@@ -63,12 +63,12 @@ std::pair<Lie, Lie> lies_of(const Scene& a, const Scene& b) {
 }
 
 struct UnitFactor {
-    double factor = 1; ///< a number in `from` is this multiple of a number in `to`
+    double factor = 1; ///< ratio of numbers in `to` to numbers in `from`
     Unit from = Unit::unknown, to = Unit::unknown;
 };
 
-/// The pair of units whose factor is nearest to the ratio, within two hundredths; common modelling units
-/// come first. If only one file states its unit, the pair includes it.
+/// The pair of units whose factor is nearest to the ratio, within two hundredths; units common in modelling
+/// come first. If only one file states its unit, the pair contains it.
 UnitFactor unit_factor(double ratio, Unit first, Unit second) {
     constexpr std::array units{Unit::mm, Unit::m, Unit::cm, Unit::inch, Unit::foot, Unit::um, Unit::km};
     const bool both = first != Unit::unknown && second != Unit::unknown;
@@ -90,7 +90,7 @@ UnitFactor unit_factor(double ratio, Unit first, Unit second) {
     return nearest < 0.02 ? best : UnitFactor{};
 }
 
-/// A turn about the axes: of the new ones each is an old one, or its opposite.
+/// A rotation that maps axes to axes: each new axis is an old one, or its opposite.
 struct AxisTurn {
     std::array<std::size_t, 3> from{0, 1, 2};
     std::array<double, 3> sign{1, 1, 1};
@@ -119,7 +119,7 @@ AxisTurn up_turn(UpAxis from, UpAxis to) {
     return out;
 }
 
-/// The identity first, followed by changes of the up axis, and by all other rotations.
+/// The identity first, then the rotations between up axes, then all other rotations.
 std::vector<AxisTurn> all_turns() {
     std::vector<AxisTurn> out{{}, up_turn(UpAxis::y, UpAxis::z), up_turn(UpAxis::z, UpAxis::y)};
     constexpr std::array<std::array<std::size_t, 3>, 6> orders{
@@ -134,8 +134,8 @@ std::vector<AxisTurn> all_turns() {
     return out;
 }
 
-/// How far the one is from the other times the factor: the middles where the boxes are within a hundredth of
-/// the diagonal, corner by corner.
+/// The distance of b from a times the factor: of the middles if the boxes match, corner by corner, within a
+/// hundredth of the diagonal.
 std::optional<double> off(const Lie& a, const Lie& b, double factor) {
     const double most = a.box.diagonal() / 100 * factor;
     if (!(length(a.box.min * factor - b.box.min) <= most && length(a.box.max * factor - b.box.max) <= most))
@@ -143,8 +143,8 @@ std::optional<double> off(const Lie& a, const Lie& b, double factor) {
     return length(a.middle * factor - b.middle);
 }
 
-/// The turn that makes the one the other, if there is one: none at all where the box fits, unless the middles
-/// clearly say otherwise; of several others the first that is clearly nearest.
+/// The rotation that maps a to b, if there is one: the identity if the box matches, unless the middles
+/// clearly contradict. Otherwise the first of several that is clearly nearest.
 std::optional<AxisTurn> turn_between(const Lie& a, const Lie& b, double factor) {
     const double diagonal = a.box.diagonal() * factor;
     const auto unturned = off(a, b, factor);
@@ -160,10 +160,11 @@ std::optional<AxisTurn> turn_between(const Lie& a, const Lie& b, double factor) 
     return unturned && !(nearest < diagonal / 1000) ? AxisTurn{} : best;
 }
 
-/// What the command line did to the second scene: nothing where both files state what they are in.
+/// The conversion that the command line applied to the second scene; none if both files state their
+/// convention.
 struct Given {
     double factor = 1;
-    AxisTurn turn; ///< back to how it was
+    AxisTurn turn; ///< inverse of the applied rotation
 
     Lie undone(const Lie& lie) const {
         Lie out = turn.of(lie);
@@ -182,7 +183,7 @@ Given given_by_command_line(const Origin& origin, UpAxis up) {
     return out;
 }
 
-/// The words for a first file with one value and a second with the other.
+/// The options that give the first file the one value and the second the other.
 std::string way_to_say(const char* option, const char* what, std::string_view from, std::string_view to,
                        bool first_states, bool second_states) {
     if (first_states && second_states)
@@ -196,7 +197,7 @@ void add(std::string& text, const char* joint, const std::string& more) {
     text += text.empty() ? more : joint + more;
 }
 
-/// "x, -z, y", and the matrix that makes the second file from the first.
+/// "x, -z, y", and the matrix that converts the first file into the second.
 std::string words_for(const AxisTurn& turn) {
     std::string axes, matrix;
     for (std::size_t row = 0; row < 3; ++row) {
@@ -208,7 +209,7 @@ std::string words_for(const AxisTurn& turn) {
     return fmt::format("turned so that its x, y, z are {} (transform --matrix {})", axes, matrix);
 }
 
-/// The hint and the command-line text for it.
+/// The text of a hint, and its options for the command line.
 struct Words {
     std::string how, way;
 };
@@ -226,15 +227,15 @@ void tell_units(const UnitFactor& units, const Given& given, const Origin& origi
                    origin.a.unit != Unit::unknown, origin.b.unit != Unit::unknown));
 }
 
-/// Whether the turn is one from the up axis to the other, and the files do not state something else.
+/// True if the rotation converts between up axes, and the files do not contradict.
 bool is_of_up_axes(const AxisTurn& turn, UpAxis from, UpAxis to, const Origin& origin) {
     const UpAxis a = origin.a.up, b = origin.b.up;
-    if (a != UpAxis::unknown && b != UpAxis::unknown) return false; // and it was turned by what they state
+    if (a != UpAxis::unknown && b != UpAxis::unknown) return false; // then it was already applied
     return turn == up_turn(from, to) && (a == UpAxis::unknown || a == from) &&
            (b == UpAxis::unknown || b == to);
 }
 
-/// own: the turn between the files as they are; now: between the scenes as they are compared.
+/// own: the rotation between the files; now: the rotation between the compared scenes.
 void tell_turn(const AxisTurn& own, const AxisTurn& now, const Given& given, const Origin& origin,
                Words& words) {
     for (const auto& [from, to] : {std::pair(UpAxis::y, UpAxis::z), std::pair(UpAxis::z, UpAxis::y)})

@@ -1,5 +1,5 @@
 #pragma once
-// Two scenes that differ by a unit or an up axis alone.
+// Detects two scenes that differ only by a unit or an up axis.
 
 #include "io/convert.hpp"
 
@@ -7,17 +7,16 @@
 
 namespace facetmill::report {
 
-/// The conventions of two scenes before the second was converted to the first's.
+/// The conventions of two scenes before the second was converted to the first.
 struct Origin {
-    io::Convention a, b;      ///< as the files themselves state
-    io::Conversion of_second; ///< the conversion that was applied, including command-line options
+    io::Convention a, b;      ///< stated in the files
+    io::Conversion of_second; ///< the applied conversion, from these and the command line
 };
 
-/// What to do when the box of the second scene is that of the first times a factor between two units, or with
-/// another up axis or otherwise turned about the axes, or both: "the box of B is that of A times 0.001 ...".
-/// Empty when it is the same box, or no such conversion makes it so (corners within a hundredth of the
-/// diagonal). Where a file states nothing, what the command line says of it is not taken for granted: the
-/// hint is of the files as they are. O(faces).
+/// A hint if the boxes differ by a unit factor, another rotation about the axes, or both: "the box of B is
+/// that of A times 0.001 ...". Empty if the boxes are equal, or no such conversion makes them equal (corners
+/// within a hundredth of the diagonal). For conventions that a file does not state, the command line's value
+/// may be wrong, so the hint refers to the original files. O(faces).
 std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin);
 
 } // namespace facetmill::report

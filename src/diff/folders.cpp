@@ -39,7 +39,7 @@ std::set<std::string> meshes_in(const fs::path& folder) {
     return paths;
 }
 
-/// Unpaired files of either folder whose names differ only in suffixes.
+/// Files of either folder without a counterpart of the same path, whose names differ only by suffix.
 struct Namesakes {
     std::vector<std::string> a, b;
 };
@@ -88,14 +88,14 @@ const char* kind_of_pair(const FolderPair& pair) {
     return pair.outcome == FolderOutcome::added ? "warn" : "bad";
 }
 
-/// A failed pair has no values.
+/// The change is unknown if the pair failed.
 std::string change_text(const FolderPair& pair, std::uint64_t a, std::uint64_t b,
                         std::string (*tell)(std::uint64_t)) {
     if (pair.outcome == FolderOutcome::failed) return {};
     return a == b ? tell(a) : fmt::format("{} → {}", a > 0 ? tell(a) : "-", b > 0 ? tell(b) : "-");
 }
 
-/// Small ones stay in the page, as long as it stays one that a browser opens at once.
+/// Embeds small pictures until the page would become too large for a browser to open quickly.
 std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
     constexpr std::size_t most = 2'500'000;
     std::string cells;
@@ -111,7 +111,7 @@ std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
     return cells;
 }
 
-/// A path as a relative address.
+/// A path as a relative URL.
 std::string address(const std::string& path) {
     std::string out;
     for (const char c : path) {
@@ -127,7 +127,7 @@ std::string name_html(const FolderPair& pair) {
     return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), path_code(pair.paths.text()));
 }
 
-/// "counts, geometry", or the reason why nothing was compared.
+/// "counts, geometry", or the reason why there is none.
 std::string more_of(const FolderPair& pair) {
     if (pair.outcome == FolderOutcome::failed) return pair.verdict;
     return pair.paths.unpaired.empty() ? pair.differs_in : pair.paths.unpaired;
@@ -173,7 +173,7 @@ std::string PairedPaths::text() const {
 std::vector<PairedPaths> pairs_in(const fs::path& a, const fs::path& b) {
     const auto in_a = meshes_in(a), in_b = meshes_in(b);
     std::vector<PairedPaths> pairs;
-    std::map<std::string, Namesakes> rest; // by the path without its suffix
+    std::map<std::string, Namesakes> rest; // by path without suffix
     const auto stem = [](const std::string& path) { return fs::path(path).replace_extension().string(); };
     for (const auto& path : in_a)
         if (in_b.contains(path))
@@ -204,7 +204,7 @@ std::vector<std::size_t> worst_first(const FolderComparison& comparison) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto far = [&](std::size_t i) {
         const double percent = comparison.pairs[i].percent.value_or(0);
-        return std::isnan(percent) ? HUGE_VAL : percent; // an incomparable pair counts as the worst
+        return std::isnan(percent) ? HUGE_VAL : percent; // a missing number is worse than any other
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
         const auto x = comparison.pairs[i].outcome, y = comparison.pairs[k].outcome;

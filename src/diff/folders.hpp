@@ -1,5 +1,5 @@
 #pragma once
-// Compares two folders of mesh files: the result of `facetmill diff A/ B/`, as text, JSON and an index.
+// Compares two folders of mesh files, for `facetmill diff A/ B/`, as text, JSON and an index.
 
 #include "diff/comparison.hpp"
 
@@ -7,55 +7,55 @@
 
 namespace facetmill::report {
 
-/// The paths of two files in their folders, with slashes; empty: that folder has none.
+/// The paths of two files in their folders, with slashes; empty: missing in that folder.
 struct PairedPaths {
     std::string a, b;
-    std::string unpaired = {}; ///< why a file has no partner, although the other folder has a similar name
+    std::string unpaired =
+        {}; ///< why a file has no counterpart, though the other folder has one of the same name
 
-    /// The path of the first file, or the only one.
+    /// The path of the first, or of the only file.
     const std::string& path() const { return a.empty() ? b : a; }
     /// "sub/a.glb", "sub/a.ply and a.glb".
     std::string text() const;
 };
 
-/// A file of either folder, or one of each.
+/// A file of either folder, or a pair of files.
 struct FolderPair {
-    enum class Outcome { failed, differs, removed, added, same }; ///< the worst first
+    enum class Outcome { failed, differs, removed, added, same }; ///< worst first
     PairedPaths paths;
     Outcome outcome = Outcome::same;
-    int exit_code = 0;   ///< as that of `facetmill diff` of the two
-    std::string verdict; ///< "agree", or why it failed
+    int exit_code = 0;   ///< as for `facetmill diff` of the two
+    std::string verdict; ///< "agree", or the reason of the failure
     std::optional<double>
-        percent; ///< the largest deviation, of the first file's diagonal; none: not measured
+        percent; ///< largest deviation, in percent of the first file's diagonal; none: not measured
     std::uint64_t faces_a = 0, faces_b = 0, bytes_a = 0, bytes_b = 0;
     std::string differs_in;            ///< "counts, geometry"
-    std::string page;                  ///< the page of this pair, relative to the index; empty: none
+    std::string page;                  ///< of this pair, relative to the index; empty: none
     std::string picture_a, picture_b;  ///< small PNGs in base64; empty: none
-    std::vector<Diagnostic> not_drawn; ///< textures that pictures do without
+    std::vector<Diagnostic> not_drawn; ///< textures missing in pictures
 };
 const char* to_string(FolderPair::Outcome outcome);
 
 struct FolderComparison {
-    std::vector<FolderPair> pairs; ///< in the order of their paths
-    bool differs() const;          ///< anything but the same files that agree
+    std::vector<FolderPair> pairs; ///< by path
+    bool differs() const;          ///< false if the files are the same and all agree
 };
 
-/// The mesh files below both folders in the order of their paths. Files of the same path are a pair. Of the
-/// rest, files whose paths differ only in the suffix (a.ply, a.glb) are a pair if neither folder has a
-/// second candidate. Links to folders are not followed. Throws missing (E-FILE) when a folder cannot be
-/// read.
+/// The mesh files below both folders, sorted by path. Files with the same path are a pair. Remaining files
+/// whose paths differ only by suffix are pairs too (a.ply, a.glb), if each folder has only one. Does not
+/// follow links to folders. Throws missing (E-FILE) for an unreadable folder.
 std::vector<PairedPaths> pairs_in(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Sets the index entries of a pair.
+/// Sets the pair's data for the index.
 void tell(const Comparison& comparison, FolderPair& pair);
 
-/// Numbers of the pairs, the worst first: failures, then by how far they are apart.
+/// Indices of the pairs, the worst first: failures, then by deviation.
 std::vector<std::size_t> worst_first(const FolderComparison& comparison);
 
 std::string to_text(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all);
 Json to_json(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b);
-/// A page with a row for each pair, linked to the pair's own page.
+/// A page with a row for each pair, linked to the pair's page.
 std::string to_html(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b);
 std::string to_markdown(const FolderComparison& comparison, const std::string& name_a,
                         const std::string& name_b);

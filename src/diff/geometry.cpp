@@ -12,7 +12,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// Reports that one file states its unit or up axis and the other does not.
+/// Reports that only one file states its unit or its up axis.
 void compare_frames(const Comparing& with) {
     const auto say = [&](const char* name, const char* a, const char* b) {
         if (std::string_view(a) != b) with.add("geometry", name, a, b, true, "numbers are taken as they are");
@@ -23,7 +23,7 @@ void compare_frames(const Comparing& with) {
 
 /// The geometry of a scene for distances.
 struct Shape {
-    Surface surface, points; ///< its faces, and the vertices that none of them uses
+    Surface surface, points; ///< its faces, and its unused vertices
     explicit Shape(const Scene& scene)
         : surface(surface_of(scene, filled_surface)), points(isolated_vertices_of(scene)) {}
     bool has_faces() const { return surface.size() > 0; }
@@ -32,7 +32,7 @@ struct Shape {
     const char* kind() const { return has_faces() ? "surface" : points.size() > 0 ? "points" : "nothing"; }
 };
 
-/// Lines of distances both ways, compared with a limit.
+/// Adds lines for the distances in both directions, compared with a limit.
 class Distances {
   public:
     Distances(const Comparing& with, const DeviationResult& d) : with_(with), d_(d) {}
@@ -57,7 +57,7 @@ class Distances {
     const DeviationResult& d_;
 };
 
-/// Reports faces that may appear larger than their covered area.
+/// Reports that faces may count with more area than they cover.
 void compare_fans(const Comparing& with) {
     const auto fans = [](const Scene& scene) {
         std::size_t count = 0;
@@ -70,7 +70,8 @@ void compare_fans(const Comparing& with) {
                  "faces that intersect themselves in no plane: distances are of fans of triangles");
 }
 
-/// Points outside faces: the distance of each to the nearest point of the other scene.
+/// Compares points of scenes with faces: the distance from each point to the nearest point of the other
+/// scene.
 void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, const Distances& distances) {
     const auto isolated = [](const Shape& s) { return s.has_faces() ? s.points.size() : 0; };
     if (isolated(a) + isolated(b) == 0) return;
@@ -85,7 +86,7 @@ void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, con
     distances.line("isolated vertices maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
 }
 
-/// The lines of both scenes, how far they are apart.
+/// Compares the distances between the lines of both scenes.
 void compare_lines(const Comparing& with, const Distances& distances) {
     const LineShape a(with.a), b(with.b);
     if (a.lines.size() + b.lines.size() == 0) return;

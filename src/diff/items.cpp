@@ -18,7 +18,7 @@ std::string told_of(const Part& part) {
                        noun_for(part.mesh.vertex_count(), "vertex", "vertices"));
 }
 
-/// The farthest that a vertex moved.
+/// The largest movement of a vertex.
 double farthest_move(const Part& a, const Part& b) {
     double most = 0;
     for (std::size_t v = 0; v < a.mesh.vertex_count(); ++v)
@@ -27,7 +27,7 @@ double farthest_move(const Part& a, const Part& b) {
     return most;
 }
 
-/// Empty when they are the same.
+/// Empty if they are equal.
 std::string part_note(const Part& a, const Part& b, double most) {
     if (a.mesh.face_count() != b.mesh.face_count() || a.mesh.vertex_count() != b.mesh.vertex_count())
         return "other counts";
@@ -50,7 +50,7 @@ Json contents_or_null(io::MaterialContents& contents, const Material& material) 
     }
 }
 
-/// "other emissiveTexture, roughnessFactor": the differing properties of two glTF materials; empty: equal.
+/// "other emissiveTexture, roughnessFactor": the differences of two glTF materials; empty if equal.
 std::string look_note(const Json& a, const Json& b) {
     if (a == b) return {};
     if (!a.is_object() || !b.is_object()) return "another look";
@@ -69,14 +69,14 @@ std::string look_note(const Json& a, const Json& b) {
     return keys.empty() ? "another look" : "other " + keys;
 }
 
-/// Finds for each item of the first list the one of the second with its name that has no other yet.
+/// Pairs each item of the first list with an unused item of the same name in the second.
 class Pairing {
   public:
     template <class List>
     explicit Pairing(const List& second) : taken_(second.size()) {
         for (std::size_t i = 0; i < second.size(); ++i) by_name_.emplace(second[i].name, i);
     }
-    /// The next index of that name; none if all are used.
+    /// Its index; none if no item of that name is left.
     std::optional<std::size_t> take(const std::string& name) {
         const auto found = by_name_.find(name);
         if (found == by_name_.end()) return {};
@@ -88,7 +88,7 @@ class Pairing {
     bool is_taken(std::size_t i) const { return taken_[i]; }
 
   private:
-    std::multimap<std::string, std::size_t> by_name_; // equal names in the order of insertion
+    std::multimap<std::string, std::size_t> by_name_; // equal names in order of insertion
     std::vector<bool> taken_;
 };
 

@@ -14,7 +14,7 @@ Json size_json(const std::optional<SizeOnDisk>& size) {
             {"json", size->kinds.json}};
 }
 
-/// The changed parts and materials.
+/// Parts and materials that are not equal.
 Json changes_json(const Comparison& comparison) {
     Json list = Json::array();
     for (const ItemChange& item : comparison.items)

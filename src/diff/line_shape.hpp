@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a scene, for distance measurements.
+// The lines of a scene, for measuring distances.
 
 #include "geometry/deviation/deviation.hpp"
 #include "mesh/scene.hpp"
@@ -8,7 +8,7 @@
 
 namespace facetmill::report {
 
-/// Lines as degenerate triangles, and their ends and midpoints.
+/// Lines as degenerate triangles, with their ends and midpoints.
 struct LineShape {
     Surface lines, points;
 
@@ -16,11 +16,12 @@ struct LineShape {
     /// All lines of the scene.
     explicit LineShape(const Scene& scene);
     void add(const Vec3& a, const Vec3& b);
-    /// The largest distance from the ends and midpoint of each line to the other's lines; 0 without lines.
+    /// The largest distance from an end or midpoint of a line to the nearest line of the other; 0 without
+    /// lines.
     double distance_to(const LineShape& other) const;
 };
 
-/// The lines by material (none: lines without a material). O(lines log materials).
+/// The lines by material (none: without material). O(lines log materials).
 std::map<Index, LineShape> lines_by_material(const Scene& scene);
 
 } // namespace facetmill::report

@@ -1,11 +1,11 @@
 #pragma once
-// The sections of a comparison, each in a file of its own.
+// The sections of a comparison, one file each.
 
 #include "diff/comparison.hpp"
 
 namespace facetmill::report {
 
-/// What a section is compared with, and where its lines go.
+/// The input of a section, and the output for its lines.
 struct Comparing {
     const Scene &a, &b;
     const ComparisonSettings& settings;
@@ -34,13 +34,13 @@ inline std::vector<const Difference*> of_section(const Comparison& comparison, c
 
 using Limit = ComparisonSettings::Limit;
 
-/// Null for numbers that JSON cannot represent.
+/// Null for numbers that JSON does not have.
 inline Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-/// The maximum distance of surfaces: as given or, without any limit, the precision of float32.
+/// The maximum distance of the surfaces: as given, or, without any limit, the rounding error of float32.
 std::optional<Limit> maximum_of(const ComparisonSettings& settings);
 
-/// Compares the numbers of items, and their names in order.
+/// The number of items, and their names in order.
 template <class List>
 void compare_names(const Comparing& with, const char* section, const List& a, const List& b) {
     with.add(section, "number", a.size(), b.size());
@@ -49,13 +49,13 @@ void compare_names(const Comparing& with, const char* section, const List& a, co
                  i < b.size() ? Json(b[i].name) : Json(nullptr));
 }
 
-/// Which way the surfaces look, and how far they are apart.
+/// The orientation of the surfaces, and their distance.
 void compare_geometry(const Comparing& with);
 /// Attributes by name, domain and type, and by value.
 void compare_attributes(const Comparing& with);
-/// Materials by number: name, look, and where the faces are that have them.
+/// Materials by number: name, appearance, and the positions of their faces.
 void compare_materials(const Comparing& with);
-/// Compares the contents of a glTF other than meshes.
+/// The contents of a glTF other than meshes.
 void compare_documents(const Comparing& with);
 
 } // namespace facetmill::report

@@ -19,7 +19,7 @@ Json colour_of(const Material& m) {
     return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g}", c[0], c[1], c[2], c[3]);
 }
 
-/// Entries of two descriptions that differ, by their paths in them.
+/// Different entries of two descriptions, by path.
 std::map<std::string, std::pair<Json, Json>> different_entries(const Json& a, const Json& b) {
     std::map<std::string, std::pair<Json, Json>> entries;
     const auto flat = [](const Json& json) { return json.empty() ? Json::object() : json.flatten(); };
@@ -30,10 +30,10 @@ std::map<std::string, std::pair<Json, Json>> different_entries(const Json& a, co
     return entries;
 }
 
-/// A value as one word, whatever it is.
+/// A structured value as text.
 Json in_short(const Json& value) { return value.is_structured() ? Json(value.dump()) : value; }
 
-/// Removes properties that are reported elsewhere, or equal their default.
+/// Removes data that is compared elsewhere, and default values.
 Json beside_basics(Json material) {
     for (const char* key : {"name", "doubleSided"}) material.erase(key);
     if (const auto pbr = material.find("pbrMetallicRoughness"); pbr != material.end()) {
@@ -43,13 +43,13 @@ Json beside_basics(Json material) {
     return material;
 }
 
-/// Whether nothing else is told; without metal is what a material of other formats is written as.
+/// True if no other data is left; other formats write materials as non-metallic.
 bool is_plain(const Json& material) {
     const Json left = beside_basics(material);
     return left.empty() || left == Json{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
 }
 
-/// Compares all glTF-only properties of a material.
+/// Compares the data of a material that only glTF has.
 void compare_contents(const Comparing& with, io::MaterialContents& of_a, io::MaterialContents& of_b,
                       std::size_t i) {
     const std::string name = fmt::format("{}", i);
@@ -83,7 +83,7 @@ std::vector<Index> materials_of_faces(const Scene& scene) {
     return all;
 }
 
-/// The part of a surface that is of one material.
+/// The part of a surface with a given material.
 Surface of_material(const Surface& surface, const std::vector<Index>& materials, Index material) {
     Surface out;
     out.positions = surface.positions;
@@ -97,7 +97,7 @@ Surface of_material(const Surface& surface, const std::vector<Index>& materials,
     return out;
 }
 
-/// The materials of both, where there are several to tell apart; else none.
+/// The materials of both, if there are several; else none.
 std::set<Index> materials_to_compare(const std::vector<Index>& a, const std::vector<Index>& b) {
     if (a == b || a.empty() || b.empty()) return {};
     std::set<Index> all(a.begin(), a.end());
@@ -105,7 +105,7 @@ std::set<Index> materials_to_compare(const std::vector<Index>& a, const std::vec
     return all.size() < 2 ? std::set<Index>{} : all;
 }
 
-/// How far the places of a material may be apart, in a scene of these bounds.
+/// The allowed distance between a material's positions, in a scene of these bounds.
 double farthest_allowed(const Comparing& with, const Box& bounds) {
     const auto limit = maximum_of(with.settings);
     return !limit           ? std::numeric_limits<double>::max()
@@ -129,7 +129,7 @@ void compare_places(const Comparing& with) {
     if (all.empty()) return;
     const Surface x = surface_of(with.a, filled_surface), y = surface_of(with.b, filled_surface);
     const double most = farthest_allowed(with, x.bounds());
-    DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
+    DeviationSettings settings = with.settings.deviation; // shared by all materials
     settings.samples = settings.samples / all.size() + 1;
     settings.certify = false;
     ProgressSteps steps(std::vector<double>(all.size(), 1));
@@ -152,7 +152,7 @@ std::vector<Index> materials_of_lines(const Scene& scene) {
     return all;
 }
 
-/// Compares the lines of each material, as for faces.
+/// Compares the lines of each material, in the same way.
 void compare_places_of_lines(const Comparing& with) {
     const std::set<Index> all = materials_to_compare(materials_of_lines(with.a), materials_of_lines(with.b));
     if (all.empty()) return;

@@ -15,7 +15,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// A value of each file; whether it is good, where that can be said.
+/// A value of each file; whether it is good, if that can be decided.
 struct SideRow {
     std::string name, a, b;
     std::optional<bool> good_a, good_b;
@@ -85,8 +85,8 @@ std::vector<const ItemChange*> items_of(const Comparison& c, bool parts) {
     return all;
 }
 
-/// Of how many materials, which may be the same themselves, the faces or lines lie elsewhere, to follow the
-/// tally; empty for none.
+/// The number of materials whose faces or lines moved, although the materials may be equal; follows the
+/// tally. Empty for zero.
 std::string elsewhere(const Comparison& c) {
     const auto count = std::count_if(c.lines.begin(), c.lines.end(), [](const Difference& d) {
         return d.section == "materials" && !d.same && d.compared && d.of_places;
@@ -96,7 +96,7 @@ std::string elsewhere(const Comparison& c) {
                : fmt::format("; where they are differs for {}, see the section materials below", count);
 }
 
-/// The changed items, up to a limit.
+/// The items that are not equal, up to a limit.
 std::vector<const ItemChange*> told_items(const std::vector<const ItemChange*>& all) {
     constexpr std::size_t most = 100;
     std::vector<const ItemChange*> told;

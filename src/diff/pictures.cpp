@@ -18,12 +18,12 @@ std::string png_of(const Scene& scene, PictureSettings settings,
     return page_text(picture_of(scene, settings));
 }
 
-/// None where nothing is off the other.
+/// None if the surfaces do not differ.
 std::optional<DeviationView> distances_from(const FaceTree& tree, double diagonal, const char* name,
                                             const Scene& scene, const PictureSettings& settings) {
     if (tree.empty()) return {};
     auto view = deviation_view(scene, {name, diagonal, tree}, settings);
-    // The rounding of 32-bit floats is not a visible difference.
+    // Rounding errors of 32-bit floats are not visible.
     const bool any = std::abs(view.worst_distance) > 1e-6 * view.diagonal;
     return any ? std::optional(std::move(view)) : std::nullopt;
 }
@@ -35,7 +35,7 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
     PictureSettings settings = page_settings();
     settings.width = 640;
     settings.height = 480;
-    // Distances are measured in the displayed pose.
+    // Distances use the pose of the pictures.
     const auto posed_a = io::posed(a), posed_b = io::posed(b);
     const Scene &seen_a = posed_a ? *posed_a : a, &seen_b = posed_b ? *posed_b : b;
     Camera camera = camera_of(seen_a);
@@ -51,14 +51,14 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
                   surface_b = surface_or_points_of(seen_b, filled_surface);
     const Box box_a = surface_a.bounds(), box_b = surface_b.bounds();
     const FaceTree tree = tree_of_earlier(surface_a, box_a);
-    settings.width = 480; // three beside each other
+    settings.width = 480; // three side by side
     settings.height = 360;
     out.backward = distances_from(tree, box_a.diagonal(), "the first file", seen_b, settings);
     out.forward = distances_from(tree_of_earlier(surface_b, box_b), box_b.diagonal(), "the second file",
                                  seen_a, settings);
     for (auto* view : {&out.backward, &out.forward})
         if (*view) (*view)->posed = posed_a || posed_b;
-    if (out.forward) out.forward->diagonal = box_a.diagonal(); // percentages are all of one length
+    if (out.forward) out.forward->diagonal = box_a.diagonal(); // one reference for all percentages
     ViewedScenes viewed(2);
     const auto [short_a, short_b] = short_names(name_a, name_b);
     viewed.add_before(a, short_a, looks_a);

@@ -1,5 +1,5 @@
 #pragma once
-// Two scenes seen by one camera, for the page of a comparison.
+// Pictures of two scenes by the same camera, for the page of a comparison.
 
 #include "base/error.hpp"
 #include "base/json.hpp"
@@ -8,19 +8,19 @@
 
 namespace facetmill::report {
 
-/// PNG images in base64, and distances both ways.
+/// PNG images in base64, and distances in both directions.
 struct ComparisonPictures {
     std::string a, b;
-    /// From the first scene to the second: removed geometry. Its diagonal is the first's, like backward's.
+    /// Of the first scene from the second: removed geometry. The diagonal is the first scene's, as for
+    /// backward.
     std::optional<DeviationView> forward;
-    std::optional<DeviationView> backward; ///< from the second to the first: new geometry
-    Json view;                             ///< both, to be turned (report/viewer.hpp)
-    std::vector<Diagnostic> not_drawn;     ///< textures that all of these do without, and why
+    std::optional<DeviationView> backward; ///< of the second from the first: added geometry
+    Json view;                             ///< rotatable view of both (report/viewer.hpp)
+    std::vector<Diagnostic> not_drawn;     ///< textures missing in all of these, with reasons
 };
 
-/// Both by the camera of the first scene, unless the second goes beyond it; then by one that sees both. No
-/// distances where a scene is empty, or nothing is off the other. Names: of the files, as they were given.
-/// O((vertices + faces) log n).
+/// Both use the camera of the first scene, or a camera that shows both if the second is larger. No distances
+/// if a scene is empty, or if nothing differs. Names: of the files as given. O((vertices + faces) log n).
 ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std::string& name_a,
                                        const std::string& name_b);
 

@@ -12,18 +12,18 @@ namespace facetmill::report {
 
 namespace {
 
-/// A connected part of the surface, or all of it.
+/// A connected component of the surface, or the whole surface.
 struct Component {
     std::string part;
-    Index face = none; ///< its first
+    Index face = none; ///< its first face
     double area = 0, volume = 0;
-    Vec3 materials, middle; ///< sums of area vectors, and of the faces' middles by area
+    Vec3 materials, middle; ///< sums of area vectors, and of face centres weighted by area
 };
 
 void add_part(const Part& part, std::vector<Component>& components) {
     const Mesh& mesh = part.mesh;
     const Transform t = part.transform;
-    const double sign = t.determinant() < 0 ? -0.5 : 0.5; // a mirrored part keeps its front
+    const double sign = t.determinant() < 0 ? -0.5 : 0.5; // a mirrored part keeps its front side
     const Components of = face_components(mesh, false);
     const std::size_t before = components.size();
     components.resize(before + of.count);
@@ -50,7 +50,8 @@ std::vector<Component> components_of(const Scene& scene) {
     return components;
 }
 
-/// Volumes decide for what is closed, where the area vectors cancel; for open surfaces the sums of these.
+/// Closed components, whose area vectors cancel, are compared by volume; open surfaces by the sum of area
+/// vectors.
 bool turned(const Component& a, const Component& b) {
     const auto open = [](const Component& p) { return length(p.materials) > 1e-6 * p.area; };
     const auto solid = [](const Component& p) {
@@ -65,7 +66,7 @@ bool same_place(const Component& a, const Component& b) {
     return length(a.middle / a.area - b.middle / b.area) <= 1e-2 * std::sqrt(a.area);
 }
 
-/// All components merged. Each volume has its own origin, which matters for open components only.
+/// All components together. Each volume has its own origin, which matters only for open components.
 Component whole(const std::vector<Component>& components) {
     Component sum;
     for (const Component& p : components) {

@@ -1,5 +1,5 @@
 #pragma once
-// Compares the orientation of the faces of two scenes.
+// Compares the orientation of faces in two scenes.
 
 #include "mesh/scene.hpp"
 
@@ -7,15 +7,15 @@
 
 namespace facetmill::report {
 
-/// Whether the second scene, or some of its components, are inside out relative to the first.
+/// Whether the second scene, or some of its components, are reversed relative to the first.
 struct Turned {
     bool round = false;
-    std::string note; ///< the number of components and the first; empty if the wholes were compared
+    std::string note; ///< the number of components, and the first; empty if the whole was compared
 };
 
-/// Uses the sign of the volume, and for open surfaces the direction of the summed area vectors. Components
-/// (connected over edges, part by part) are compared if both scenes have the same ones in order, with equal
-/// areas and positions. Otherwise compares the wholes. O(n).
+/// Compares the signs of volumes, and for open surfaces the sums of area vectors. It compares components
+/// (connected across edges, within a part) if both scenes have the same number, areas and positions in the
+/// same order. Otherwise it compares the whole scenes. O(n).
 Turned turned_round(const Scene& a, const Scene& b);
 
 } // namespace facetmill::report

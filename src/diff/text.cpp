@@ -15,10 +15,10 @@ namespace facetmill::report {
 
 namespace {
 
-/// Whether people are shown the line, without `all`.
+/// True if the line is shown without `all`.
 bool is_told(const Difference& d) { return !d.same || !d.compared || d.section == "geometry"; }
 
-/// The words and the colour of a line on pages.
+/// The word for a line on pages, and its colour.
 struct Outcome {
     const char *text, *kind;
 };
@@ -26,11 +26,11 @@ struct Outcome {
 Outcome outcome_of(const Difference& d) {
     if (!d.same) return {"differs", "bad"};
     if (!d.compared) return {"not compared", "warn"};
-    if (d.a != d.b) return {"noted", "soft"}; // no limit was set, or it is within the one that was
+    if (d.a != d.b) return {"noted", "soft"}; // no limit, or within it
     return {"same", "good"};
 }
 
-/// A text; a SHA-256 is shortened to its first digits.
+/// A text; for a SHA-256, its first digits.
 std::string short_digest(const std::string& text) {
     constexpr std::size_t digits = 64, enough = 12;
     const bool is_digest =
@@ -47,7 +47,7 @@ std::string text_of(const Json& value) {
     return value.dump();
 }
 
-/// The lines below a distance: its position, and the measurement.
+/// The lines below a distance: its position, and how it was measured.
 std::vector<std::string> measured_lines(const Comparison& comparison) {
     const DeviationResult& d = *comparison.deviation;
     std::vector<std::string> lines;
@@ -71,7 +71,7 @@ std::vector<std::string> measured_lines(const Comparison& comparison) {
     return lines;
 }
 
-/// The additional lines of a section; only geometry has any.
+/// The measured lines of a section; only geometry has them.
 std::vector<std::string> lines_below(const Comparison& comparison, const char* section) {
     if (section != std::string_view("geometry") || !comparison.deviation) return {};
     return measured_lines(comparison);
@@ -127,7 +127,7 @@ const char* geometry_text(const Comparison& comparison) {
     return a != b ? "files" : a == "points" ? "points" : "surfaces";
 }
 
-/// "differ in counts", with everything that was not compared.
+/// "differ in counts", with the parts that were not compared.
 std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
                                     const std::string& name_b) {
     std::vector<std::string> lines = left_out_lines(comparison, name_a, name_b);
@@ -149,7 +149,7 @@ std::string section_title(const Comparison& comparison, const char* section) {
            (comparison.ignored.contains(section) ? " (ignored)" : "");
 }
 
-/// Paths in documents may be broken at slashes, names of properties nowhere.
+/// Paths in documents may be broken at slashes; property names may not be broken.
 std::string name_code(const std::string& name) {
     return name.find('/') == std::string::npos ? code(name) : path_code(name);
 }

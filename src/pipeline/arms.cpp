@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t max_arms = 10'000;
 
-/// A variable of a foreach and the values it runs over.
+/// A foreach variable with its values.
 struct Axis {
     std::string name;
     std::vector<Value> values;
@@ -19,7 +19,7 @@ struct Axis {
 
 std::string to_string(const Value& value) { return value.is_scalar() ? value.text : value.described(); }
 
-/// Calls body with the index of each axis' value, the last axis running fastest.
+/// Calls body with the index of each axis' value; the last axis changes fastest.
 template <class Body>
 void for_each_combination(const std::vector<Axis>& axes, Body&& body) {
     std::vector<std::size_t> at(axes.size(), 0);
@@ -151,9 +151,9 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
     step.given = variables;
     step.arms = foreach_arms(variables, *body, scope, inner, {}, has_scene);
     if (!over_parts) return;
-    // Planned again with the names of the parts, when they are known; everything it needs is copied.
+    // Plans again once the names of the parts are known; the function owns copies of everything it needs.
     PlanSettings later = settings_;
-    later.on_include = {}; // what was told of is told once, and from the thread that plans
+    later.on_include = {}; // called once, from the planning thread
     step.arms_of_parts = [settings = std::move(later), variables, body = *body, scope, inner,
                           has_scene](const std::vector<std::string>& parts, Problems& problems) {
         Planner planner(settings, problems);

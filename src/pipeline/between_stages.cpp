@@ -12,7 +12,7 @@ namespace facetmill::pipeline {
 
 namespace {
 
-bool same_bits(double a, double b) { // they may be no numbers
+bool same_bits(double a, double b) { // the values may be NaN
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is asked of a scene before a stage works on it and after it has.
+// Checks of the scene before and after each stage.
 
 #include "pipeline/scene_state.hpp"
 #include "stage/context.hpp"
@@ -8,15 +8,16 @@ namespace facetmill::pipeline {
 
 /// "their names: a, b", of all parts.
 std::string names_hint(const Scene& scene);
-/// Warns (W-ONLY) where the step's `only` selects none of the parts.
+/// Warns (W-ONLY) if the step's `only` selects no part.
 void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context);
 
-/// Files with other numbers are refused; stages make them of very large ones. Throws stage, E-RANGE.
+/// Throws stage, E-RANGE for NaN and infinite numbers. Readers refuse them, but stages produce them from very
+/// large numbers.
 void require_finite(const Scene& scene);
 
-/// Throws bug, E-INVARIANT, where the stage broke an invariant of scenes.
+/// Throws bug, E-INVARIANT, if the stage broke an invariant of scenes.
 void check_invariants(const Step& step, const Scene& scene);
-/// The same where the scene is no longer what the stage before the step left, as far as that is known.
+/// The same if the scene differs from the scene that the previous stage left, as far as that is known.
 void check_left(const Step& step, const SceneState::Left& left, const Scene& scene);
 
 } // namespace facetmill::pipeline

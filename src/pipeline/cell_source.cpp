@@ -50,10 +50,10 @@ class CellSource {
             cells::CellFolder::Settings{settings.cells.kept, settings.commit.sync, settings.on_kept_cells,
                                         beside ? name_of(*job) : std::string{}});
     }
-    /// The cells are those after the step, also where another job does it.
+    /// Marks the cells as processed by the step, which another job does.
     void pass(const Step& step) { cells_.means.key = key_after(cells_.means.key, step); }
 
-    /// why: the mesh is in cells.
+    /// why: the reason that the mesh is in cells.
     bool run(const Step& step, const std::string& why, report::StageRecord& stage) {
         stage.before = brief_of_cells(cells_);
         const Stopwatch watch;
@@ -77,7 +77,7 @@ class CellSource {
         const bool loads = step.info->loads;
         if (loads) context.say(why);
         pass(step);
-        const auto inputs = inputs_of(cells_); // kept open
+        const auto inputs = inputs_of(cells_); // keeps the inputs open
         step.stage->on_cells(cells_, context);
         cells::require_unchanged(inputs);
         if (loads) state.load_diagonal = diagonal(cells_.bounds());
@@ -103,7 +103,7 @@ bool run_on_cells(Engine& engine, const CellPlan& plan, SceneState& flow) {
     if (!engine.failures.guarded({}, "kept cells", [&] { source.open_kept(); })) return false;
     flow.in_cells = true;
     for (const Step& step : std::span(engine.plan.steps).first(plan.steps)) {
-        if (job && (step.info->checks || step.info->tells)) { // for the last run
+        if (job && (step.info->checks || step.info->tells)) { // the last run does it
             source.pass(step);
             continue;
         }

@@ -16,7 +16,7 @@ namespace {
     throw Error(ErrorKind::usage, "E-CELLS", fmt::format("{}: {}", what, why), hint, where);
 }
 
-/// What a step has around its stage that looks at the scene.
+/// The common key of a step that needs the whole scene, or null.
 const char* key_in_the_way(const Step& step) {
     if (step.when && !step.when->known) return "when";
     if (step.ensure) return "ensure";
@@ -31,7 +31,7 @@ std::vector<std::string> stages_on_cells() {
     return names;
 }
 
-/// How many of the first steps work on cells: up to the one that makes the mesh small, or all.
+/// The number of first steps that work on cells: up to the step that makes the mesh small, or all.
 std::size_t steps_on_cells(const Steps& steps, const std::string& what, const std::string& way_out) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const Step& step = steps[i];
@@ -65,9 +65,9 @@ std::uint64_t estimated_faces(const std::vector<PlannedFile>& inputs) {
     return faces;
 }
 
-/// How large the mesh is that cells are to hold.
+/// The size of the mesh that the cells must hold.
 struct Faces {
-    std::uint64_t read = 0, most = 0; ///< of the files; at the largest of the steps that may work on cells
+    std::uint64_t read = 0, most = 0; ///< in the files; the maximum of all steps on cells
 
     std::uint64_t memory() const { return cells::memory_in_core(most); }
     std::string needs(const CellSettings& settings) const {
@@ -77,11 +77,11 @@ struct Faces {
     }
 };
 
-/// Steps multiply them until one makes the mesh small.
+/// Steps multiply the faces until a step makes the mesh small.
 Faces faces_of(const Steps& steps, const std::vector<PlannedFile>& inputs) {
     Faces faces;
     faces.read = estimated_faces(inputs);
-    constexpr double countable = 1e15; // more is refused where it is made
+    constexpr double countable = 1e15; // larger numbers are refused where they arise
     double now = static_cast<double>(faces.read), most = now;
     for (const Step& step : steps) {
         if (step.kind != Step::Kind::stage || step.info->ends_cells) break;

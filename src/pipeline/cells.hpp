@@ -1,5 +1,5 @@
 #pragma once
-// Which of a plan's first steps work on cells, because the mesh is larger than the memory that is given.
+// Decides which of a plan's first steps work on cells, because the mesh exceeds the memory limit.
 
 #include "cells/partition/cell_job.hpp"
 #include "pipeline/plan.hpp"
@@ -8,32 +8,32 @@ namespace facetmill::pipeline {
 
 struct CellSettings {
     enum class When { automatic, always, never };
-    When when = When::automatic;     ///< automatic: where the mesh is estimated to need more than `memory`
-    std::uint64_t memory = 0;        ///< bytes; 0: no limit is given
+    When when = When::automatic;     ///< automatic: if the mesh is estimated to need more than `memory`
+    std::uint64_t memory = 0;        ///< bytes; 0: no limit
     std::filesystem::path scratch{}; ///< the folder for temporary data
-    std::filesystem::path kept{};    ///< the folder in which cells are kept; empty: they are not
-    std::optional<cells::CellJob> job{}; ///< all there is to do; it needs `kept`
+    std::filesystem::path kept{};    ///< folder that keeps cells for later runs; empty: cells are not kept
+    std::optional<cells::CellJob> job{}; ///< the only job to run; it needs `kept`
 };
 
 struct CellPlan {
-    std::size_t steps = 0; ///< how many of the first; 0: all are in memory
-    std::string why;       ///< a sentence for people; empty: nobody asked
+    std::size_t steps = 0; ///< number of first steps on cells; 0: all are in memory
+    std::string why;       ///< a sentence for the user; empty if cells were not requested
 };
 
-/// Decides by the headers and sizes of the inputs. Throws usage (E-CELLS) when the mesh needs cells and a
-/// stage, an option or a file cannot be processed so, with the way out.
+/// Decides by the headers and sizes of the inputs. Throws usage (E-CELLS), with a way out, when the mesh
+/// needs cells but a stage, an option or a file does not support them.
 CellPlan plan_cells(const Plan& plan, const CellSettings& settings);
 
-/// Throws usage (E-EXPORT) where a run cannot be divided into jobs: nothing is simplified in cells, or a
-/// stage before that makes cells anew.
+/// Throws usage (E-EXPORT) if a run cannot be divided into jobs, because no step simplifies in cells, or an
+/// earlier stage creates new cells.
 void require_jobs(const Plan& plan, const CellPlan& cells);
 
-/// A run in cells as jobs: see cells/partition/cell_job.hpp.
+/// The jobs of a run in cells: see cells/partition/cell_job.hpp.
 struct CellJobs {
-    std::size_t count = 0;                              ///< of those that simplify
+    std::size_t count = 0;                              ///< number of simplifying jobs
     std::vector<std::filesystem::path> inputs, outputs; ///< of the run
 };
-/// count: jobs that simplify; 0: as many as suit the inputs. Throws as require_jobs.
+/// count: number of simplifying jobs; 0: suited to the inputs. Throws like require_jobs.
 CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count);
 
 } // namespace facetmill::pipeline

@@ -9,7 +9,7 @@ namespace facetmill::pipeline {
 
 namespace {
 
-/// A number or a percentage, for texts whose type is not known.
+/// A number or a percentage, for texts of unknown type.
 std::optional<Comparable> untyped(const std::string& text) {
     if (text.ends_with('%'))
         if (const auto number = parse_real(text.substr(0, text.size() - 1)))
@@ -17,7 +17,7 @@ std::optional<Comparable> untyped(const std::string& text) {
     return Comparable{parse_real(text), ""};
 }
 
-/// The declared parameter that is all of the text: "${name}".
+/// The declared parameter if the whole text is "${name}".
 const Variable* parameter(const std::string& text, const Scope& scope) {
     if (!text.starts_with("${") || !text.ends_with('}')) return nullptr;
     const Variable* variable = find_variable(scope, text.substr(2, text.size() - 3));
@@ -65,7 +65,7 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
         parse_assertions(resolved(value, scope, problems), condition.predicates, "when", problems);
         return condition;
     }
-    condition.known = true; // so that a condition with a problem hides nothing of what follows
+    condition.known = true; // so that problems in the following text are reported too
     if (auto meant = value.is_scalar() ? meant_conditions(value.text) : std::nullopt) {
         problems.add(value.mark, "E-WHEN", std::move(meant->message), std::move(meant->hint));
         return condition;
@@ -98,7 +98,7 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
         sides[i] = resolved(Value::scalar(texts[i], mark_within(value.mark, texts[i])), scope, problems);
     const Variable* typed = parameter(texts[0], scope);
     if (!typed) typed = parameter(texts[1], scope);
-    // What a parameter is compared with is judged even while the parameter's own value is not known.
+    // The other side of a parameter is checked even if the parameter's own value is unknown.
     if (typed && sides[0].deferred != sides[1].deferred)
         typed->comparable(sides[sides[0].deferred ? 1 : 0], problems);
     if (sides[0].deferred || sides[1].deferred) return condition;

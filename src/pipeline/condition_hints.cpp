@@ -14,14 +14,14 @@ namespace facetmill::pipeline {
 
 namespace {
 
-/// By its name, or by what other programs call it.
+/// Finds a property by its name, or by its name in other programs.
 const Property* property_meant(std::string_view word) {
     if (const Property* property = property_named(word)) return property;
     const auto called = options_of_same_value(word, known_properties());
     return called.empty() ? nullptr : property_named(called.front());
 }
 
-/// The operator when its sides are exchanged.
+/// The operator after exchanging its sides.
 std::string_view exchanged(std::string_view op) {
     if (op == "<") return ">";
     if (op == "<=") return ">=";
@@ -29,7 +29,7 @@ std::string_view exchanged(std::string_view op) {
     return op == ">=" ? "<=" : op;
 }
 
-/// "{min: 1001}" for "> 1000"; empty when there is no bound like that.
+/// "{min: 1001}" for "> 1000"; empty if there is no such bound.
 std::string bound_text(PropertyKind kind, std::string_view op, std::string_view value) {
     const bool truth = kind == PropertyKind::truth;
     if (truth && (value == "true" || value == "false") && (op == "==" || op == "!="))
@@ -41,7 +41,7 @@ std::string bound_text(PropertyKind kind, std::string_view op, std::string_view 
     if (!(length ? value.find_first_of("0123456789") != value.npos : parse_real(value).has_value()))
         return {};
     if (op == "==") return std::string(value);
-    // Bounds hold at their ends: of counts the next one is meant.
+    // Bounds include their ends, so for counts a strict comparison becomes the next integer.
     const bool next = kind == PropertyKind::count && number && (op == "<" || op == ">");
     const std::string end = next ? std::to_string(*number + (op == ">" ? 1 : -1)) : std::string(value);
     if (op == ">" || op == ">=") return fmt::format("{{min: {}}}", end);
@@ -50,11 +50,11 @@ std::string bound_text(PropertyKind kind, std::string_view op, std::string_view 
 
 struct MeantBound {
     const Property* property = nullptr;
-    std::string bound; ///< "{min: 1001}"; empty when there is none like that
+    std::string bound; ///< "{min: 1001}"; empty if there is no such bound
 };
 
-/// None for a word that only other programs call the property by and that is compared with another word:
-/// texts may well be points and solid.
+/// None for another program's name of a property that is compared with another word. Both may be plain texts,
+/// for example points and solid.
 std::optional<MeantBound> bound_of(std::string_view name, std::string_view op, std::string_view value) {
     const Property* meant = property_meant(name);
     if (!meant) return {};
@@ -63,7 +63,7 @@ std::optional<MeantBound> bound_of(std::string_view name, std::string_view op, s
     return MeantBound{meant, std::move(bound)};
 }
 
-/// A property by itself: "closed", "not closed".
+/// A property alone: "closed", "not closed".
 std::optional<MeantBound> property_alone(std::string_view text) {
     bool is = true;
     for (const std::string_view no : {"not ", "!"})
@@ -91,7 +91,7 @@ std::optional<MeantCondition> of_property(std::string_view name, std::string_vie
                           fmt::format("write when: {{{}: {}}}", meant->property->name, shown(*meant))};
 }
 
-/// One of several conditions: a comparison, with the property on either side, or a property alone.
+/// A single condition: a comparison with the property on either side, or a property alone.
 std::optional<MeantBound> one_bound(std::string_view text) {
     const auto found = find_operator(text);
     if (!found) return property_alone(text);
@@ -101,7 +101,7 @@ std::optional<MeantBound> one_bound(std::string_view text) {
     return meant ? meant : bound_of(right, exchanged(op), left);
 }
 
-/// Splits at the words, outside of which nothing is looked at.
+/// Splits at the given words, and ignores everything else.
 std::vector<std::string_view> split_at(std::string_view text, std::initializer_list<std::string_view> words) {
     std::vector<std::string_view> parts;
     std::size_t begin = 0;
@@ -117,7 +117,7 @@ std::vector<std::string_view> split_at(std::string_view text, std::initializer_l
     return parts;
 }
 
-/// "faces: {min: 1001}, closed: true"; both bounds of a property in one pair of braces.
+/// "faces: {min: 1001}, closed: true"; both bounds of a property share braces.
 std::string as_map(const std::vector<MeantBound>& all) {
     std::vector<std::pair<std::string_view, std::string>> entries;
     for (const MeantBound& one : all) {

@@ -1,5 +1,5 @@
 #pragma once
-// Conditions without an expression in them, "faces > 1000": what was meant.
+// Hints for conditions that are not expressions, such as "faces > 1000".
 
 #include "pipeline/expressions.hpp"
 
@@ -10,23 +10,23 @@
 
 namespace facetmill::pipeline {
 
-/// The comparison operator outside of ${...}: where it begins, and itself.
+/// The comparison operator outside of ${...}: its position and its text.
 std::optional<std::pair<std::size_t, std::string>> find_operator(std::string_view text);
 
 struct MeantCondition {
     std::string message, hint;
 };
 
-/// What a comparison of two plain words means, when one of them is a property of the scene or a variable: as
-/// words they never change. None when neither is.
+/// The intended condition of a comparison of two plain words, if one is a property of the scene or a
+/// variable. As plain words, the comparison never changes. None for other words.
 std::optional<MeantCondition> meant_comparison(std::string_view left, std::string_view op,
                                                std::string_view right, const Scope& scope);
 
-/// What several conditions about properties in one text mean, joined by && or "and": a map, all of which must
-/// hold; "or" has no form. None when the text is no such thing.
+/// The intended conditions of a text about properties, joined by && or "and": a map with all of them. "or"
+/// cannot be expressed. None for other texts.
 std::optional<MeantCondition> meant_conditions(std::string_view text);
 
-/// What to write for the name of a property alone, "closed" or "not closed"; empty when it is none.
+/// The condition to write for a property alone, "closed" or "not closed"; empty for other texts.
 std::string hint_of_property_alone(std::string_view text);
 
 } // namespace facetmill::pipeline

@@ -89,7 +89,7 @@ Json contract_json(const Contract& contract) {
     return out;
 }
 
-/// Whether something was given that this option excludes: its default then means nothing.
+/// True if another given option excludes this option: its default then has no effect.
 bool is_excluded(const Declaration& declaration, const std::string& name, const Value& given) {
     for (const auto& rule : declaration.exclusions)
         if (rule.rule != Exclusion::Rule::at_least_one &&
@@ -127,7 +127,7 @@ Json options_json(const Step& step) {
         else if (const auto text = defaults.find(option.name); text != defaults.end())
             out[option.name] = value_json(Value::scalar(text->second, {}));
     }
-    if (is_map) // names of properties and the like, which are no declared options
+    if (is_map) // keys such as property names are not declared options
         for (const auto& entry : step.given.entries)
             if (!out.contains(entry.key)) out[entry.key] = value_json(entry.value);
     return out;

@@ -15,14 +15,14 @@ namespace facetmill::pipeline {
 
 namespace {
 
-constexpr std::size_t max_nodes = 100'000; ///< with all aliases written out
+constexpr std::size_t max_nodes = 100'000; ///< with all aliases expanded
 constexpr std::size_t deepest = 64;
 
-/// Ends the parse after a problem that makes the rest worthless.
+/// Stops parsing after a problem that makes the rest useless.
 struct Stop {};
 
-/// Ends the parse at an expression without quotes, bytes [begin, end) of the text: the rest is read as if it
-/// stood in quotes.
+/// Stops parsing at an unquoted expression, bytes [begin, end) of the text: the rest is then parsed as if it
+/// were quoted.
 struct Unquoted {
     std::size_t begin, end;
     Diagnostic why;
@@ -44,18 +44,18 @@ Size size_of(const Value& value) {
     return all;
 }
 
-/// Fills our tree from yaml-cpp's events.
+/// Builds our tree from yaml-cpp's events.
 class Builder : public YAML::EventHandler {
   public:
-    /// unknown: where texts begin that stand for any value.
+    /// unknown: positions of texts that represent any value.
     Builder(const SourceIndex& source, std::size_t skipped, const std::set<std::size_t>& unknown,
             Problems& problems)
         : source_(source), skipped_(skipped), unknown_(unknown), problems_(problems) {}
 
     Value root;
-    bool second_document = false; ///< set before the parser looks for another document
+    bool second_document = false; ///< set before the parser looks for a second document
 
-    /// For what is said when the parser gives up.
+    /// The state for error messages after a parser failure.
     ReadSoFar read_so_far() const {
         ReadSoFar read{quoted_, {}};
         if (!stack_.empty() && stack_.back().flow) read.open = stack_.back().value.mark;
@@ -128,7 +128,7 @@ class Builder : public YAML::EventHandler {
         Value value;
         YAML::anchor_t anchor = 0;
         bool flow = false;
-        std::optional<Value> key;                 ///< of a map: the key whose value comes next
+        std::optional<Value> key;                 ///< of a map: key of the next value
         std::map<std::string, std::size_t> index; ///< of a map: key -> entry
         std::vector<Value> merges;                ///< of a map: values of <<
     };
@@ -144,7 +144,7 @@ class Builder : public YAML::EventHandler {
     /// Where the content of a node begins: yaml-cpp's mark is at its anchor or tag.
     std::size_t content(const YAML::Mark& mark) const { return content_at(source_.text(), offset(mark)); }
 
-    /// `${x}` in braces or brackets reads as "$" and a map; say so instead of what YAML says.
+    /// YAML reads `${x}` in braces or brackets as "$" and a map; replaces its error by a clear message.
     void refuse_unquoted(std::size_t at, const std::string& text) {
         const bool in_flow = !stack_.empty() && stack_.back().flow;
         const auto end = in_flow ? end_of_unquoted(source_.text(), at, text) : std::nullopt;
@@ -158,8 +158,7 @@ class Builder : public YAML::EventHandler {
                         fmt::format("write \"{}\"", written)}};
     }
 
-    /// The parser takes the end of the file for the end of a text in quotes, and with it all stages in
-    /// between.
+    /// Without a closing quote, the parser reads to the end of the file, across all following stages.
     void note_quotes(std::size_t at) {
         if (at >= source_.text().size() || (source_.text()[at] != '"' && source_.text()[at] != '\'')) return;
         const auto end = end_of_quoted(source_.text(), at);
@@ -171,7 +170,7 @@ class Builder : public YAML::EventHandler {
         throw Stop{};
     }
 
-    /// mark: of the node, which begins with the tag.
+    /// mark: of the node, which starts with the tag.
     void apply_tag(const std::string& tag, Value& value, const YAML::Mark& mark) {
         constexpr std::string_view core = "tag:yaml.org,2002:";
         const std::string_view name = tag.starts_with(core) ? std::string_view(tag).substr(core.size()) : "";
@@ -188,14 +187,14 @@ class Builder : public YAML::EventHandler {
 
     void refuse_tag(const std::string& tag, const YAML::Mark& mark) {
         const std::string& text = source_.text();
-        std::size_t at = offset(mark); // an anchor may stand before it
+        std::size_t at = offset(mark); // an anchor may precede it
         while (at < text.size() && text[at] == '&')
             at = std::min(text.find_first_not_of(' ', text.find(' ', at)), text.size());
         problems_.add(source_.mark(at, source_.characters(at, std::min(at + tag.size(), text.size()))),
                       "E-YAML", fmt::format("the tag {} has no meaning here", tag), tag_hint(tag));
     }
 
-    /// Counts what is about to be added.
+    /// Counts values before they are added.
     void grow(Size size, const Mark& where) {
         nodes_ += size.nodes;
         if (nodes_ > max_nodes || stack_.size() + size.depth > deepest) {
@@ -232,7 +231,7 @@ class Builder : public YAML::EventHandler {
         add(std::move(value));
     }
 
-    /// Puts a finished value where it belongs: the root, an item, a key, or the value of a key.
+    /// Stores a finished value: as the root, an item, a key, or the value of a key.
     void add(Value value) {
         if (stack_.empty()) {
             root = std::move(value);
@@ -274,7 +273,7 @@ class Builder : public YAML::EventHandler {
                       fmt::format("the first is at {}", to_string(frame.value.entries[at->second].key_mark)));
     }
 
-    /// YAML's merge key: what the map says itself wins, then the earlier of several.
+    /// YAML's merge key: the map's own keys win, then the earlier of several merged maps.
     void merge(Frame& frame, const Value& merged) {
         if (merged.is_list()) {
             for (const auto& one : merged.items) merge(frame, one);
@@ -293,16 +292,16 @@ class Builder : public YAML::EventHandler {
     }
 
     const SourceIndex& source_;
-    std::size_t skipped_; ///< bytes of the text that yaml-cpp did not get
+    std::size_t skipped_; ///< bytes of the text before yaml-cpp's part
     const std::set<std::size_t>& unknown_;
     Problems& problems_;
     std::vector<Frame> stack_;
     std::map<YAML::anchor_t, Anchored> anchors_;
-    std::optional<Extent> quoted_; ///< the last text in quotes
+    std::optional<Extent> quoted_; ///< the last quoted text
     std::size_t nodes_ = 0;
 };
 
-/// Parses the text, which is the source's but for what stands for unknown texts. Throws Unquoted.
+/// Parses the text: the source with placeholders for unknown texts. Throws Unquoted.
 Value parse_text(const std::string& text, const SourceIndex& index, const std::set<std::size_t>& unknown,
                  Problems& problems) {
     const std::size_t mark_bytes = text.size() - without_byte_order_mark(text).size();
@@ -330,7 +329,7 @@ Value parse_text(const std::string& text, const SourceIndex& index, const std::s
 Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
     const SourceIndex index(std::move(source));
     if (!check_text(index, problems)) return {};
-    constexpr std::size_t max_unquoted = 100; // then the others wait for the next run
+    constexpr std::size_t max_unquoted = 100; // the rest is reported by the next run
     std::string text = index.text();
     std::set<std::size_t> unknown;
     std::vector<Diagnostic> found;

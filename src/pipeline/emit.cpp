@@ -12,7 +12,7 @@ constexpr std::size_t widest_flow = 90;
 
 bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
 
-/// Whether the text can stand without quotes anywhere, and reads back as the same plain scalar.
+/// True if the text needs no quotes anywhere, and reads back as the same plain scalar.
 bool plain(const std::string& text) {
     for (const char* null_word : {"", "~", "null", "Null", "NULL"})
         if (text == null_word) return false;
@@ -88,7 +88,7 @@ bool is_small(const Value& value) {
 
 void block(const Value& value, std::size_t indent, bool first_in_place, std::string& out);
 
-/// What follows "key:" or "-".
+/// Appends the value after "key:" or "-".
 void after_mark(const Value& value, std::size_t indent, bool in_list, std::string& out) {
     const bool item_map = in_list && value.is_map() && !value.entries.empty();
     const bool section = indent == 0 && !in_list && holds_map(value); // params: one line each
@@ -104,7 +104,7 @@ void after_mark(const Value& value, std::size_t indent, bool in_list, std::strin
 }
 
 void block(const Value& value, std::size_t indent, bool first_in_place, std::string& out) {
-    bool placed = first_in_place; // the first line continues the one of "- "
+    bool placed = first_in_place; // the first line continues the line of "- "
     const auto lead = [&] {
         if (!placed) out += std::string(indent, ' ');
         placed = false;

@@ -23,13 +23,13 @@ bool loads(const Steps& steps) {
     return any;
 }
 
-/// Whether the step looks at the scene before its stage runs.
+/// True if the step needs the scene before its stage runs.
 bool looks_ahead(const Step& step) {
     return (step.when && !step.when->known) || (step.ensure && step.ensure->deviation) ||
            (step.kind != Step::Kind::stage && (step.join || step.arms_of_parts));
 }
 
-/// Checks of what the scene is at this place. Resolved lengths are recorded in `record`.
+/// Checks assertions on the current scene. Records resolved lengths in `record`.
 std::vector<report::Check> judged(Engine& run, const Assertions& assertions, const Step& step,
                                   const Scene& scene, const Box& entering, report::StageRecord& record) {
     Context context(run.state, record, step.only, entering, step.where);
@@ -39,12 +39,12 @@ std::vector<report::Check> judged(Engine& run, const Assertions& assertions, con
 bool is_skipped(Engine& run, const Step& step, const Scene& scene) {
     if (!step.when) return false;
     if (step.when->known) return !*step.when->known;
-    report::StageRecord none; // there is a record of the step only when it runs
+    report::StageRecord none; // the step has a record only if it runs
     const auto results = judged(run, step.when->predicates, step, scene, scene.bounds(), none);
     return !std::all_of(results.begin(), results.end(), [](const auto& check) { return check.passed; });
 }
 
-/// The surface that a contract on the deviation compares with.
+/// The reference surface of a contract on the deviation.
 std::shared_ptr<const Surface> reference_of(Engine& run, const Step& step, const Scene& scene) {
     if (!step.ensure || !step.ensure->deviation) return {};
     if (step.ensure->deviation->from == DeviationLimits::From::load && run.state.loaded)
@@ -52,10 +52,10 @@ std::shared_ptr<const Surface> reference_of(Engine& run, const Step& step, const
     return std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
 }
 
-/// entered: the bounds of the scene that entered the step.
+/// entered: the bounding box of the step's input scene.
 void check_contract(Engine& run, const Step& step, const Scene& scene, const Box& entered,
                     const Surface* reference) {
-    report::StageRecord none; // a branch has no record of its own
+    report::StageRecord none; // a branch has no record
     none.name = step.name;
     const ProgressScope share = run.beside_stages(fmt::format("ensure of {}", step.name));
     report::StageRecord& stage = step.info ? run.record().stages.back() : none;
@@ -78,7 +78,8 @@ report::StageRecord& begin(Engine& run, const Step& step) {
     return stage;
 }
 
-/// All stages of a branch or foreach; where its arms are parts, which nobody looks for, as they were planned.
+/// Records the stages of a skipped branch or foreach. Arms over parts are recorded as planned, because the
+/// parts are not looked up.
 void record_skipped(Engine& run, const Step& step) {
     for (const Arm& arm : step.arms)
         for (const Step& inner : *arm.steps) record_skipped(run, inner);
@@ -88,7 +89,7 @@ void record_skipped(Engine& run, const Step& step) {
     run.emit({.kind = Event::Kind::skipped, .step = &step, .stage = &stage});
 }
 
-/// Runs the stage on the scene, and remembers what it did.
+/// Runs the stage on the scene, and stores the result in the cache.
 bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::StageRecord& stage) {
     const std::string what = fmt::format("'{}'", step.name);
     if (!run.fetch(step.where, what, flow)) return false;
@@ -127,7 +128,7 @@ bool recall_or_perform(Engine& run, const Step& step, SceneState& flow, report::
     return done;
 }
 
-/// What joins is one where its documents are the same objects, which those of the cache need not be.
+/// Joining merges documents only if they are the same objects, and cached scenes may contain copies.
 bool run_arm(Engine& run, const Step& step, const Arm& arm, SceneState& inside) {
     inside.without_cache |= step.join && (!inside.scene.documents.empty() || loads(*arm.steps));
     run.emit({.kind = Event::Kind::arm, .step = &step});
@@ -194,17 +195,17 @@ bool run_arms(Engine& run, const Step& step, SceneState& flow, bool needed) {
         if (moved)
             flow.spent_before_branch = inside.spent_before_branch;
         else
-            flow.spend(inside.spent_before_branch); // it is not there for the next arm
+            flow.spend(inside.spent_before_branch); // no longer available to the next arm
         if (step.join) results.push_back({arm.name, std::move(inside.scene)});
     }
-    if (!step.join) return true; // the scene that entered goes on, whatever became of the branches
+    if (!step.join) return true; // the input scene continues, whatever the branches did
     if (!all_done) return false;
     flow.scene = joined(std::move(results));
     flow.replaced();
     return true;
 }
 
-/// Whether its checks hold; none where the chain ends.
+/// True if its checks hold; none if the chain ends.
 std::optional<bool> run_step(Engine& run, const Step& step, SceneState& flow, bool needed) {
     bool skip = false;
     if (looks_ahead(step) && !run.fetch(step.where, step.name, flow)) return {};
@@ -225,7 +226,7 @@ std::optional<bool> run_step(Engine& run, const Step& step, SceneState& flow, bo
         if (!run.run_stage(step, flow, source)) return {};
     } else {
         if (!run_arms(run, step, flow, needed)) return {};
-        checked = run.record().checks.size(); // those of the arms are judged
+        checked = run.record().checks.size(); // the checks of the arms are already judged
     }
     if (step.ensure) {
         if (!run.fetch(step.where, step.name, flow)) return {};
@@ -245,7 +246,7 @@ ProgressScope Engine::beside_stages(const std::string& what) const {
 }
 
 void Engine::emit(Event event, SceneState* flow) {
-    bool lost = !flow || flow->in_cells; // a scene that cannot be had is said once
+    bool lost = !flow || flow->in_cells; // reports an unavailable scene once
     for (const Watch& watch : watches) {
         if (watch.kind != event.kind || (watch.wants && !watch.wants(event))) continue;
         if (!watch.scene_for) {

@@ -26,7 +26,7 @@ bool is_name_character(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-/// The expression that begins at text[at] == "${": its inside, and where the text goes on.
+/// The expression at text[at] == "${": its contents, and the position after it.
 struct Found {
     std::string_view inside;
     std::size_t end = 0;
@@ -44,7 +44,7 @@ class Resolver {
         for (auto& entry : out.entries) {
             Value inner = value(entry.value);
             if (inner.is_null() && !inner.deferred && !entry.value.is_null())
-                continue; // an optional parameter that was not given
+                continue; // an optional parameter without a value
             kept.push_back({std::move(entry.key), std::move(entry.key_mark), std::move(inner)});
         }
         out.entries = std::move(kept);
@@ -62,7 +62,7 @@ class Resolver {
         return mixed(v);
     }
 
-    /// After a problem: any type will do, so that one mistake is reported once.
+    /// After a problem, the value fits any type, so that each mistake is reported once.
     static Value deferred(const Value& v) {
         Value out = v;
         out.deferred = true;
@@ -110,7 +110,7 @@ class Resolver {
     void append(const Value& v, std::string_view inside, Value& out) {
         const auto found = evaluate(v, inside);
         if (!found || found->deferred) {
-            out.text += fmt::format("${{{}}}", inside); // as plan shows it
+            out.text += fmt::format("${{{}}}", inside); // as shown by plan
             out.deferred = true;
             return;
         }
@@ -243,7 +243,7 @@ Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from) {
 }
 
 namespace {
-/// The file's name, and how much of it is its stem.
+/// The file's name, and the length of its stem.
 std::pair<std::string, std::size_t> split_name(const std::string& path) {
     const std::string name = path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
     std::string stem = io::without_packing(name).string();

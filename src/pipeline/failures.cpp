@@ -29,7 +29,7 @@ std::optional<Diagnostic> strict_failure(const Diagnostic& warning, const std::v
 void Failures::warn(const Diagnostic& warning) {
     if (is_allowed(warning, allowed_)) return;
     if (auto error = strict_failure(warning, settings_.strict))
-        add(ErrorKind::check, {std::move(*error)}); // which tells all that the warning does
+        add(ErrorKind::check, {std::move(*error)}); // includes the warning's text
     else if (settings_.on_warning)
         settings_.on_warning(warning);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What went wrong in a run: errors and the exit code that they make, checks that do not hold, warnings that
-// --strict turns into failures.
+// The failures of a run: errors with their exit code, failed checks, and warnings that --strict turns into
+// failures.
 
 #include "base/error.hpp"
 #include "base/out_of_memory.hpp"
@@ -10,26 +10,25 @@
 
 namespace facetmill::pipeline {
 
-/// Writes into the record of a run, which outlives it, as the settings ask.
+/// Adds failures to the record of a run, which outlives it, according to the settings.
 class Failures {
   public:
-    /// allowed: ids of warnings that are neither told nor made to fail.
+    /// allowed: ids of warnings that are neither reported nor failures.
     Failures(report::RunRecord& record, const RunSettings& settings, const std::vector<std::string>& allowed)
         : record_(record), settings_(settings), allowed_(allowed) {}
 
     bool any() const { return any_; }
 
-    /// The first failure decides the exit code; a check that did not hold gives way to what went wrong in
-    /// earnest.
+    /// The first failure sets the exit code, but other failures take precedence over a failed check.
     void add(ErrorKind kind, report::RunError why);
     void add(const Error& error);
-    /// Tells the warning, unless it is allowed, and fails when --strict says so.
+    /// Reports the warning, unless it is allowed, and fails if --strict includes it.
     void warn(const Diagnostic& warning);
-    /// Turns the checks of the record from this one on that do not hold into failures or, by their severity,
-    /// into warnings. Whether all errors among them hold.
+    /// Turns failed checks of the record, from index first, into failures or, by their severity, into
+    /// warnings. Returns true if all checks of severity error hold.
     bool judge_checks(std::size_t first);
 
-    /// Runs body; whatever it throws becomes a failure at this place. False then.
+    /// Runs body; an exception becomes a failure at this position. Then it returns false.
     template <class Body>
     bool guarded(const Mark& where, const std::string& what, Body&& body) {
         try {

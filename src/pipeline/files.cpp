@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the text was written in the options, or none.
+/// The mark of the text in the options, or null.
 const Mark* find_text(const Value& value, const std::string& text) {
     if (value.is_scalar()) return value.text == text ? &value.mark : nullptr;
     for (const auto& item : value.items)
@@ -51,8 +51,8 @@ void add_files(const Step& step, const Folders& places, std::vector<PlannedFile>
         if (!output.text.empty()) files.push_back({places.output(output.text), where(output), true});
 }
 
-/// The nearest name of a file in the folder: for a mesh that of a mesh, for a format that is not read that of
-/// the same name in one that is.
+/// The most similar file name in the folder. For a mesh, only names of meshes; for an unsupported format, the
+/// same name in a supported format.
 std::string nearest_file(const fs::path& path) {
     const std::string suffix = path.extension().string(), foreign = io::hint_for_reading(path);
     const bool mesh = io::codec_for(path) != nullptr || !foreign.empty();
@@ -109,14 +109,14 @@ std::vector<fs::path> asset_roots_of(const Steps& steps, const Folders& places) 
 
 namespace {
 
-/// Files that are one.
+/// Uses of the same file.
 using SameFiles = std::vector<const PlannedFile*>;
 
 bool is_at_one_place(const PlannedFile& a, const PlannedFile& b) {
     return to_string(a.where) == to_string(b.where);
 }
 
-/// What was written at a place, without quotes; empty where that is not one plain name.
+/// The text at a mark, without quotes; empty if it is not a plain name.
 std::string written_at(const Mark& mark) {
     if (!mark.known() || mark.line < 1 || mark.column < 1) return {};
     std::string_view text = mark.source->text;
@@ -134,8 +134,9 @@ std::string written_at(const Mark& mark) {
     return plain ? std::string(text) : "";
 }
 
-/// Of a file that is not the first of those: the first is at another place of the pipeline, or at the same
-/// for other values of a foreach: then the name lacks the variables that differ among all of this place.
+/// A hint for a second use of the same file. The first use is elsewhere in the pipeline, or in the same place
+/// for other values of a foreach. In the latter case the name must include the variables that differ between
+/// all uses in this place.
 std::string hint_of_duplicate(const SameFiles& same, const PlannedFile& file) {
     const PlannedFile& first = *same.front();
     if (!is_at_one_place(first, file) || file.variables.empty())
@@ -180,7 +181,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     for (const auto& file : files)
         if (file.written) outputs[lower_case(io::identity(file.path).string())].push_back(&file);
     bool good = check_inputs(files, inputs, problems);
-    std::set<std::string> told; // places
+    std::set<std::string> told; // positions
     for (const auto& file : files) {
         if (!file.written) continue;
         const std::string path = io::identity(file.path).string();
@@ -196,7 +197,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         const PlannedFile& first = *same.front();
         if (&first == &file) continue;
         good = false;
-        // For some values of a foreach as for others: one name is to be changed.
+        // All values of a foreach have the same problem: only one name must change.
         if (is_at_one_place(first, file) && !told.insert(to_string(file.where)).second) continue;
         const bool spelled_alike = io::identity(first.path).string() == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
@@ -224,7 +225,7 @@ void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& p
 
 namespace {
 
-/// The files that are read and not there.
+/// Input files that do not exist.
 std::vector<PlannedFile> missing_files(const Plan& plan) {
     auto files = planned_files(plan.steps, plan.places);
     std::erase_if(files, [](const PlannedFile& file) {
@@ -270,7 +271,7 @@ std::vector<Error> input_errors(const Plan& plan, const Headers& headers) {
 
 namespace {
 
-/// Whether something is left of a step beside the scene.
+/// True if a step has an effect besides the scene.
 bool has_effect(const Steps& steps) {
     return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
         if (step.ensure) return true;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether the header can be read without reading all of the file.
+/// True if the header can be read without reading the whole file.
 bool has_open_header(const fs::path& path) {
     std::error_code error;
     if (path == "-" || !fs::is_regular_file(path, error)) return false;
@@ -27,17 +27,17 @@ bool has_open_header(const fs::path& path) {
     return !(magic[0] == '\x1f' && magic[1] == '\x8b');
 }
 
-/// Values, with the names of their options.
+/// Option names with their values.
 using Lengths = std::vector<std::pair<std::string, Value>>;
 
 void add_physical(const std::string& name, const Value& value, Lengths& found) {
-    Problems ignored; // a range may reach here as a map or text of its own; its stage has judged it
+    Problems ignored; // a range may be a map or a text; its stage has checked it
     Length length;
     if (OptionType<Length>::parse(value, length, ignored) && length.kind == Length::Kind::physical)
         found.emplace_back(name, value);
 }
 
-/// The lengths with a physical unit among the values of options.
+/// Finds lengths with a physical unit among the values of options.
 void find_physical(const Option& option, const Value& value, Lengths& found);
 
 void find_physical(const Declaration& declaration, const Value& given, Lengths& found) {
@@ -60,13 +60,13 @@ void find_physical(const Option& option, const Value& value, Lengths& found) {
         add_physical(option.name, value, found);
 }
 
-/// The value of the option in the pipeline; null when it is not given, or has no name.
+/// The value of the option in the pipeline; null if it is not given, or if the name is empty.
 const Value* given_option(const Step& step, const std::string& name) {
     return !name.empty() && step.given.is_map() ? step.given.find(name) : nullptr;
 }
 
-/// Why files of one stage cannot be loaded: a pattern may match thousands that are no meshes, so the first
-/// few are told and the others counted.
+/// Collects the reasons why files of a stage cannot be loaded. A pattern may match thousands of files that
+/// are not meshes, so only the first few are listed.
 class Refusals {
   public:
     void add(const Error& error, const fs::path& path) {
@@ -102,7 +102,7 @@ class Walk {
     explicit Walk(const Folders& places) : places_(places) {}
     Headers headers;
 
-    /// `unit` is that of the scene which enters; none: not known.
+    /// `unit`: of the input scene; empty: unknown.
     void steps(const Steps& all, std::optional<Unit> unit) {
         for (const auto& step : all) {
             if (step.when && step.when->known == false) continue;
@@ -114,7 +114,7 @@ class Walk {
             } catch (Error& error) { // an input that can no longer be read
                 headers.errors.push_back(error.at(step.where));
             }
-            // A stage that says what the numbers mean ends what is known here, for its own lengths too.
+            // A stage that sets the unit makes it unknown here, for its own lengths too.
             if (given_option(step, step.info->roles.sets_unit)) unit.reset();
             if (step.info->reads_headers)
                 load(step, unit);
@@ -159,8 +159,9 @@ class Walk {
         refused.move_to(headers.errors);
     }
 
-    /// What goes beside an output because the scene has it. A branch counts what was loaded in those before
-    /// it, too: a file too many is better than one that nobody expects.
+    /// Adds the files that are written next to an output because of the scene's contents. A branch also
+    /// counts files loaded in earlier branches, because an extra file in the list is better than a missing
+    /// one.
     void add_written(const Step& step) {
         const StageFiles files = step.stage->files();
         const auto has_materials = [](const Loaded& file) {
@@ -172,7 +173,7 @@ class Walk {
         if (!files.images || (all && !library)) return;
         headers.images_change |= images_changed_;
         const fs::path path = files.images->text;
-        // What names its images in a library has all of them as files.
+        // Formats that name images in a library write all of them as files.
         io::ImageNames names(io::stem_of_neighbours(path),
                              all ? io::ImageNames::Spelling::plain : io::ImageNames::Spelling::kept);
         std::map<std::string, std::pair<fs::path, bool>>
@@ -195,7 +196,7 @@ class Walk {
         }
     }
 
-    /// Asked once, however many outputs there are.
+    /// Computes the images once for all outputs.
     template <class Images>
     static Images known(std::function<Images()>& images) {
         if (!images) return {};
@@ -208,7 +209,7 @@ class Walk {
         Lengths found;
         find_physical(*step.info->options, step.given, found);
         for (const auto& [option, value] : found) {
-            Problems ignored; // it was found because it can be read
+            Problems ignored; // the pattern was already parsed
             Length length;
             OptionType<Length>::parse(value, length, ignored);
             Headers::Lengths& lengths = headers.lengths[step.path];
@@ -217,7 +218,7 @@ class Walk {
         }
     }
 
-    /// Of a scene without a unit, whatever needs one.
+    /// Refuses values that need a unit if the scene has none.
     void refuse_units(const Step& step) {
         const Value* wanted = given_option(step, step.info->roles.writes_in_unit);
         if (wanted && wanted->is_scalar() &&
@@ -254,7 +255,7 @@ class Walk {
 
     const Folders& places_;
     std::vector<Loaded> loaded_;
-    std::set<std::string> known_; ///< paths of headers.inputs
+    std::set<std::string> known_; ///< paths in headers.inputs
     bool any_loaded_ = false, images_changed_ = false;
 };
 

@@ -1,4 +1,4 @@
-// An item `include`: the stages of another file in its place, with params of their own.
+// Plans an item `include`: the stages of another file, with its own params.
 
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The values that `with` gives, as the includer's scope has them.
+/// The values of `with`, resolved in the includer's scope.
 Value given_values(const Value& item, const Scope& scope, Problems& problems) {
     const Value* with = item.find("with");
     if (!with || with->is_null()) return Value::map({}, item.mark);
@@ -27,7 +27,7 @@ Value given_values(const Value& item, const Scope& scope, Problems& problems) {
     return Value::map({}, item.mark);
 }
 
-/// Paths among the values start in the folder of the file that spells them out.
+/// Paths among the values are relative to the folder of the file that contains them.
 void rebase_given(const Value& document, const Value& item, const fs::path& prefix, Value& given) {
     const Value* params = document.find("params");
     if (!params || prefix == ".") return;
@@ -74,7 +74,7 @@ const Value* Planner::fragment(const fs::path& file, const Mark& where) {
 std::vector<fs::path> Planner::chain_to(const fs::path& file) const {
     if (const auto open = std::find(open_.begin(), open_.end(), file); open != open_.end())
         return {open, open_.end()};
-    const auto is_pipeline = [&](const PlannedFile& other) { // all else that is read besides is of shapes
+    const auto is_pipeline = [&](const PlannedFile& other) { // other reads are includes or presets
         return !other.written && !other.shapes && other.path.lexically_normal() == file;
     };
     if (std::none_of(settings_.others.begin(), settings_.others.end(), is_pipeline)) return {};
@@ -105,12 +105,12 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
     const Value path = resolved(entry.value, scope, problems_);
     PathText text;
     if (!OptionType<PathText>::parse(path, text, problems_) || is_deferred(path)) {
-        has_scene = true; // it may load one; do not complain of what follows
+        has_scene = true; // it may load one, so do not report missing scenes
         return {};
     }
     const fs::path file = settings_.places.input(text.text).lexically_normal();
     if (!may_include(file, path.mark)) {
-        has_scene = true; // nobody knows what it would have done
+        has_scene = true; // its effect is unknown
         return {};
     }
     const Value* document = fragment(file, path.mark);

@@ -10,7 +10,7 @@ namespace facetmill::pipeline {
 
 namespace {
 
-/// Where the elements of from are in to, after those that to lacked were appended.
+/// The indices of the elements of `from` in `to`; missing elements are appended to `to`.
 template <class T, class Same>
 std::vector<std::size_t> united(std::vector<T>& to, const std::vector<T>& from, Same&& same) {
     std::vector<std::size_t> places;

@@ -1,33 +1,34 @@
 #pragma once
-// Who watches a run, one file each in observers/. Those that find nothing to do in the settings and the plan
-// do not watch.
+// The observers of a run, one file each in observers/. An observer without work in the settings and the plan
+// does not register.
 
 #include "pipeline/engine.hpp"
 #include "report/page_view.hpp"
 
 namespace facetmill::pipeline {
 
-/// The number and the name of each stage, for people who wait.
+/// Shows the number and the name of each stage as progress.
 void watch_progress(Engine& engine);
-/// What became of each step. The cache changes the last entry, too.
+/// Records how each step was done. The cache also changes the last entry.
 void watch_trace(Engine& engine, Trace& trace);
 /// Fails a stage that breaks an invariant of scenes.
 void watch_invariants(Engine& engine);
-/// The properties of the scene at the end, for reports; small pictures of it, for an index.
+/// Records the properties of the final scene for reports, and small pictures of it for an index.
 void watch_record(Engine& engine);
-/// What a page shows: pictures, distances, histograms.
+/// Collects the contents of a page: pictures, distances, histograms.
 void watch_pictures(Engine& engine, report::Page& page);
-/// How far results are off, for Markdown without a page.
+/// Collects deviations for Markdown reports without a page.
 void watch_deviation(Engine& engine, report::Page& page);
-/// The 3D view of a page, after its pictures.
+/// Adds the 3D view to a page, after its pictures.
 void watch_view(Engine& engine, report::PageView& view);
-/// Stages for whoever shows them as they end.
+/// Reports finished stages to the settings' callback.
 void watch_console(Engine& engine);
 
-/// For pictures and deviations alike: references of arms, failures of contracts, and the scene at the end.
+/// Shared by pictures and deviations: observes references of arms, failures of contracts, and the final
+/// scene.
 void watch_results(Engine& engine, report::Page& page, const char* scene_for);
 report::PageStep page_step(const Step& step);
-/// Whether the run makes a page; whether it has a report in this format.
+/// makes_page: true if the run creates a page; the other: true if it has a report in this format.
 bool makes_page(const Engine& engine);
 bool has_report(const Engine& engine, std::string_view suffix);
 

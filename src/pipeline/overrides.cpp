@@ -19,7 +19,7 @@ std::vector<std::string> split_at_dots(const std::string& text) {
     return parts;
 }
 
-/// "[0, 0, 1]" as a list; all else is one scalar.
+/// "[0, 0, 1]" becomes a list; any other text is a scalar.
 Value command_line_value(const std::string& text, const Mark& where) {
     const bool is_list = text.starts_with('[') && text.ends_with(']');
     return is_list ? list_of_words(text, where) : Value::scalar(text, where);

@@ -21,7 +21,7 @@ Mark command_line_mark(const std::string& option, const std::string& text, std::
 
 namespace {
 
-/// Where the value of a parameter stands: in a table, or after its name on the command line.
+/// The mark of a parameter's value: in a table, or after its name on the command line.
 Mark mark_of_define(const PlanSettings& settings, const std::string& name, const std::string& text,
                     std::size_t from) {
     const auto place = settings.defined_at.find(name);
@@ -63,10 +63,10 @@ struct ParamOptions {
     bool required = false;
     std::optional<std::string> min, max;
     std::vector<std::string> choices;
-    Type of = Type::list; ///< of each value of a list; list: of any type, as it is written
+    Type of = Type::list; ///< of each value of a list; list: any type
 
     bool is_list() const { return type == Type::list; }
-    /// Of the value, or of each value of a list; list: of any type.
+    /// The type of the value, or of each value of a list; list: any type.
     Type single() const { return is_list() ? of : type; }
 };
 
@@ -93,7 +93,7 @@ Declaration param_declaration() {
     return std::move(d.declaration);
 }
 
-/// Checks the value by the type T; gives the number that min and max limit.
+/// Checks the value by the type T; returns the number to which min and max apply.
 template <class T>
 std::optional<double> checked(const Value& value, bool& good, Problems& problems) {
     T out{};
@@ -125,15 +125,15 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
     return checked<std::string>(value, good, problems);
 }
 
-/// A file named on the command line, or in a file in that folder, as a pipeline file would name it: relative
-/// to the pipeline when that leads to the same file, else absolute.
+/// Converts a path from the command line, or from a file in that folder, to the pipeline file's convention.
+/// The result is relative to the pipeline if that is the same file, else absolute.
 std::string from_working_directory(const std::string& text, const fs::path& folder_of_text,
                                    const PlanSettings& settings) {
     const fs::path given(text);
     if (text == "-" || text.empty() || given.is_absolute()) return text;
     const fs::path here =
         fs::absolute(settings.working_directory / folder_of_text / given).lexically_normal();
-    // Empty when the pipeline's file is named without a folder; absolute() refuses that.
+    // Empty if the pipeline's file has no folder; absolute() refuses empty paths.
     const fs::path folder = settings.working_directory / settings.places.input_base;
     const fs::path base = (folder.empty() ? fs::current_path() : fs::absolute(folder)).lexically_normal();
     const fs::path near = here.lexically_relative(base);
@@ -143,7 +143,7 @@ std::string from_working_directory(const std::string& text, const fs::path& fold
     return same_file ? near.string() : here.string();
 }
 
-/// What -D or a cell gives for a list: "50%, 10%", or as YAML has it, "[50%, 10%]".
+/// Parses a list from -D or a table cell: "50%, 10%", or in YAML syntax, "[50%, 10%]".
 Value list_of_text(const std::string& text, const Mark& mark, Problems& problems) {
     Value list = Value::list({}, mark);
     if (text.starts_with('[')) {
@@ -168,7 +168,7 @@ Value list_of_text(const std::string& text, const Mark& mark, Problems& problems
 
 class Params {
   public:
-    /// given: values that come from no command line (a map), or null.
+    /// given: a map of values that are not from a command line, or null.
     Params(const PlanSettings& settings, const Value* given, Problems& problems)
         : settings_(settings), given_(given), problems_(problems) {}
 
@@ -185,7 +185,7 @@ class Params {
         if (good)
             variable.value = value(entry, options, shown);
         else
-            variable.value.deferred = true; // reported already
+            variable.value.deferred = true; // already reported
         if (good)
             variable.comparable = [this_entry = entry, options](const Value& value, Problems& problems) {
                 return comparable(this_entry, options, value, problems);
@@ -197,7 +197,7 @@ class Params {
     Scope scope;
 
   private:
-    /// Limits that the type does not have, or that nothing can meet.
+    /// Reports limits that the type does not support, or that no value can satisfy.
     bool check_declaration(const Value::Entry& entry, const ParamOptions& options) {
         const auto place = [&](const char* key) {
             const Value::Entry* found = entry.value.is_map() ? entry.value.find_entry(key) : nullptr;
@@ -270,7 +270,7 @@ class Params {
                                  : Value::scalar(text, mark, options.type == Type::text);
     }
 
-    /// Paths that are not of this pipeline.
+    /// Adjusts paths that are not relative to this pipeline.
     void rebase_defined(const std::string& name, Value& value) const {
         for (auto& item : value.items) rebase_defined(name, item);
         if (!value.is_scalar()) return;
@@ -279,7 +279,7 @@ class Params {
             value.text, folder == settings_.defined_in.end() ? fs::path() : folder->second, settings_);
     }
 
-    /// A single value is a list of one, as in options that take lists.
+    /// A single value becomes a list of one, like in options with lists.
     static void make_list(Value& value, const ParamOptions& options) {
         if (value.is_scalar() && !value.deferred) value = Value::list({value}, value.mark);
         if (options.of == Type::text)
@@ -306,7 +306,7 @@ class Params {
         bool good = true;
         const auto magnitude = checked(type, value, good, problems_);
         if (type == Type::choice) good = good && is_choice(entry, options, value, problems_);
-        if (!good) value.deferred = true; // reported already
+        if (!good) value.deferred = true; // already reported
         Range range;
         for (auto [text, limit] : {std::pair{&options.min, &range.min}, std::pair{&options.max, &range.max}})
             if (*text) {
@@ -389,7 +389,7 @@ std::string no_such_param(const std::string& name, const Scope& scope) {
     return names.empty() ? "it declares none" : suggestion(name, names);
 }
 
-/// Which of two values was meant is not ours to say.
+/// Refuses repeated values, because the intended one is unknown.
 void refuse_repeated(const PlanSettings& settings, Problems& problems) {
     std::map<std::string, std::string> first;
     for (const auto& [name, text] : settings.defines)

@@ -16,7 +16,7 @@ bool is_one_of(const auto& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The word in braces or behind a dollar, if it is likely to be meant as an expression.
+/// The word in braces or after a dollar sign, if it is probably meant as an expression.
 std::optional<Placeholder> meant(std::string_view text, std::string_view word, bool braces,
                                  const Scope& scope) {
     const auto dot = word.find('.');
@@ -29,7 +29,7 @@ std::optional<Placeholder> meant(std::string_view text, std::string_view word, b
     return Placeholder{std::string(text), fmt::format("${{{}}}", word), known};
 }
 
-/// How far a name goes from there.
+/// The end of the name that starts at `at`.
 std::size_t name_end(const std::string& text, std::size_t at) {
     std::size_t end = at;
     while (end < text.size() && is_variable_name("x" + text.substr(end, 1))) ++end;
@@ -58,7 +58,7 @@ std::optional<Placeholder> placeholder_in(const std::string& text, const Scope& 
             const std::size_t close = text.find('}', at);
             if (close == text.npos) return {};
             const std::string_view word = std::string_view(text).substr(at + 1, close - at - 1);
-            const std::size_t begin = at > 0 && text[at - 1] == '@' ? at - 1 : at; // as pipe has them
+            const std::size_t begin = at > 0 && text[at - 1] == '@' ? at - 1 : at; // pipe's syntax
             const std::string_view all = std::string_view(text).substr(begin, close - begin + 1);
             if (auto found = meant(all, word, true, scope)) return found;
         } else if (text[at] == '$' || text[at] == '@') {
@@ -76,7 +76,7 @@ void warn_of_placeholders(const Value& given, const std::vector<std::string>& ou
     if (!given.is_scalar()) return;
     const auto found = placeholder_in(given.text, scope);
     if (!found) return;
-    Problems told; // of an expression that is none: that is told where the stage is planned
+    Problems told; // planning the stage reports invalid expressions
     if (is_one_of(outputs, resolved(given, scope, told).text)) warn(given, *found, problems);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Names of files with what other programs replace, "{input.stem}.glb", "$lod.glb": here they are written as
-// they are.
+// File names with placeholders of other programs, such as "{input.stem}.glb" or "$lod.glb", which this
+// program would write literally.
 
 #include "pipeline/expressions.hpp"
 
@@ -12,15 +12,15 @@ namespace facetmill::pipeline {
 struct Placeholder {
     std::string text;       ///< "{input.stem}"
     std::string expression; ///< "${input.stem}"
-    bool known = false;     ///< whether there is a variable of that name
+    bool known = false;     ///< a variable of that name exists
 };
 
-/// The first in the text that is very likely meant as one: it names a variable, a property of a file's name
-/// (.stem), or what other programs put there (name, stem, index ...). None in the texts of expressions.
+/// The first probable placeholder in the text: it names a variable, a property of a file name (.stem), or a
+/// common placeholder of other programs (name, stem, index ...). Ignores texts inside expressions.
 std::optional<Placeholder> placeholder_in(const std::string& text, const Scope& scope);
 
-/// Warns (W-PLACEHOLDER) where a path that the stage writes has one. given: of the stage, before its
-/// expressions are resolved.
+/// Warns (W-PLACEHOLDER) if an output path of the stage has a placeholder. given: the stage's options with
+/// unresolved expressions.
 void warn_of_placeholders(const Value& given, const std::vector<std::string>& outputs, const Scope& scope,
                           Problems& problems);
 

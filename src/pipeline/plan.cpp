@@ -116,7 +116,7 @@ void check_requires(const Value& document, Problems& problems) {
             fmt::format("the pipeline requires facetmill {}, this is {}", range->text, FACETMILL_VERSION));
 }
 
-/// The files of `report` and --report, as Folders::output understands them; also added to files.
+/// The files of `report` and --report, with the rules of Folders::output; also adds them to files.
 std::vector<std::string> read_reports(const Value* report, const Scope& scope, const PlanSettings& settings,
                                       std::vector<PlannedFile>& files, Problems& problems) {
     std::vector<std::string> reports;
@@ -125,10 +125,10 @@ std::vector<std::string> read_reports(const Value* report, const Scope& scope, c
             report::form_of(path);
         } catch (Error& e) {
             problems.add(e.at(where));
-            return; // that problem would be met again where the plan's reports tell of it
+            return; // the same problem would be reported again
         }
         const fs::path target = settings.places.output(path);
-        for (const auto& known : reports) // asked for in the pipeline and on the command line: once is enough
+        for (const auto& known : reports) // given in the pipeline and on the command line: once is enough
             if (settings.places.output(known).lexically_normal() == target.lexically_normal()) return;
         reports.push_back(path);
         files.push_back({target, where, true});
@@ -146,7 +146,7 @@ std::vector<std::string> read_reports(const Value* report, const Scope& scope, c
     return reports;
 }
 
-/// The warnings of `allow`, after those of --allow.
+/// The warnings of `allow`, appended to --allow.
 std::vector<std::string> read_allowed(const Value* allow, const PlanSettings& settings, Problems& problems) {
     std::vector<std::string> allowed = settings.allowed;
     if (!allow || allow->is_null()) return allowed;
@@ -213,7 +213,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
 Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems) {
     auto source = std::make_shared<const SourceText>(SourceText{settings.name, std::move(text)});
     const Value document = parse_yaml(source, problems);
-    // What the tree still tells after an error is worth planning only when it is whole.
+    // After an error, only a complete tree is worth planning.
     if (problems.any_errors() && !document.is_map()) {
         Plan nothing;
         nothing.name = settings.name;

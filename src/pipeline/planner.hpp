@@ -1,5 +1,5 @@
 #pragma once
-// Inside planning: from items of `stages` to steps. plan.hpp is what others include.
+// The planner's internals: from items of `stages` to steps. Other code includes plan.hpp.
 
 #include "base/text/unique_names.hpp"
 #include "pipeline/expressions.hpp"
@@ -7,15 +7,15 @@
 
 namespace facetmill::pipeline {
 
-/// The --set options: each changes every stage of its name.
+/// The --set options: each changes all stages with its name.
 class Overrides {
   public:
     Overrides(const PlanSettings& settings, Problems& problems);
 
-    /// Changes the value of a stage that is known by these names. Bare values become maps first.
+    /// Changes the value of a stage with one of these names. A short-form value becomes a map first.
     void apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
                Problems& problems);
-    /// Complains of targets that no stage answered to, and of baselines to update that no stage has.
+    /// Reports targets without a stage, and --update-baseline without a stage with a baseline.
     void check_all_used(const std::set<std::string>& names, Problems& problems) const;
 
   private:
@@ -30,10 +30,10 @@ class Overrides {
     bool update_baselines_, any_baseline_ = false;
 };
 
-/// Where in the pipeline a list of stages stands.
+/// The position of a list of stages in the pipeline.
 struct Position {
     std::string path;   ///< "stages[5].branch.far"
-    std::string prefix; ///< of the names of its steps: "far/"
+    std::string prefix; ///< prefix of its steps' names: "far/"
 };
 
 class Planner {
@@ -41,41 +41,41 @@ class Planner {
     Planner(const PlanSettings& settings, Problems& problems)
         : settings_(settings), problems_(problems), overrides_(settings, problems) {}
 
-    /// Plans a list of stages. has_scene: whether a stage before has loaded one; updated.
+    /// Plans a list of stages. has_scene: an earlier stage has loaded a scene; updated.
     Steps steps(const Value& list, const Scope& scope, const Position& position, bool& has_scene);
-    /// Arms for all combinations of the values of a foreach. parts: the names that variable `part` runs over;
-    /// none: it is unknown yet, and one arm stands for all.
+    /// Arms for all combinations of the values of a foreach. parts: the values of variable `part`; empty:
+    /// still unknown, and one arm represents all.
     std::vector<Arm> foreach_arms(const Value& variables, const Value& body, const Scope& scope,
                                   const Position& position,
                                   const std::optional<std::vector<std::string>>& parts, bool has_scene);
-    /// The files that were included, as a plan reads them.
+    /// The included files, as inputs of the plan.
     const std::vector<PlannedFile>& included() const { return included_; }
     void finish() const { overrides_.check_all_used(names_, problems_); }
 
   private:
-    /// Counts one more step; false, after a problem (E-FOREACH), when there are too many.
+    /// Counts a step; returns false, after a problem (E-FOREACH), if there are too many.
     bool count_step(const Mark& where);
-    /// Appends what the item at that position says.
+    /// Appends the steps of the item at that position.
     void step(const Value& item, const Scope& scope, const Position& position, bool& has_scene, Steps& steps);
     void plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene);
     void plan_branch(Step& step, const Value::Entry& entry, const Scope& scope, const Position& inner,
                      bool& has_scene);
     void plan_foreach(Step& step, const Value& item, const Value::Entry& entry, const Scope& scope,
                       const Position& inner, bool& has_scene);
-    /// base: the key of the step's stage, which gives it its name unless the item does.
+    /// base: the key of the step's stage, which is its name unless the item sets one.
     void common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
                      const Position& position);
     void name_step(Step& step, const Value* given, const Scope& scope, const std::string& base,
                    const Position& position);
     void read_only(const Value& only, const Scope& scope, PartFilter& filter);
-    /// The stages of the file that an item includes.
+    /// The stages of an included file.
     Steps include(const Value& item, const Value::Entry& entry, const Scope& scope, const Position& position,
                   bool& has_scene);
-    /// From a file that is open, the pipeline among them, to the innermost; empty: it is not open.
+    /// The chain from an open file (the pipeline or an include) to the innermost; empty if it is not open.
     std::vector<std::filesystem::path> chain_to(const std::filesystem::path& file) const;
-    /// Not, after a problem, when that would be without end, or through very many files.
+    /// Returns false, after a problem, if including would be recursive, or nested too deeply.
     bool may_include(const std::filesystem::path& file, const Mark& where);
-    /// The document in a file, its paths relative to the pipeline's folder; null after a problem. Throws
+    /// The document in a file, with paths relative to the pipeline's folder; null after a problem. Throws
     /// missing.
     const Value* fragment(const std::filesystem::path& file, const Mark& where);
     std::string unique_name(const std::string& base, const std::string& prefix, const Mark& explicit_at);
@@ -85,19 +85,19 @@ class Planner {
     Overrides overrides_;
     std::size_t steps_ = 0; ///< planned so far: nested foreach multiply
     UniqueNames used_names_{'-'};
-    std::set<std::string> names_;                      ///< by which --set may name the steps
-    std::map<std::filesystem::path, Value> fragments_; ///< that were read
-    std::vector<std::filesystem::path> open_;          ///< included, the innermost last
+    std::set<std::string> names_;                      ///< names of steps that --set may use
+    std::map<std::filesystem::path, Value> fragments_; ///< already read
+    std::vector<std::filesystem::path> open_;          ///< being included, the innermost last
     std::vector<PlannedFile> included_;
 };
 
-/// The common key `when`: a truth, a comparison of expressions, or predicates on the scene.
+/// The common key `when`: a truth value, a comparison of expressions, or predicates on the scene.
 Condition read_condition(const Value& value, const Scope& scope, Problems& problems);
 
 /// Checks the format, `requires` and the keys of a file of stages.
 void check_head(const Value& document, const std::vector<std::string>& keys, Problems& problems);
 
-/// Whether the version satisfies a range like ">=0.3,<2"; none when the range cannot be read.
+/// True if the version satisfies a range such as ">=0.3,<2"; none for an invalid range.
 std::optional<bool> satisfies(const std::string& version, const std::string& range);
 
 } // namespace facetmill::pipeline

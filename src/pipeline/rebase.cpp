@@ -10,10 +10,9 @@ namespace facetmill::pipeline {
 namespace fs = std::filesystem;
 
 fs::path way(const fs::path& from, const fs::path& to) {
-    const auto whole =
-        [](const fs::path& folder) { // a file named without a folder is in the working directory
-            return fs::weakly_canonical(folder.empty() ? fs::current_path() : fs::absolute(folder));
-        };
+    const auto whole = [](const fs::path& folder) { // the working directory for a file without a folder
+        return fs::weakly_canonical(folder.empty() ? fs::current_path() : fs::absolute(folder));
+    };
     return fs::proximate(whole(to), whole(from));
 }
 
@@ -32,8 +31,7 @@ void rebase(Value& path, const fs::path& prefix, RunTimePaths run_time) {
 
 namespace {
 
-/// Whether an option of a stage names files that it reads: the stage itself is asked, with a probe for a
-/// path.
+/// True if an option of a stage names input files. It tests the stage with a probe path.
 bool reads_path(const StageInfo& stage, const Option& option) {
     if (!stage.names_files) return false;
     const auto use = stage.made();
@@ -64,7 +62,7 @@ class Rebase {
             }
     }
 
-    /// A param is its type, or a map with a type and a default.
+    /// A param is either a type, or a map with a type and a default.
     void param(Value& declaration) const {
         const Value* type = declaration.is_map() ? declaration.find("type") : nullptr;
         Value* value = declaration.is_map() ? declaration.find("default") : nullptr;

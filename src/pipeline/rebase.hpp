@@ -1,5 +1,5 @@
 #pragma once
-// Paths of a pipeline that is used in another folder than its own.
+// Adjusts the paths of a pipeline for use in another folder.
 
 #include "options/value.hpp"
 
@@ -7,21 +7,21 @@
 
 namespace facetmill::pipeline {
 
-/// What becomes of a path that begins with ${...}, whose folder is known only at run time.
+/// How to handle a path that begins with ${...}, because its folder is known only at run time.
 enum class RunTimePaths {
     refused, ///< throws usage (E-SAVE)
-    kept,    ///< the variable says where it starts
+    kept,    ///< the variable gives the base folder
 };
 
-/// Rewrites the relative paths that the stages of a document read, and the defaults of its params of type
-/// path, so that they mean the same from another folder: what a pipeline file reads is relative to that file.
+/// Rewrites the relative input paths of a document's stages, and the defaults of its path params. They then
+/// refer to the same files from another folder. Input paths are relative to the pipeline file.
 void rebase_inputs(Value& document, const std::filesystem::path& from, const std::filesystem::path& to,
                    RunTimePaths run_time);
 
-/// One path, or each of a list.
+/// Adjusts one path, or each path of a list.
 void rebase(Value& path, const std::filesystem::path& prefix, RunTimePaths run_time);
 
-/// What leads from a folder to another: "../scans"; "." when they are the same.
+/// The relative path from a folder to another: "../scans"; "." for the same folder.
 std::filesystem::path way(const std::filesystem::path& from, const std::filesystem::path& to);
 
 } // namespace facetmill::pipeline

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the names of images may depend on the step: it changes the scene, or writes some.
+/// True if the names of images may depend on the step: it changes the scene, or writes images.
 bool matters(const Step& step) {
     if (!step.info) return true;
     if (step.info->checks) return false;
@@ -33,7 +33,7 @@ Steps those_that_matter(const Steps& steps) {
     return some;
 }
 
-/// Whether it can run without taking anything from anybody: what comes through a pipe is there once.
+/// True if a rehearsal consumes no input: data from a pipe can be read only once.
 bool may_run(const Plan& plan) {
     if (!missing_inputs(plan).empty() || plan_cells(plan, {}).steps > 0) return false;
     const auto files = planned_files(plan.steps, plan.places);
@@ -42,7 +42,7 @@ bool may_run(const Plan& plan) {
     });
 }
 
-/// What a run of these steps would write; none when it would fail.
+/// The files that a run of these steps would write; none if it would fail.
 std::optional<std::vector<fs::path>> files_of_run(const Plan& plan) {
     std::vector<fs::path> files;
     RunSettings settings;

@@ -1,15 +1,14 @@
 #pragma once
-// Which files a plan would write, where only its stages know: textures that become WebP where that is
-// smaller, images that nothing uses any more.
+// Predicts a plan's output files if only its stages can determine them. For example, textures may be
+// converted to WebP only where that is smaller, and unused images dropped.
 
 #include "pipeline/plan.hpp"
 
 namespace facetmill::pipeline {
 
-/// read_headers, with the files that are written beside outputs as a run would write them. Where stages
-/// change images (Headers::images_change) those stages that matter run, which takes as long as they take, and
-/// nothing is written; what cannot run, lacks an input or is larger than memory leaves the names that there
-/// would be without those stages.
+/// read_headers, with the exact additional output files. If stages change images (Headers::images_change), it
+/// runs the relevant stages without writing, which takes their time. If that is impossible, an input is
+/// missing, or the mesh exceeds memory, it keeps the file names without those stages.
 Headers rehearsed_headers(const Plan& plan);
 
 } // namespace facetmill::pipeline

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How many outputs there will be, about: files that stages name.
+/// The approximate number of outputs: files that stages name.
 std::size_t count_outputs(const Steps& steps) {
     std::size_t count = 0;
     for_each_step(steps,
@@ -27,7 +27,7 @@ std::size_t count_outputs(const Steps& steps) {
     return count;
 }
 
-/// Whether a contract or a stage compares with the scene as loaded.
+/// True if a contract or a stage compares with the scene as loaded.
 bool compares_with_load(const Steps& steps) {
     bool any = false;
     for_each_step(steps, [&](const Step& step) {
@@ -38,7 +38,7 @@ bool compares_with_load(const Steps& steps) {
     return any;
 }
 
-/// What is known of the run before it begins.
+/// The record of a run before it begins.
 report::RunRecord record_of(const Plan& plan) {
     report::RunRecord record;
     record.pipeline = plan.name;
@@ -55,7 +55,7 @@ void write_report(const Plan& plan, const std::string& path, const report::RunRe
     io::write_now(plan.places.output(path), std::as_bytes(std::span(text)), commit);
 }
 
-/// All around the steps: what is checked before them, and the files that are written after them.
+/// Everything around the steps: checks before them, and writing files after them.
 class Runner {
   public:
     Runner(const Plan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
@@ -98,7 +98,7 @@ class Runner {
   private:
     report::RunRecord& record() { return state_.record; }
 
-    /// What can be known before any mesh is read.
+    /// Checks everything that is possible before reading a mesh.
     void check_before(bool is_job) {
         std::vector<Diagnostic> warnings = plan_.warnings;
         if (const auto warning = without_effect(plan_)) warnings.push_back(*warning);
@@ -112,7 +112,7 @@ class Runner {
         if (!is_job && !settings_.commit.names_only) try_outputs(headers);
     }
 
-    /// Runs the first steps where they are to work on cells. Whether the scene is in memory afterwards.
+    /// Runs the first steps on cells if necessary. Returns true if the scene is in memory afterwards.
     bool run_cells(SceneState& flow) {
         const auto planned = [&] {
             on_cells_ = plan_cells(plan_, settings_.cells);
@@ -124,12 +124,12 @@ class Runner {
         };
         if (!failures_.guarded({}, "the plan", planned)) return false;
         if (on_cells_.steps == 0) return true;
-        output_folder_.make(plan_.places.output_base); // where temporary data usually is
+        output_folder_.make(plan_.places.output_base); // the usual place of temporary data
         return run_on_cells(engine_, on_cells_, flow);
     }
 
-    /// Stages a small file for everything that will be written, and removes it again: a folder that is full
-    /// or read-only is found before the work. One error a folder.
+    /// Creates and removes a small test file for each output, so that a full or read-only folder is found
+    /// before the work. One error per folder.
     void try_outputs(const Headers& headers) {
         constexpr std::size_t a_block = 4096;
         const io::Bytes bytes(a_block);
@@ -146,16 +146,16 @@ class Runner {
         }
     }
 
-    /// A texture that is copied to where it is stays as it is.
+    /// A texture that would be copied onto itself stays unchanged.
     static bool is_read(const fs::path& path, const Headers& headers) {
         return std::any_of(headers.more_inputs.begin(), headers.more_inputs.end(),
                            [&](const fs::path& input) {
-                               std::error_code ignored; // what is not there is no other file
+                               std::error_code ignored; // a missing file is not the same file
                                return fs::equivalent(input, path, ignored);
                            });
     }
 
-    /// All that can be written are, whatever became of the others.
+    /// Writes as many reports as possible, even if some fail.
     void write_reports() {
         if (settings_.on_view) settings_.on_view(view_.json());
         for (const auto& path : plan_.reports) {

@@ -1,5 +1,5 @@
 #pragma once
-// A scene on its way through the steps: itself, or what is known of one that the cache has.
+// The scene between steps: in memory, or as a description of a cached scene.
 
 #include "cache/state.hpp"
 #include "pipeline/plan.hpp"
@@ -10,43 +10,42 @@
 
 namespace facetmill::pipeline {
 
-/// A step that was not run, because the cache knows what it would tell.
+/// A step that did not run, because the cache has its output.
 struct Recalled {
     const Step* step = nullptr;
-    std::size_t trace = 0;    ///< its place in the trace of the run
+    std::size_t trace = 0;    ///< its index in the trace of the run
     double load_diagonal = 0; ///< before it
     cache::Memory memory;
 };
 
 struct SceneState {
-    Scene scene; ///< as it was before the steps that were recalled
+    Scene scene; ///< before the recalled steps
     std::vector<Recalled> recalled;
-    /// What the last stage left, as long as `scene` is that.
+    /// The result of the last stage, as long as `scene` is that result.
     struct Left {
         report::Brief brief;
         std::optional<std::vector<PartSurface>> surfaces;
     };
     std::optional<Left> left;
-    /// Of the scene after them: scenes with one key are equal. Empty: not known yet.
+    /// The key of the scene after the recalled steps: equal keys mean equal scenes. Empty: not yet known.
     std::string key;
-    /// Seconds that stages took since the last scene of this way that the cache has, less those that storing
-    /// has used up.
+    /// Seconds that stages took since the last cached scene, minus the seconds already used for storing.
     double unsaved = 0;
-    double before_branch = 0;       ///< ... of them those before the branch, which all its arms share
-    double spent_before_branch = 0; ///< what this arm has used up of them
-    /// What the cache gets of these stages as soon as it gets a scene after them: by key.
+    double before_branch = 0;       ///< the seconds before the branch, which all its arms share
+    double spent_before_branch = 0; ///< seconds that this arm has used from them
+    /// Data about these stages for the cache, by key; stored together with the next scene.
     std::vector<std::pair<std::string, io::Bytes>> memories;
-    /// What a load told, by its key, as long as nobody has asked for the key of the scene that it gave.
+    /// The output of a load, with its key, until the key of its scene is computed.
     std::optional<std::pair<std::string, cache::Memory>> loaded;
     bool without_cache = false;
-    bool in_cells = false;        ///< there is no scene yet: what was loaded is larger than memory
-    SceneState* origin = nullptr; ///< the flow that it branched off, which outlives it
-    std::size_t inherited = 0;    ///< how many of the recalled steps are the origin's
+    bool in_cells = false;        ///< no scene yet: the loaded mesh is larger than memory
+    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this one
+    std::size_t inherited = 0;    ///< how many recalled steps belong to the origin
 
-    /// Whether `scene` is the scene now.
+    /// True if `scene` is the current scene.
     bool is_here() const { return recalled.empty(); }
     Box bounds() const { return is_here() ? scene.bounds() : recalled.back().memory.bounds; }
-    /// The same scene, for an arm: what must be made to get it is made once, for all arms.
+    /// The same scene for an arm. Work to fetch it is done once, for all arms.
     SceneState branched_off() {
         SceneState arm;
         if (is_here())
@@ -64,20 +63,20 @@ struct SceneState {
         arm.spent_before_branch = 0;
         return arm;
     }
-    /// Storing has used up so many of the seconds: of this way's own first.
+    /// Records the seconds used for storing; takes them from this flow's own time first.
     void spend(double seconds) {
         const double shared = std::clamp(seconds - (unsaved - before_branch), 0.0, before_branch);
         unsaved = std::max(0.0, unsaved - seconds);
         before_branch -= shared;
         spent_before_branch += shared;
     }
-    /// All so far is stored, or has become worthless.
+    /// Everything so far is stored, or no longer useful.
     void begin_anew() {
         unsaved = before_branch = 0;
         memories.clear();
         loaded.reset();
     }
-    /// The scene has become another, which no key is known of.
+    /// The scene was replaced by a scene with an unknown key.
     void replaced() {
         left.reset();
         key.clear();

@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Storing may take this much of the time that it saves.
+/// Storing may use this share of the time that it saves.
 constexpr double share_for_storing = 0.1;
 
-/// Everything of a value that parsing may see, and reports may show: spellings, too, but no places.
+/// Appends everything in a value that parsing or reports may use, including spellings, but no marks.
 void spell(const Value& value, std::vector<std::string>& out) {
     out.push_back(fmt::format("{}{}{} {} {}", static_cast<int>(value.kind), value.quoted ? "q" : "",
                               value.deferred ? "d" : "", value.items.size(), value.entries.size()));
@@ -33,7 +33,7 @@ void spell(const Value& value, std::vector<std::string>& out) {
     }
 }
 
-/// The options as a map in the order of their names, however they were given, with those that were left out.
+/// The options as a map sorted by name, in any input form, with defaults added.
 Value as_map(const Step& step) {
     Value map = step.given;
     const Option* primary = step.info->options->primary();
@@ -56,7 +56,7 @@ std::vector<fs::path> files_to_load(const Step& step, const Folders& places) {
     return files;
 }
 
-/// Whether the stage names files, besides what it loads.
+/// True if the stage names files, except files that it loads.
 bool names_files(const Step& step) {
     const StageFiles named = step.stage->files();
     const auto is_named = [](const PathText& path) { return !path.text.empty(); };
@@ -89,8 +89,8 @@ bool are_unchanged(const cache::Memory& memory) {
                         [&](const std::string& path) { return fs::exists(path, ignored); });
 }
 
-/// Bytes for storing are a copy of the scene: a small part of what there is, so that a run does not end for
-/// want of what only its cache took.
+/// Storing needs a copy of the scene. It must be a small part of the available memory, so that caching never
+/// makes a run fail.
 bool has_memory_for(std::size_t bytes) {
     constexpr std::uint64_t parts = 4;
     const auto there = available_memory();
@@ -101,7 +101,7 @@ bool same_mark(const Mark& a, const Mark& b) {
     return a.source == b.source && a.line == b.line && a.column == b.column && a.length == b.length;
 }
 
-/// What the stage added to a list of the run.
+/// The entries that the stage added to a list of the run.
 template <class T>
 std::vector<T> since(const std::vector<T>& all, std::size_t first) {
     return {all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())), all.end()};
@@ -121,8 +121,8 @@ bool StageCache::may_recall(const Step& step) const {
     return !names_files(step);
 }
 
-/// Of a scene that no stage with a key made it is its digest, which is computed when it is asked for: a scene
-/// that is only loaded and written needs none.
+/// The key of a scene that was not made by a stage with a key is its digest. It is computed on demand,
+/// because a scene that is only loaded and written needs none.
 void StageCache::know_key(SceneState& flow) {
     if (!flow.key.empty()) return;
     flow.key = cache::digest_of(flow.scene);
@@ -142,7 +142,7 @@ void StageCache::before_arms(SceneState& flow, const std::vector<Arm>& arms) con
         know_key(flow);
 }
 
-/// Of a flow whose key is known.
+/// The flow's key must be known.
 std::string StageCache::key_of(const Step& step, const SceneState& flow, double load_diagonal) const {
     std::vector<std::string> texts{code_id(), flow.key, step.info->name, to_string(load_diagonal)};
     spell(as_map(step), texts);
@@ -193,7 +193,7 @@ bool StageCache::recall_known(const Step& step, SceneState& flow, RunState& run,
     memory->record = {};
     flow.key = memory->scene;
     if (step.info->loads) run.load_diagonal = diagonal(memory->bounds);
-    store_->has(flow.key, cache::Kind::scene); // it counts as used, so that it stays for later
+    store_->has(flow.key, cache::Kind::scene); // marks it as used, so that it stays in the store
     flow.recalled.push_back({&step, trace_.size() - 1, load_diagonal, std::move(*memory)});
     return true;
 }
@@ -276,7 +276,7 @@ void StageCache::store_scene(SceneState& flow) {
     flow.begin_anew();
 }
 
-/// None when there is not enough memory for both its bytes and itself: the stages may need less.
+/// None if memory is insufficient for both the bytes and the scene; running the stages may need less.
 std::optional<Scene> StageCache::stored_scene(const std::string& key) {
     try {
         const auto bytes = store_->get(key, cache::Kind::scene);
@@ -323,7 +323,8 @@ void StageCache::know_documents(const Scene& scene) {
             documents_.push_back(document);
 }
 
-/// A document that is known is not kept twice, nor are its images decoded twice. Two of a scene stay two.
+/// Keeps known documents once, with their decoded images. Different documents of the same scene stay
+/// separate.
 void StageCache::share_documents(Scene& scene) {
     const auto same = [](const Document& a, const Document& b) {
         return a.name == b.name && a.json == b.json && a.files == b.files && a.buffers == b.buffers;
@@ -345,7 +346,7 @@ void StageCache::run_again(SceneState& flow, std::size_t first) {
         const Step& step = *recalled.step;
         trace_[recalled.trace].way = TracedStep::Way::again;
         const Stopwatch watch;
-        RunState run; // what the step tells is told already
+        RunState run; // its output was already reported
         run.places = places_;
         run.load_diagonal = recalled.load_diagonal;
         report::StageRecord record;

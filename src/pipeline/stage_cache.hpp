@@ -1,16 +1,16 @@
 #pragma once
-// Which stages need not be run, because the cache knows what they did with the same scene and options; and
-// what it is told of those that were run.
+// Skips stages whose results for the same scene and options are in the cache, and stores the results of
+// stages that ran.
 //
-// A stage is recalled when it reads nothing but the scene, its options and `only`, and does nothing but give
-// a scene and fill its own record (its name may be in a warning only); or when it loads, and the files that
-// it read are the same. Those that judge or write always run. What a stage did besides is looked at after it
-// ran, too, and then not stored.
+// A stage can be recalled if it reads only the scene, its options and `only`, and only returns a scene and
+// fills its record (warnings may contain its name). A load can be recalled if the files that it read are
+// unchanged. Stages that check or write always run. If a stage turns out to have had other effects, its
+// result is not stored.
 //
-// The key of a scene that a stage made is of the scene before it, the stage, its options, this program and
-// its libraries; that of any other scene (loaded, joined ...) is of its contents, so that it does not matter
-// how it came about. A scene is stored when that takes at most a tenth of the time of the stages since the
-// last one that is stored; what the report says of these stages is stored with it, and only then.
+// The key of a stage's result is computed from the previous scene's key, the stage, its options, this program
+// and its libraries. The key of any other scene (loaded, joined ...) is computed from its contents, so its
+// history does not matter. A scene is stored if that takes at most a tenth of the stages' time since the last
+// stored scene. The report entries of these stages are stored together with it.
 
 #include "cache/store.hpp"
 #include "pipeline/scene_state.hpp"
@@ -19,38 +19,38 @@
 
 namespace facetmill::pipeline {
 
-/// The key of what a stage makes, with its options, of that which has this key: 64 digits.
+/// The key of a stage's result, given the key of its input: 64 digits.
 std::string key_after(const std::string& key, const Step& step);
 
 class StageCache {
   public:
-    /// store: none, and nothing is recalled or stored. trace: its last entry is that of the present step.
+    /// store: null disables recalling and storing. trace: its last entry is the current step's.
     StageCache(cache::Store* store, const Folders& places, Trace& trace)
         : store_(store), places_(places), trace_(trace) {}
 
-    /// Steps that load always run from now on.
+    /// From now on, steps that load always run.
     void keep_loads() { loads_run_ = true; }
 
-    /// Whether the step need not be run: then its record is filled, and the run has its inputs.
+    /// True if the step need not run; then its record is filled, and the run has its inputs.
     bool recall(const Step& step, SceneState& flow, RunState& run, report::StageRecord& stage);
 
-    /// What is to be known of a run before a stage for judging it afterwards.
+    /// The state of a run before a stage, to decide afterwards whether its result may be stored.
     struct Before {
-        std::string key; ///< of the stage with this scene; empty: it is not stored
+        std::string key; ///< of the stage with this scene; empty: not stored
         std::size_t inputs = 0, absent = 0, outputs = 0, staged = 0, checks = 0, warnings = 0,
                     unrepeatable = 0;
         double load_diagonal = 0;
     };
     Before before(const Step& step, const SceneState& flow, const RunState& run) const;
-    /// After a stage that ran and did what it should: its scene is the flow's.
+    /// Call it after a successful stage; the flow contains its scene.
     void keep(const Step& step, SceneState& flow, const RunState& run, const report::StageRecord& stage,
               const Before& before);
 
-    /// Before a flow branches off into these arms, so that what they all would compute is computed once.
+    /// Call it before a flow branches into these arms, so that common work is done once.
     void before_arms(SceneState& flow, const std::vector<Arm>& arms) const;
 
-    /// Makes the scene of a flow be there: from the cache, or by running the steps that were recalled. Throws
-    /// as they do, and malformed (E-CHANGED) when an input is another by now.
+    /// Brings the scene of a flow into memory: from the cache, or by running the recalled steps. Throws their
+    /// errors, and malformed (E-CHANGED) if an input has changed.
     void fetch(SceneState& flow);
 
   private:

@@ -11,7 +11,7 @@ namespace facetmill::pipeline {
 
 namespace {
 
-/// Keys that belong to an item beside its stage.
+/// Keys that may accompany a stage in an item.
 bool belongs(std::string_view key, std::string_view stage) {
     const ControlItem* control = control_item(stage);
     if (is_common_key(key)) return !control || control->takes_common_keys;
@@ -54,17 +54,17 @@ void no_such_stage(const std::string& name, const Mark& where, Problems& problem
     problems.add(where, "E-STAGE", fmt::format("there is no stage '{}'", name), hint_of_no_stage(name));
 }
 
-/// A common key that is a stage of its own when it is alone.
+/// A common key that is also the name of a stage, if it is alone.
 bool is_key_and_stage(std::string_view key) { return is_common_key(key) && stage_named(key); }
 
-/// Which entry of the item is its stage; null after a problem.
+/// The entry of the item that is its stage; null after a problem.
 const Value::Entry* stage_entry(const Value& item, Problems& problems) {
     const Value::Entry* stage = nullptr;
     for (const auto& entry : item.entries)
         if (!stage && is_stage(entry.key) && !is_common_key(entry.key)) stage = &entry;
     for (const auto& entry : item.entries)
         if (!stage && is_key_and_stage(entry.key)) stage = &entry;
-    bool good = true, known = true; // known: all that is wrong is words that mean nothing
+    bool good = true, known = true; // known: the only errors are unknown words
     for (const auto& entry : item.entries) {
         if (&entry == stage || (stage && belongs(entry.key, stage->key)) ||
             (!stage && is_common_key(entry.key)))
@@ -96,11 +96,11 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
         problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is not a key of an item", entry.key), hint);
     }
     if (!stage && good) problems.add(item.mark, "E-STAGE", "the item has no stage", "- clip: {plane: z=0}");
-    return good || known ? stage : nullptr; // its options are looked at, too
+    return good || known ? stage : nullptr; // also checks its options
 }
 
-/// A name from a file that is a path as a whole ("${part}") becomes the name of a file, not a way to
-/// anywhere. given: with the expressions that value holds resolved.
+/// If a whole path is a name from a file ("${part}"), it becomes a safe file name instead of a path. given:
+/// the value with its expressions resolved.
 Value with_safe_paths(const Value& value, Value given, const StageInfo& stage, const Scope& scope) {
     const auto make_safe = [&](const Value& before, Value& after) {
         if (after.is_scalar() && is_name_from_file(before, scope)) after.text = safe_name(after.text);
@@ -135,7 +135,7 @@ Steps Planner::steps(const Value& list, const Scope& scope, const Position& posi
 
 bool Planner::count_step(const Mark& where) {
     constexpr std::size_t max_steps = 50'000;
-    if (steps_ > max_steps) return false; // said once
+    if (steps_ > max_steps) return false; // reported once
     if (++steps_ <= max_steps) return true;
     problems_.add(where, "E-FOREACH",
                   fmt::format("with every foreach written out there are more than {} stages", max_steps),
@@ -161,7 +161,7 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
     }
     const Value::Entry* entry = stage_entry(as_map, problems_);
     if (!entry) {
-        has_scene = true; // it may have been the load; do not complain of what follows
+        has_scene = true; // it may have been the load; do not report missing scenes
         return;
     }
     const ControlItem* control = control_item(entry->key);
@@ -191,7 +191,7 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
 void Planner::common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
                           const Position& position) {
     for (const CommonKey& key : facetmill::common_keys()) {
-        const Value* value = key.name == base ? nullptr : item.find(key.name); // that is the stage
+        const Value* value = key.name == base ? nullptr : item.find(key.name); // the key is the stage itself
         switch (key.use) {
         case CommonKey::Use::names:
             name_step(step, value, scope, base, position);
@@ -246,7 +246,7 @@ void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& sco
         problems_.add(entry.key_mark, "E-ORDER",
                       fmt::format("'{}' needs a scene, but nothing has been loaded before it", entry.key),
                       "begin with load: FILE");
-        has_scene = true; // said once
+        has_scene = true; // reported once
     }
     has_scene = has_scene || step.info->loads;
     step.given = with_safe_paths(entry.value, resolved(entry.value, scope, problems_), *step.info, scope);

@@ -15,7 +15,7 @@ namespace {
 
 using Way = TracedStep::Way;
 
-/// Of the pipeline file and all that it writes.
+/// The name of the last run of this pipeline file with the same outputs.
 std::string name_of_last(const Plan& plan, const std::string& pipeline_file) {
     std::vector<std::string> texts{
         pipeline_file.empty() ? plan.name : fs::absolute(pipeline_file).lexically_normal().string()};
@@ -48,7 +48,7 @@ bool is_last(const Json& last) {
            std::all_of(last["steps"].begin(), last["steps"].end(), is_step);
 }
 
-/// What is broken is none.
+/// A damaged entry counts as missing.
 Json last_of(const std::string& name, cache::Store& store) {
     const auto bytes = store.get(name, cache::Kind::last_run);
     if (!bytes) return {};
@@ -97,7 +97,7 @@ void compare_inputs(const Json& before, const TracedStep& now, std::vector<std::
     }
 }
 
-/// Why a step ran that could have been recalled.
+/// The reason why a step ran that could have been recalled.
 std::string reason(const TracedStep& step, const Json& last) {
     const Json* before = step_named(last, step.name);
     if (last.is_null()) return "no earlier run with these outputs is known";

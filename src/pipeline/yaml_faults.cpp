@@ -11,7 +11,7 @@ struct Said {
     std::string message, hint;
 };
 
-/// From `at` to the end of the value: to what ends one in braces, or a comment.
+/// The text from `at` to the end of the value: a closing brace or comma in braces, or a comment.
 std::string value_at(const std::string& text, std::size_t at) {
     const std::size_t end = std::min(text.size(), text.find_first_of(",]}\r\n", at));
     std::string value = text.substr(at, end - at);
@@ -32,7 +32,7 @@ bool is_indented_by_tab(const std::string& text, std::size_t at) {
     return line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos;
 }
 
-/// "- relax" and then "when: ..." below it: the name needs a colon to have keys beside it.
+/// "- relax" with "when: ..." below: the name needs a colon before more keys.
 std::string bare_item_hint(const std::string& text, std::size_t at) {
     const std::size_t line = text.rfind('\n', std::min(at, text.size() - 1) - (at > 0 ? 1 : 0));
     if (text.empty() || line == std::string::npos || line == 0) return {};
@@ -42,7 +42,7 @@ std::string bare_item_hint(const std::string& text, std::size_t at) {
     return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
 }
 
-/// A text in quotes that ended where nobody meant it to, right before byte `at`.
+/// A hint for a quoted text that ended unexpectedly, just before byte `at`.
 std::string quote_hint(const SourceIndex& source, const Extent& quoted, std::size_t at) {
     const std::string& text = source.text();
     const std::string_view between = std::string_view(text).substr(quoted.end, at - quoted.end);
@@ -56,7 +56,7 @@ std::string quote_hint(const SourceIndex& source, const Extent& quoted, std::siz
                                       : "inside \"...\" a \" is written \\\"";
 }
 
-/// A value that begins with a character of YAML's own.
+/// A value that begins with a special character of YAML.
 std::optional<Said> special_character(const std::string& text, std::size_t at) {
     if (at >= text.size() || std::string_view("*%@`&").find(text[at]) == std::string_view::npos) return {};
     const std::string value = value_at(text, at);

@@ -1,6 +1,6 @@
 #pragma once
-// The text of a pipeline as a person sees it: offsets to places, what no text may hold, and what stands where
-// the parser of YAML points.
+// Positions in the text of a pipeline: marks for byte offsets, forbidden characters, and the text at the YAML
+// parser's positions.
 
 #include "base/error.hpp"
 
@@ -12,16 +12,16 @@
 
 namespace facetmill::pipeline {
 
-/// Turns byte offsets of a text into marks.
+/// Converts byte offsets of a text into marks.
 class SourceIndex {
   public:
     explicit SourceIndex(std::shared_ptr<const SourceText> source);
 
     const std::string& text() const { return source_->text; }
     const std::string& name() const { return source_->name; }
-    /// The place of the byte at offset (clamped to the text), underlining so many characters.
+    /// The mark of the byte at offset (clamped to the text), with `length` characters underlined.
     Mark mark(std::size_t offset, int length = 1) const;
-    /// Characters (UTF-8) in the bytes [begin, end).
+    /// The number of characters (UTF-8) in the bytes [begin, end).
     int characters(std::size_t begin, std::size_t end) const;
 
   private:
@@ -29,26 +29,25 @@ class SourceIndex {
     std::vector<std::size_t> line_begins_;
 };
 
-/// Where the name of what is no pipeline is that of a mesh, what to do with one; else empty.
+/// A hint if the name of an invalid pipeline file is the name of a mesh; else empty.
 std::string hint_for_no_pipeline(const std::string& name);
 
-/// Whether the text is UTF-8 without control characters and of bearable size; adds E-YAML at the first place
-/// that is not. YAML allows no control characters, and a NUL or EOT would end some parsers early without a
-/// word.
+/// Checks that the text is UTF-8, without control characters and not too large; adds E-YAML at the first
+/// error. YAML forbids control characters, and some parsers silently stop at a NUL or EOT.
 bool check_text(const SourceIndex& source, Problems& problems);
 
-/// Where the content of a node begins, behind its anchor and tag.
+/// The start of a node's content, after its anchor and tag.
 std::size_t content_at(const std::string& text, std::size_t at);
 
-/// The dash of an item that has nothing behind it, before `at`.
+/// The dash of an empty list item before `at`.
 Mark empty_item_mark(const SourceIndex& source, std::size_t at);
-/// The alias that begins at `at`.
+/// The alias at `at`.
 Mark alias_mark(const SourceIndex& source, std::size_t at);
-/// The scalar that begins at `at`, as far as its line goes; in quotes unless it is plain.
+/// The scalar at `at`, up to the end of its line; quoted unless plain.
 Mark scalar_mark(const SourceIndex& source, std::size_t at, const std::string& text, bool plain);
 
-/// Where an expression without quotes ends, of which the parser took `text`, "$" at its end, for a scalar;
-/// none when it is no expression.
+/// The end of an unquoted expression that the parser read as the scalar `text`, ending with "$"; none if it
+/// is not an expression.
 std::optional<std::size_t> end_of_unquoted(const std::string& all, std::size_t at, const std::string& text);
 
 } // namespace facetmill::pipeline

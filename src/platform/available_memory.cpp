@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// The number that a file begins with; none when it has none ("max").
+/// The number at the beginning of a file; none if there is none ("max").
 std::optional<std::uint64_t> number_in(const std::string& path) {
     std::ifstream file(path);
     std::uint64_t n = 0;
@@ -20,7 +20,7 @@ std::optional<std::uint64_t> number_in(const std::string& path) {
     return {};
 }
 
-/// Available to the machine, in bytes.
+/// Memory available on the machine, in bytes.
 std::optional<std::uint64_t> of_machine() {
     std::ifstream file("/proc/meminfo");
     for (std::string line; std::getline(file, line);) {
@@ -32,7 +32,7 @@ std::optional<std::uint64_t> of_machine() {
     return {};
 }
 
-/// What a folder of a cgroup leaves: its limit less what is in use and cannot be given back.
+/// The remaining memory of a cgroup folder: its limit minus the memory in use that cannot be reclaimed.
 std::optional<std::uint64_t> of_group(const std::string& folder) {
     auto limit = number_in(folder + "/memory.max"), used = number_in(folder + "/memory.current");
     if (!limit || !used) {
@@ -40,7 +40,7 @@ std::optional<std::uint64_t> of_group(const std::string& folder) {
         used = number_in(folder + "/memory.usage_in_bytes");
     }
     if (!limit || !used) return {};
-    std::uint64_t cached = 0; // pages of files are dropped when room is needed
+    std::uint64_t cached = 0; // the kernel drops file pages when it needs memory
     std::ifstream file(folder + "/memory.stat");
     std::string key;
     for (std::uint64_t n = 0; file >> key >> n;)

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory there is, and how much this process has.
+// Available memory, and memory used by this process.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace facetmill {
 
-/// The least of what the machine has available, what its cgroup leaves (v1 and v2), and what RLIMIT_AS
-/// leaves. None where the system does not say.
+/// The least of the memory that the machine has available, the cgroup allows (v1 and v2), and RLIMIT_AS
+/// allows. None if the system does not report it.
 std::optional<std::uint64_t> available_memory();
 
-/// In use by this process, of the memory of the machine.
+/// Physical memory in use by this process.
 std::uint64_t resident_memory();
-/// The most that it was so far.
+/// The maximum so far.
 std::size_t peak_memory();
 
 } // namespace facetmill

@@ -16,7 +16,7 @@ namespace facetmill {
 
 namespace {
 
-/// The identity among the notes of a program header, as hexadecimal; empty when there is none.
+/// The build id in the notes of a program header, as hexadecimal; empty if there is none.
 std::string id_in(std::span<const unsigned char> notes) {
     constexpr std::size_t aligned = 4;
     const auto padded = [](std::size_t size) { return (size + aligned - 1) / aligned * aligned; };
@@ -46,7 +46,7 @@ std::string id_of(const dl_phdr_info& info) {
     return {};
 }
 
-/// What stands in for the identity of a file that the linker gave none.
+/// Replaces the build id of a file that the linker gave none.
 std::string by_file(const char* path) {
     struct stat about {};
     ::stat(path, &about);
@@ -54,10 +54,10 @@ std::string by_file(const char* path) {
                        about.st_mtim.tv_nsec);
 }
 
-/// Called for the program first, whose name is empty, and then for each library.
+/// Called first for the program, whose name is empty, and then for each library.
 int add_id(dl_phdr_info* info, std::size_t, void* out) {
     const std::string name = info->dlpi_name;
-    if (name.starts_with("linux-vdso")) return 0; // the kernel's, which computes nothing
+    if (name.starts_with("linux-vdso")) return 0; // provided by the kernel; computes nothing
     std::string id = id_of(*info);
     if (id.empty()) id = by_file(name.empty() ? "/proc/self/exe" : name.c_str());
     static_cast<std::vector<std::string>*>(out)->push_back(std::move(id));

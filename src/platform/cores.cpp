@@ -23,7 +23,7 @@ int of_affinity() {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// A quota of time in a period, as cores; none when there is no limit.
+/// A quota of time per period, in cores; none without a limit.
 std::optional<double> quota_of(const std::string& folder) {
     std::ifstream both(folder + "/cpu.max");
     std::string quota, period;
@@ -31,12 +31,12 @@ std::optional<double> quota_of(const std::string& folder) {
         std::ifstream(folder + "/cpu.cfs_quota_us") >> quota;
         std::ifstream(folder + "/cpu.cfs_period_us") >> period;
     }
-    const auto time = parse_real(quota), of = parse_real(period); // "max" and -1 are no limits
+    const auto time = parse_real(quota), of = parse_real(period); // "max" and -1 mean no limit
     if (!time || !of || *time <= 0 || *of <= 0) return {};
     return *time / *of;
 }
 
-/// The least quota of a group and those that it is in.
+/// The smallest quota of a group and its ancestors.
 std::optional<double> of_groups(const std::string& root, std::string path) {
     std::optional<double> least;
     while (true) {

@@ -1,13 +1,13 @@
 #pragma once
-// How many cores this process may use.
+// The number of cores that this process may use.
 
 namespace facetmill {
 
 /// The cores that the affinity of this process and the quotas of its cgroups (v1 and v2) allow, at least 1.
 int allowed_cores();
 
-/// FACETMILL_JOBS when it is set, else allowed_cores(). Throws usage (E-ARGUMENT) when it is no number from 1
-/// to 4096.
+/// FACETMILL_JOBS if set, else allowed_cores(). Throws usage (E-ARGUMENT) unless it is a number from 1 to
+/// 4096.
 int default_threads();
 
 } // namespace facetmill

@@ -1,17 +1,17 @@
 #pragma once
-// Files that are open.
+// Open files.
 
 #include <filesystem>
 #include <utility>
 
 namespace facetmill {
 
-/// An open file of the system, closed at the end. One that could not be opened is false, and errno says why.
+/// A file descriptor, closed by the destructor. It is false if opening failed; errno gives the reason.
 class Descriptor {
   public:
     Descriptor() = default;
     explicit Descriptor(int number) : number_(number) {}
-    /// One that stays open: standard output, or what was passed on to this process.
+    /// Does not close the file: for standard output, or a descriptor passed to this process.
     static Descriptor borrowed(int number);
     static Descriptor standard_input() { return borrowed(0); }
     static Descriptor standard_output() { return borrowed(1); }
@@ -27,7 +27,7 @@ class Descriptor {
 
     explicit operator bool() const { return number_ >= 0; }
     int number() const { return number_; }
-    /// Network file systems report only here, by false and errno, that there is no room.
+    /// Network file systems report a full disk only here, by false and errno.
     bool close() noexcept;
 
   private:
@@ -36,7 +36,7 @@ class Descriptor {
 };
 
 enum class OpenFor { reading, writing, both };
-enum class Create { no, if_missing, always }; ///< always: what is there already is an error
+enum class Create { no, if_missing, always }; ///< always: an existing file is an error
 
 struct OpenOptions {
     OpenFor what = OpenFor::reading;
@@ -46,13 +46,13 @@ struct OpenOptions {
     bool follows_links = true;
     bool waits = true; ///< for the other end of a pipe, and for its bytes
     bool is_folder = false;
-    unsigned permissions = 0666; ///< of a file that is made
+    unsigned permissions = 0666; ///< for a new file
 };
 
-/// Programs that this process starts do not get the file.
+/// Child processes do not inherit the file.
 Descriptor open_file(const std::filesystem::path& path, const OpenOptions& options = {});
 
-/// A second one for the same open file, which shares its locks.
+/// A second descriptor of the same open file, which shares its locks.
 Descriptor duplicate(const Descriptor& file);
 
 } // namespace facetmill

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_at_once = std::size_t{1} << 30;
 
-/// Calls until no signal interrupts it.
+/// Repeats the call while signals interrupt it.
 template <class Call>
 std::optional<std::size_t> uninterrupted(Call&& call) {
     while (true) {
@@ -21,7 +21,7 @@ std::optional<std::size_t> uninterrupted(Call&& call) {
     }
 }
 
-/// Takes pieces until the span is full, or nothing comes.
+/// Repeats take until the span is full, or it returns no more bytes.
 template <class Take>
 std::size_t filled(std::span<std::byte> to, Take&& take) {
     std::size_t done = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes of open files. All calls begin again when a signal interrupts them.
+// Reads and writes bytes of open files. All calls restart after interruption by a signal.
 
 #include "platform/descriptor.hpp"
 
@@ -10,22 +10,22 @@
 
 namespace facetmill {
 
-/// Reads what is there, at most as much as fits; 0 at the end. None, with errno, when it cannot be read.
+/// Reads available bytes, at most the size of the span; 0 at the end. None, with errno, on failure.
 std::optional<std::size_t> read_some(const Descriptor& file, std::span<std::byte> to);
-/// Reads until all is filled, or the file ends or cannot be read; returns how many bytes it got.
+/// Reads until the span is full, the file ends, or an error occurs; returns the number of bytes read.
 std::size_t read_whole(const Descriptor& file, std::span<std::byte> to);
-/// The same from that byte on. Any thread.
+/// The same from an offset. May be called from any thread.
 std::size_t read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> to);
 
-/// Writes at least one byte, or says by none and errno why not.
+/// Writes at least one byte; none, with errno, on failure.
 std::optional<std::size_t> write_some(const Descriptor& file, std::span<const std::byte> bytes);
-/// Writes all from that byte on; false, with errno, when it cannot. Any thread.
+/// Writes all bytes at an offset; false, with errno, on failure. May be called from any thread.
 bool write_at(const Descriptor& file, std::uint64_t offset, std::span<const std::byte> bytes);
 
-/// Begins to write what the system keeps of a file, without waiting; a hint.
+/// Starts writing cached data of a file to disk, without waiting; only a hint.
 void begin_sync(const Descriptor& file);
-/// Waits until the bytes of a file, or the names in a folder, are on the disk. False, with errno, when they
-/// cannot get there. True where a file system has no such call.
+/// Waits until the bytes of a file, or the names in a folder, are on disk. False, with errno, on failure.
+/// True if the file system does not support it.
 bool synced(const Descriptor& file);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Locks of open files, which end with them.
+// Locks of open files; closing the file releases them.
 
 #include "platform/descriptor.hpp"
 
@@ -7,7 +7,8 @@ namespace facetmill {
 
 enum class Lock { shared, exclusive };
 
-/// Does not wait. False, with errno, when another holds it (EWOULDBLOCK) or the system has no locks there.
+/// Does not wait. False, with errno, if another process holds the lock (EWOULDBLOCK), or if the file system
+/// has no locks.
 bool try_lock(const Descriptor& file, Lock lock = Lock::exclusive);
 
 } // namespace facetmill

@@ -1,25 +1,25 @@
 #pragma once
-// Names of files and folders, and what this process may do with them. All return false, with errno, when the
-// system refuses; a handler of signals may call those that end in noexcept.
+// Operations on names of files and folders, and access checks. All return false, with errno, on failure.
+// Signal handlers may call the noexcept functions.
 
 #include <filesystem>
 
 namespace facetmill {
 
-/// Replaces what has the name `to`.
+/// Replaces an existing `to`.
 bool rename_file(const std::filesystem::path& from, const std::filesystem::path& to) noexcept;
 bool remove_file(const std::filesystem::path& path) noexcept;
-/// Unless something is in it.
+/// Fails if it is not empty.
 bool remove_folder(const std::filesystem::path& path) noexcept;
-/// One folder, in one that is there.
+/// Makes one folder; its parent must exist.
 bool make_folder(const std::filesystem::path& path, unsigned permissions = 0777);
-/// Gives it the time of now; of a link, the link itself.
+/// Sets its time to now; for a link, the link's own time.
 bool touch_file(const std::filesystem::path& path);
 
 bool may_read(const std::filesystem::path& path);
 bool may_write(const std::filesystem::path& path);
 bool may_run(const std::filesystem::path& path);
-/// Whether files may be made in the folder.
+/// True if this process may create files in the folder.
 bool may_write_in(const std::filesystem::path& folder);
 
 } // namespace facetmill

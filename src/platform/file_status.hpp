@@ -1,5 +1,5 @@
 #pragma once
-// What the system says of a file.
+// The status of files.
 
 #include "platform/descriptor.hpp"
 
@@ -8,20 +8,20 @@
 
 namespace facetmill {
 
-/// Which file it is, its size and its times.
+/// The identity of a file, its size and its times.
 struct FileStamp {
     std::uint64_t bytes = 0, device = 0, inode = 0;
-    std::int64_t modified = 0, changed = 0; ///< nanoseconds since 1970, of its contents and of anything of it
+    std::int64_t modified = 0, changed = 0; ///< nanoseconds since 1970, of its contents and of its metadata
     bool operator==(const FileStamp&) const = default;
 
-    /// None where there is no such file.
+    /// None if the file does not exist.
     static std::optional<FileStamp> of(const std::filesystem::path& path);
     static std::optional<FileStamp> of(const Descriptor& file);
     bool is_same_file(const FileStamp& other) const { return device == other.device && inode == other.inode; }
-    /// Whether it tells of the same contents; another name, owner or number of links is no other.
+    /// True if the contents are the same; the name, owner and number of links may differ.
     bool has_contents_of(const FileStamp& other) const;
-    /// Whether a file that is written to at that time, or later, gets other times, also where the system
-    /// counts in seconds.
+    /// True if a later write, from that time on, will change the file's times, even if the system counts in
+    /// seconds.
     bool is_settled(std::int64_t now) const;
 };
 
@@ -31,20 +31,20 @@ struct FileStatus {
     FileKind kind = FileKind::other;
     FileStamp stamp;
     unsigned owner = 0, group = 0, permissions = 0;
-    /// Whether it belongs to the user whose rights this process has.
+    /// True if it belongs to the user of this process.
     bool is_own() const;
 };
 
-/// None, with errno, where there is no such file.
+/// None, with errno, if the file does not exist.
 std::optional<FileStatus> status_of(const std::filesystem::path& path);
 std::optional<FileStatus> status_of(const Descriptor& file);
-/// ... of a link itself.
+/// The status of a link itself.
 std::optional<FileStatus> status_of_link(const std::filesystem::path& path);
 
-/// Gives an open file the permissions, and as far as allowed the owner, of another.
+/// Copies the permissions, and if allowed the owner, to an open file.
 void take_permissions(const Descriptor& file, const FileStatus& from);
 
-/// By the clock that files have their times from: nanoseconds since 1970.
+/// The current time of the clock that file times use: nanoseconds since 1970.
 std::int64_t nanoseconds_now();
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Room on disks.
+// Free disk space.
 
 #include <cstdint>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace facetmill {
 
-/// Bytes that this user may still write in the folder. None where the system does not say.
+/// The bytes that this user may still write in the folder. None if the system does not report it.
 std::optional<std::uint64_t> free_space(const std::filesystem::path& folder);
 
 } // namespace facetmill

@@ -63,7 +63,7 @@ class Interrupts::Watcher {
         ::pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
         while (true) {
             ::raise(number);
-            // Outputs are being renamed on another thread, and the handler lets that finish.
+            // Another thread is renaming outputs; the handler lets it finish.
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     }

@@ -1,13 +1,13 @@
 #pragma once
-// SIGINT, SIGTERM and SIGHUP while something long runs: it learns of them before they end the process.
+// Handles SIGINT, SIGTERM and SIGHUP during long operations, before they end the process.
 
 #include <functional>
 #include <memory>
 
 namespace facetmill {
 
-/// While one lives, these signals (except ignored ones: nohup) are kept from all threads that start. One that
-/// arrives calls the function, on a thread of its own, and then ends the process as it would have without.
+/// During its lifetime, new threads block these signals (except ignored ones: nohup). A signal calls the
+/// function on a separate thread, and then ends the process as usual.
 class Interrupts {
   public:
     explicit Interrupts(std::function<void()> on_signal);

@@ -1,11 +1,11 @@
 #pragma once
-// Where a path that may not be there yet will be.
+// Finds the existing part of a path.
 
 #include <filesystem>
 
 namespace facetmill {
 
-/// The path itself, or the nearest folder above it that is there; "." for a relative one of which nothing is.
+/// The path itself, or its nearest existing ancestor; "." for a relative path without one.
 inline std::filesystem::path nearest_existing(std::filesystem::path path) {
     std::error_code ignored;
     while (!path.empty() && !std::filesystem::exists(path, ignored))

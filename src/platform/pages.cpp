@@ -17,12 +17,12 @@ std::size_t page_size() noexcept {
 
 void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
-    constexpr std::size_t least = std::size_t{2} << 20; // less holds no page of 2 MiB
+    constexpr std::size_t least = std::size_t{2} << 20; // less contains no page of 2 MiB
     if (bytes < least) return;
     const std::size_t page = page_size();
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t begin = start / page * page, end = (start + bytes + page - 1) / page * page;
-    // Refused (a kernel without them): the pages are small, as they would have been.
+    // Refused by a kernel without them: pages stay small, as without the call.
     const int error = errno;
     (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
     errno = error;
@@ -31,14 +31,14 @@ void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::si
 
 void populate_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_POPULATE_WRITE
-    // Refused (an old kernel, a limit): the pages come one by one, as they would have.
+    // Refused by an old kernel or a limit: pages come one by one, as without the call.
     (void)madvise(memory, bytes, MADV_POPULATE_WRITE);
 #endif
 }
 
 void keep_freed_memory() noexcept {
 #if defined(__GLIBC__)
-    mallopt(M_MMAP_THRESHOLD, 1 << 30); // what is larger has a mapping of its own
+    mallopt(M_MMAP_THRESHOLD, 1 << 30); // larger blocks get their own mapping
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Memory as the system gives it: in pages, and files that are mapped to them.
+// Memory pages of the system, and files mapped to them.
 
 #include "platform/descriptor.hpp"
 
@@ -9,30 +9,29 @@
 
 namespace facetmill {
 
-/// Bytes of a page of memory, as the system counts them.
+/// The system's page size in bytes.
 std::size_t page_size() noexcept;
 
-/// Lets the system give the memory in pages of 2 MiB where it is large: to get it and to give it back then
-/// takes a fifth of the time that pages of 4 KiB take (Linux, transparent huge pages). operator new asks for
-/// all that it gives.
+/// Lets the system use pages of 2 MiB for large memory: allocating and freeing then takes a fifth of the time
+/// of 4 KiB pages (Linux, transparent huge pages). operator new calls it for all its memory.
 void ask_for_large_pages(void* memory, std::size_t bytes) noexcept;
 
-/// Asks for pages that will be written, all at once. memory: the beginning of a page. Changes no contents;
-/// does nothing where the system cannot.
+/// Allocates pages that will be written, all at once. memory: the beginning of a page. Does not change
+/// contents; does nothing if the system does not support it.
 void populate_pages(void* memory, std::size_t bytes) noexcept;
 
-/// For the whole process, before it does anything: large arrays that were freed serve the next ones, and do
-/// not go back to the system, which would clear their pages again (GNU's malloc; nothing elsewhere). Of
-/// memory at the end of the heap 256 MiB at most are kept so.
+/// Makes the process reuse the memory of large freed arrays instead of returning it to the system, which
+/// would have to clear the pages again. Keeps at most 256 MiB at the end of the heap. GNU's malloc only. Call
+/// it before any other work.
 void keep_freed_memory() noexcept;
 
-/// All of it goes back now.
+/// Returns all freed memory to the system now.
 void give_back_freed_memory() noexcept;
 
-/// The bytes of a file, to be read from the first to the last. Null when it cannot be mapped.
+/// Maps the bytes of a file for sequential reading. Null when it cannot be mapped.
 std::shared_ptr<const void> map_file(const Descriptor& file, std::size_t bytes);
 
-/// Gives back the whole pages of a part of a mapped file. Who reads them again gets them from the file again.
+/// Releases the whole pages of a part of a mapped file. Reading them again loads them from the file.
 void release_pages(std::span<const std::byte> part) noexcept;
 
 } // namespace facetmill

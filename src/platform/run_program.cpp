@@ -14,7 +14,7 @@ namespace facetmill {
 
 namespace {
 
-/// What becomes of the process that was made for the program.
+/// Runs in the child process: becomes the program.
 [[noreturn]] void become(const ProgramSettings& settings) {
     ::setpgid(0, 0);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
@@ -39,8 +39,8 @@ namespace {
 
 using How = ProgramEnd::How;
 
-/// Waits for the program; ends it, and what it has started, when it takes too long, or nobody waits for it
-/// any more.
+/// Waits for the program. Kills it with its children after the time limit, or when the parent no longer
+/// waits.
 How wait_for(pid_t process, const Descriptor& socket, std::chrono::seconds limit, int& status) {
     const auto deadline = std::chrono::steady_clock::now() + limit;
     constexpr int first_pause = 2, longest_pause = 50; // milliseconds
@@ -52,7 +52,7 @@ How wait_for(pid_t process, const Descriptor& socket, std::chrono::seconds limit
         const bool late = std::chrono::steady_clock::now() > deadline;
         if (!deserted && !late) continue;
         ::kill(-process, SIGKILL);
-        ::kill(process, SIGKILL); // before it has made its group
+        ::kill(process, SIGKILL); // before it creates its process group
         ::waitpid(process, &status, 0);
         return deserted ? How::deserted : How::late;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Other programs.
+// Runs other programs.
 
 #include "platform/descriptor.hpp"
 
@@ -12,7 +12,7 @@ namespace facetmill {
 struct ProgramSettings {
     std::filesystem::path program;
     std::vector<std::string> arguments;
-    std::filesystem::path log; ///< gets what it prints
+    std::filesystem::path log; ///< receives its output
     std::chrono::seconds limit{0};
 };
 
@@ -22,8 +22,8 @@ struct ProgramEnd {
     int number = 0; ///< its exit code (127: it cannot be run), the signal, or an errno
 };
 
-/// Runs it in the working folder, the only place where it may write, and waits. It ends, with all that it has
-/// started, when it takes longer than the limit, or when the other side of the socket closes.
+/// Runs the program in the working folder, the only place where it may write, and waits. It is killed with
+/// its children after the time limit, or when the other side of the socket closes.
 ProgramEnd run_program(const ProgramSettings& settings, const Descriptor& socket);
 
 } // namespace facetmill

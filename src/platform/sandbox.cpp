@@ -39,14 +39,14 @@ constexpr bool possible = true;
 
 #if defined(__x86_64__) || defined(__aarch64__)
 constexpr bool filters_calls = possible;
-#else // where clone may have its arguments in another order
+#else // the order of clone's arguments may differ
 constexpr bool filters_calls = false;
 #endif
 
 std::atomic<int> files_version{0};
 std::atomic<bool> calls_given_up{false};
 
-// --- Landlock: its interface as the kernel documents it, since headers may be older than kernels
+// --- Landlock: its interface from the kernel's documentation, because headers may be older than kernels
 
 constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446; // on every architecture
 
@@ -54,7 +54,7 @@ constexpr std::uint64_t right(int bit) { return std::uint64_t{1} << bit; }
 constexpr std::uint64_t run_file = right(0), write_file = right(1), read_file = right(2),
                         read_folder = right(3), remove_folders = right(4), remove_files = right(5),
                         make_folders = right(7), make_files = right(8), truncate_file = right(14);
-/// Those that a rule for a file, and not a folder, may give.
+/// The rights that a rule for a file, instead of a folder, may contain.
 constexpr std::uint64_t of_a_file = run_file | write_file | read_file | truncate_file;
 constexpr std::uint64_t reading = read_file | read_folder;
 constexpr std::uint64_t writing =
@@ -74,7 +74,7 @@ int landlock_version() {
     return version > 0 ? static_cast<int>(version) : 0;
 }
 
-/// All that this version can refuse.
+/// All rights that this version can restrict.
 Ruleset all_of(int version) {
     const int bits = version >= 5 ? 16 : version >= 3 ? 15 : version >= 2 ? 14 : 13;
     return {right(bits) - 1, version >= 4 ? std::uint64_t{3} : 0, version >= 6 ? std::uint64_t{3} : 0};
@@ -88,12 +88,11 @@ class Rules {
         descriptor_ = Descriptor(static_cast<int>(::syscall(create_ruleset, &handled_, size_of(version), 0)));
     }
 
-    /// What is not there, or cannot be named (the other end of a pipe, which is never refused), needs no
-    /// rule.
+    /// Missing and unnameable files need no rule. The other end of a pipe has no name, and is never refused.
     void allow(const fs::path& path, std::uint64_t rights) {
         const Descriptor file(::open(path.c_str(), O_PATH | O_CLOEXEC));
-        // Without descriptors or memory a rule would lack, and what the plan names be refused: then there are
-        // no rules.
+        // If descriptors or memory run out, a rule would be missing, and a planned file would be refused.
+        // Then no rules apply.
         if (!file) whole_ = whole_ && errno != EMFILE && errno != ENFILE && errno != ENOMEM && errno != EIO;
         if (!file) return;
         const auto about = status_of(file);
@@ -121,15 +120,14 @@ class Rules {
     bool whole_ = true;
 };
 
-/// Where libraries are found that are loaded when they are first needed (TBB), and what they and
-/// this program ask of the system: its limits, its cores, its own descriptors.
+/// Places of libraries loaded on demand (TBB), and of system information that they and this program read:
+/// limits, cores, open descriptors.
 constexpr std::array system_places{
     "/usr/lib",         "/usr/lib64",     "/usr/local/lib",      "/lib",          "/lib64",
     "/etc/ld.so.cache", "/etc/localtime", "/proc/self",          "/proc/meminfo", "/proc/cpuinfo",
     "/proc/stat",       "/sys/fs/cgroup", "/sys/devices/system", "/dev/urandom",  "/dev/zero"};
 
-/// The files of the program and of the libraries that are there: where they have no build id, it is made of
-/// them.
+/// The files of the program and its loaded libraries: without a build id, the id is computed from them.
 std::vector<fs::path> loaded_files() {
     std::vector<fs::path> files{"/proc/self/exe"};
     ::dl_iterate_phdr(
@@ -145,12 +143,12 @@ std::vector<fs::path> loaded_files() {
 
 // --- seccomp
 
-/// Calls that fail; those that the architecture does not have are left out.
+/// Calls that fail; calls that the architecture lacks are omitted.
 constexpr int refused_calls[] = {
     // other programs
     SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(fork), SCMP_SYS(vfork), SCMP_SYS(ptrace),
     SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(kcmp), SCMP_SYS(personality),
-    // networks, and what opens files and sockets past this filter
+    // networks, and calls that open files and sockets without passing this filter
     SCMP_SYS(socket), SCMP_SYS(socketpair), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen),
     SCMP_SYS(accept), SCMP_SYS(accept4), SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter),
     SCMP_SYS(io_uring_register),
@@ -169,7 +167,7 @@ constexpr int refused_calls[] = {
     SCMP_SYS(sysfs),
     // other processes by a descriptor
     SCMP_SYS(pidfd_send_signal), SCMP_SYS(pidfd_open), SCMP_SYS(pidfd_getfd),
-    440, // process_madvise, which libseccomp 2.5 does not know
+    440, // process_madvise, unknown to libseccomp 2.5
 };
 
 using Filter = std::unique_ptr<void, decltype(&seccomp_release)>;
@@ -178,20 +176,21 @@ bool refuse(const Filter& filter, int call, int error = EPERM) {
     return seccomp_rule_add_array(filter.get(), SCMP_ACT_ERRNO(error), call, 0, nullptr) == 0;
 }
 
-/// Only where the bits of an argument are these. Flags and requests have 32 bits, whatever is above them.
+/// Only if the masked bits of an argument match. Flags and requests have 32 bits; higher bits are ignored.
 bool refuse_if(const Filter& filter, int call, unsigned argument, std::uint64_t mask, std::uint64_t bits) {
     const scmp_arg_cmp condition{argument, SCMP_CMP_MASKED_EQ, mask, bits};
     return seccomp_rule_add_array(filter.get(), SCMP_ACT_ERRNO(EPERM), call, 1, &condition) == 0;
 }
 
-/// Calls of another architecture (x32 too) are refused, which are a second set of numbers for the same calls.
+/// Refuses calls of another architecture (x32 too), which have a second set of call numbers.
 bool fill(const Filter& filter) {
     constexpr std::uint64_t thread = 0x00010000, request = UINT32_MAX;
     constexpr std::uint64_t types_for_terminal = 0x5412, pastes_in_console = 0x541c; // TIOCSTI, TIOCLINUX
     bool whole = seccomp_attr_set(filter.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_ERRNO(EPERM)) == 0 &&
                  seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1) == 0;
     for (const int call : refused_calls) whole = whole && refuse(filter, call);
-    // clone3 has its flags in memory, which no filter sees: the C library then takes clone.
+    // clone3 has its flags in memory, where filters cannot check them; the C library then falls back to
+    // clone.
     return whole && refuse(filter, SCMP_SYS(clone3), ENOSYS) &&
            refuse_if(filter, SCMP_SYS(clone), 0, thread, 0) &&
            refuse_if(filter, SCMP_SYS(ioctl), 1, request, types_for_terminal) &&
@@ -204,7 +203,7 @@ Protections offered_protections() {
     Protections offered;
     if (!possible) return offered;
     offered.files = landlock_version();
-    constexpr unsigned for_all_threads = 2; // of the levels of seccomp_api_get(3)
+    constexpr unsigned for_all_threads = 2; // a level of seccomp_api_get(3)
     offered.calls = filters_calls && seccomp_api_get() >= for_all_threads;
     return offered;
 }

@@ -1,8 +1,7 @@
 #pragma once
-// What a process gives up before it reads files of strangers: files that it does not need (Landlock), and
-// calls of the system that no mesh asks for (seccomp). There is no way back. Linux only, and as far as its
-// kernel has them; elsewhere nothing is given up. Call it before threads start: a thread that runs already
-// keeps its access to files.
+// Drops rights before a process reads untrusted files: access to unneeded files (Landlock), and system calls
+// that meshes do not need (seccomp). This cannot be undone. Linux only, depending on its kernel; elsewhere
+// nothing changes. Call it before starting threads: a running thread keeps its access to files.
 
 #include <filesystem>
 #include <string>
@@ -10,40 +9,40 @@
 
 namespace facetmill {
 
-/// What the kernel offers, or what is on.
+/// The protections that the kernel supports, or that are active.
 struct Protections {
     int files = 0;      ///< the version of Landlock; 0: none
     bool calls = false; ///< seccomp
     bool any() const { return files > 0 || calls; }
 };
 
-/// Of this kernel. Neither with AddressSanitizer: its search for leaks traces the process from another one.
+/// Supported by this kernel. None with AddressSanitizer, because its leak detection traces the process from
+/// another process.
 Protections offered_protections();
-/// Of this process so far.
+/// Active in this process.
 Protections active_protections();
 
-/// What may be used from now on, besides what is open already, libraries, and what the system tells of
-/// itself. A folder stands for all below it. Links are followed.
+/// Files that stay accessible, besides open files, libraries and system information. A folder includes
+/// everything below it. Links are followed.
 struct AllowedFiles {
     std::vector<std::filesystem::path> read = {};
-    /// Files are written, made, renamed and removed below these folders, and read. Of a folder that is not
-    /// there yet the nearest one above it counts; of a file, itself alone.
+    /// Files below these folders may be read, written, created, renamed and removed. A missing folder is
+    /// replaced by its nearest existing ancestor; a file allows only itself.
     std::vector<std::filesystem::path> written = {};
     std::vector<std::filesystem::path> folders_made =
-        {};                ///< below these, folders are made and removed, but no files
+        {};                ///< folders may be created and removed below these, but no files
     bool read_all = false; ///< any file may be read
     bool run_all = false;  ///< any program may be run
 };
 
-/// Gives up all other files; whether the kernel did it.
+/// Drops access to all other files; true if the kernel supports it.
 bool confine_files(const AllowedFiles& allowed);
 
-/// Gives up new processes, networks, tracing, mounts, and whatever changes the system: such calls fail
-/// (EPERM). Whether the kernel did it. For all threads.
+/// Forbids new processes, networks, tracing, mounts and other changes to the system, for all threads: such
+/// calls fail (EPERM). True if the kernel supports it.
 bool confine_calls();
 
-/// What to do when the sandbox, and not the file's permissions, refused the file; else empty. error: an
-/// errno.
+/// A hint if the sandbox refused the file instead of the file's permissions; else empty. error: an errno.
 std::string sandbox_hint(const std::filesystem::path& file, int error);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Files that this process needs for a while: their names, and files without one.
+// Temporary files of this process, with and without names.
 
 #include "platform/descriptor.hpp"
 
@@ -8,21 +8,22 @@
 
 namespace facetmill {
 
-/// A hidden name beside the target, of this process.
+/// A hidden name in the target's folder, unique to this process.
 std::string temporary_name(const std::filesystem::path& target, int attempt);
-/// The process that wrote this temporary, or 0 when the name is not one of ours.
+/// The process that wrote this temporary file, or 0 for other names.
 int writer_of(std::string_view name);
-/// Removes what processes that are gone left in the directory (empty: the working one). A temporary that
-/// somebody holds locked stays: a process in another container that shares the directory has no id here.
+/// Removes files that ended processes left in the directory (empty: the working directory). A locked file
+/// stays, because it may belong to a process in another container that shares the directory, whose id is
+/// unknown here.
 void remove_abandoned(const std::filesystem::path& directory);
 
-/// A file for reading and writing that has no name, or has lost it.
+/// A file for reading and writing without a name, or whose name was removed.
 Descriptor unnamed_file(const std::filesystem::path& folder);
 
-/// Makes a folder of this user in the system's place for temporary files. Empty, with errno, when it cannot.
+/// Makes a folder of this user in the system's temporary directory. Empty, with errno, on failure.
 std::filesystem::path temporary_folder(const std::string& begin_of_name);
 
-/// The number of this process.
+/// The id of this process.
 int process_id();
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Who reads what this process prints.
+// Whether output goes to a terminal.
 
 namespace facetmill {
 

@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void serve_and_exit(const std::function<void(const Descriptor&)>& serve,
                                  const Descriptor& socket) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN); // it ends with the other
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN); // ends with its parent
     const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
     try {
@@ -23,7 +23,7 @@ namespace {
     ::_exit(0);
 }
 
-/// Calls send or recv until all has gone by.
+/// Repeats send or recv until all bytes are transferred.
 template <class Byte, class Call>
 bool all_pass(Byte* at, std::size_t size, Call&& call) {
     while (size > 0) {

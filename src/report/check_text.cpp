@@ -79,7 +79,7 @@ std::string share_text(const EvidenceEntry& e) {
     return {};
 }
 
-/// The first of those that are no locations.
+/// The first entry that is not a location.
 std::string shares_text(const CheckEvidence& evidence) {
     constexpr std::size_t max_shown = 3;
     std::string text;

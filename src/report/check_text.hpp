@@ -1,5 +1,5 @@
 #pragma once
-// How a run and its checks went, in words, as the renderers share them.
+// The results of a run and its checks in words, shared by the renderers.
 
 #include "base/math/vec.hpp"
 #include "report/record.hpp"
@@ -12,17 +12,17 @@ std::string verdict_text(const RunRecord& record);
 std::string passed_text(const RunRecord& record);
 /// "passed", "known", "failed" or "warned".
 const char* outcome(const Check& check);
-/// What was found: "12", "true", "mm", "[0, 0, 0] to [1, 1, 1]", "not applicable".
+/// The found value: "12", "true", "mm", "[0, 0, 0] to [1, 1, 1]", "not applicable".
 std::string found_text(const Check& check);
-/// The margin of a number to its limit: "0.3 to spare (60 % of the limit)", "7 too many"; empty without a
-/// limit.
+/// The distance of a number from its limit: "0.3 to spare (60 % of the limit)", "7 too many"; empty if there
+/// is none.
 std::string margin_text(const Check& check);
-/// One location, or one share: "face 7 of 'part' at 1 2 3".
+/// One location or one share: "face 7 of 'part' at 1 2 3".
 std::string evidence_text(const EvidenceEntry& entry);
 /// "12 locations, 2 new, the first face 7 of 'part' at 1 2 3", "part 'wheel' 1200, part 'body' 800"; empty
-/// when there is no evidence.
+/// without evidence.
 std::string locations_text(const Check& check);
-/// The world positions that violate a failed check; empty if it passed or has no positions.
+/// The world positions where a failed check fails; empty if it passed or has no positions.
 std::vector<Vec3> failing_locations(const Check& check);
 
 } // namespace facetmill::report

@@ -35,7 +35,7 @@ struct FoundJson {
     }
 };
 
-/// Numbers that are not finite are null in JSON.
+/// Infinite numbers and NaN are null in JSON.
 std::optional<Vec3> corner_of(const Json& json) {
     if (!json.is_array() || json.size() != 3) return {};
     double numbers[3];

@@ -1,6 +1,6 @@
 #pragma once
-// The data of a scene for info and reports, in addition to its properties, and the declaration of its
-// fields, from which JSON and its schema derive.
+// The data of a scene in info and reports besides its properties, as plain structs. Their field declarations
+// produce JSON and its schema.
 
 #include "geometry/inspect/inspect.hpp"
 #include "options/fields.hpp"
@@ -8,23 +8,23 @@
 
 namespace facetmill::report {
 
-/// Before or after a stage.
+/// The brief data of a scene, before or after a stage.
 Brief brief_of(const Scene& scene);
 const Fields& brief_fields();
 
-/// The value found by a check, as JSON for reports and baselines: a box is {min, max}, none is null.
+/// The found value of a check in reports and baselines: a box is {min, max}, no value is null.
 Json found_json(const Found& found);
 /// The inverse of found_json; none for other JSON.
 std::optional<Found> found_of(const Json& json);
 /// {"amplitude": {"given": "0.2%", "is": 0.03}}
 Json resolved_json(const std::vector<ResolvedLength>& lengths);
 
-/// {min, max}; null of an empty box.
+/// {min, max}; null for an empty box.
 Json box_json(const Box& box);
-/// The schema of a box that may be empty.
+/// For a box that may be empty.
 Json box_schema();
 
-/// An attribute that some part has.
+/// An attribute that at least one part has.
 struct AttributeEntry {
     std::string name;
     Domain domain = Domain::vertex;
@@ -51,16 +51,16 @@ struct Component {
     std::string part;
     Properties properties;
 };
-/// The components of a scene of these properties with most faces, the largest first.
+/// The components with the most faces in a scene with these properties, the largest first.
 std::vector<Component> largest_components(const Scene& scene, const Properties& properties,
                                           std::size_t limit);
 const Fields& component_fields();
 
-/// [{part, at, face}], with the keys that the entries have; null of none.
+/// [{part, at, face}], with the keys that the entries have; null without evidence.
 Json evidence_json(const std::optional<CheckEvidence>& evidence);
 Json evidence_json(const EvidenceEntry& entry);
 
-/// The records of a list, as their fields say.
+/// The records of a list, by their declared fields.
 template <class Record>
 Json list_json(const std::vector<Record>& records, const Fields& fields) {
     Json list = Json::array();

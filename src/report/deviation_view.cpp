@@ -19,14 +19,14 @@ double limit_of(const std::vector<float>& distances, double most) {
     const auto within = [&](std::size_t percent) {
         return static_cast<double>(sizes[(sizes.size() - 1) * percent / 100]);
     };
-    // Distances far beyond most of the surface, such as a closed cut, may be a small part of it.
+    // A small part, such as a closed cut, may be far beyond most of the surface.
     for (const double limit : {within(99), 4 * within(90)})
         if (limit > 0 && limit < most / 4) return limit;
     return most;
 }
 
 std::vector<std::uint64_t> counted_in_bins(const std::vector<float>& distances, double limit) {
-    constexpr std::size_t bins = 41; // an odd number: one around 0
+    constexpr std::size_t bins = 41; // odd, so that a bin is centred on 0
     std::vector<std::uint64_t> counts(bins);
     for (const double d : distances) {
         const double at = limit > 0 ? (d / limit + 1) / 2 * bins : bins / 2.0;
@@ -40,7 +40,7 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
     settings.attribute = std::string(distance_attribute);
     settings.range = {ColourRange::Kind::given, -view.limit, view.limit, true};
     settings.edges = EdgeLines::no;
-    if (settings.camera) settings.camera = camera_of(scene, settings); // as large as from behind
+    if (settings.camera) settings.camera = camera_of(scene, settings); // as large as in the view from behind
     view.picture = page_text(picture_of(scene, settings));
     settings.turn = pi;
     if (settings.camera) settings.camera = camera_of(scene, settings);
@@ -58,13 +58,13 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
 } // namespace
 
 double colour_limit(const std::vector<float>& distances, double most, double diagonal) {
-    constexpr double lost_by_floats = 1e-6; // relative to the diagonal: smaller distances get no colours
+    constexpr double lost_by_floats = 1e-6; // of the diagonal: smaller distances get no colours
     const double limit = limit_of(distances, most);
     return std::isfinite(diagonal) ? std::max(limit, lost_by_floats * diagonal) : limit;
 }
 
 FaceTree tree_of_earlier(const Surface& surface, const Box& bounds) {
-    constexpr std::size_t many = 250000; // of these, making the tree takes longer than the distances
+    constexpr std::size_t many = 250000; // beyond this, building the tree takes longer than the distances
     return FaceTree::over(surface, bounds,
                           surface.size() < many ? FaceTree::Use::few : FaceTree::Use::coarse);
 }

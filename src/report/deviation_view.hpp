@@ -1,5 +1,5 @@
 #pragma once
-// Distances of a scene from an earlier one as pages show them: numbers, a histogram, pictures in colours.
+// Distances of a scene from an earlier scene, as pages show them: numbers, a histogram, coloured pictures.
 
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/face_tree.hpp"
@@ -7,7 +7,7 @@
 
 namespace facetmill::report {
 
-/// The reference of distances.
+/// The reference surface of distances.
 struct EarlierSurface {
     std::string name; ///< "the scene as loaded"
     double diagonal = 0;
@@ -15,18 +15,19 @@ struct EarlierSurface {
     std::optional<Index> last_cap = {}; ///< SignedDeviationSettings::last_cap
 };
 
-/// Half the width of the scale of distances: all of it, or, where a tenth or less is far off, what tells the
-/// rest apart, and at least what positions in float32 may be off by. What lies beyond has the colour of the
-/// end. most: the largest amount. diagonal: of the scene.
+/// Half the width of the colour scale for distances. It covers all distances; if at most a tenth of them are
+/// far off, only the rest, for better contrast. It is at least the rounding error of float32 positions.
+/// Distances beyond it have the colour of the end. most: the largest absolute distance. diagonal: of the
+/// scene.
 double colour_limit(const std::vector<float>& distances, double most, double diagonal);
 
-/// The tree over an earlier surface for the distances of a page, about 100,000. The surface has these bounds
-/// and must not change.
+/// A tree over an earlier surface for the about 100,000 distances of a page. bounds: of the surface, which
+/// must outlive the tree.
 FaceTree tree_of_earlier(const Surface& surface, const Box& bounds);
 
-/// Both in world space, and in one pose. pictures: their size and camera; none: only numbers. Throws as
-/// picture_of. O((vertices + faces) log n), of at most 20000 vertices or some tens of thousands of cells, and
-/// those around the worst place.
+/// Both in world space and in the same pose. pictures: their size and camera; empty: only numbers. Throws
+/// like picture_of. O((vertices + faces) log n), for at most 20000 vertices or some tens of thousands of
+/// cells, and for cells around the worst position.
 DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
                              const std::optional<PictureSettings>& pictures);
 

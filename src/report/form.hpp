@@ -1,5 +1,5 @@
 #pragma once
-// The forms of reports, of a run and of a batch; the suffix of the file selects the form.
+// The formats of reports of runs and batches; the file suffix selects the format.
 
 #include <string>
 
@@ -7,10 +7,10 @@ namespace facetmill::report {
 
 enum class ReportForm { json, html, markdown, junit, text };
 
-/// The suffixes in help and messages.
+/// As in help and messages.
 inline constexpr const char* report_suffixes = ".json, .html, .md, .xml (JUnit) or .txt";
 
-/// By the suffix of the report's file. Throws usage (E-REPORT) for another.
+/// The format for the report file's suffix. Throws usage (E-REPORT) for another suffix.
 ReportForm form_of(const std::string& path);
 
 } // namespace facetmill::report

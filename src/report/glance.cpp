@@ -9,7 +9,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// Its own, or that of the stage that it is the same as; null when none was measured.
+/// The view's own deviation, or the deviation of a stage with the same result; null without a measurement.
 const DeviationView* deviation_of(const OutputView& view, const RunRecord& record) {
     if (view.deviation) return &*view.deviation;
     for (const StageRecord& stage : record.stages)
@@ -62,7 +62,7 @@ std::string deviation_text(const RunRecord& record) {
     const double most = std::abs(worst->worst_distance);
     const char* caps = worst->caps > 0 ? ", without caps" : "";
     if (!(worst->diagonal > 0)) return fmt::format("{:.4g}{}", most, caps);
-    constexpr double float_step = 1.0 / (1 << 24); // half the distance of floats of 32 bits, of their size
+    constexpr double float_step = 1.0 / (1 << 24); // half the relative distance of 32-bit floats
     return fmt::format(
         "{} of the diagonal, from {}{}{}{}", percentage(100 * most / worst->diagonal), worst->from, caps,
         most > 0 && most < float_step * worst->diagonal ? "; less than 32-bit floats hold" : "",

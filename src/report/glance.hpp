@@ -1,5 +1,5 @@
 #pragma once
-// The key results of a run, as plain text for pages and Markdown.
+// The summary at the top of a report, as plain text for pages and Markdown.
 
 #include "report/record.hpp"
 
@@ -7,27 +7,27 @@
 
 namespace facetmill::report {
 
-/// The bytes of files, and their use.
+/// The total bytes of files, by kind.
 struct ByteSum {
     std::uint64_t bytes = 0;
     io::ByteKinds kinds;
 };
 ByteSum sum_of(const std::vector<FileRecord>& files);
 
-/// "12.7 %": relative to the value before; "-" if that is 0.
+/// "12.7 %": the share of the size before; "-" if that was zero.
 std::string part_of_before(std::uint64_t before, std::uint64_t after);
 
-/// After the first stage and after the last one that was done; none where none was.
+/// After the first stage and after the last completed stage; empty without stages.
 struct FaceCounts {
     std::size_t first = 0, last = 0;
 };
 std::optional<FaceCounts> face_counts(const RunRecord& record);
 
-/// Warnings of the run and of its stages.
+/// The number of warnings of the run and its stages.
 std::size_t warning_count(const RunRecord& record);
 
-/// How far the farthest of the outputs is from what it was made of: "0.1 % of the diagonal, from the scene as
-/// loaded; ..."; empty when none was measured.
+/// The largest deviation of the outputs from their references: "0.1 % of the diagonal, from the scene as
+/// loaded; ..."; empty without a measurement.
 std::string deviation_text(const RunRecord& record);
 
 } // namespace facetmill::report

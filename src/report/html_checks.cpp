@@ -1,4 +1,4 @@
-// Checks on a page: expected and found values, failing locations, and remedies.
+// The checks on a page: expected and found values, failing locations, and how to continue.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
@@ -33,13 +33,13 @@ std::string all_rows(const RunRecord& record) {
     return rows;
 }
 
-/// A line that people copy.
+/// A line to copy.
 std::string command_line(const char* what, const std::string& command) {
     return fmt::format("<dt>{}</dt><dd><pre tabindex=\"0\">{}</pre></dd>\n", what, escaped(command));
 }
 
-/// What is known to change the property, on the first input alone; empty where nothing is, or what is does
-/// not change it the way that is wanted.
+/// The known command that fixes the property, on the first input only. Empty if no stage fixes it, or only in
+/// the other direction.
 std::string mending(const RunRecord& record, const Check& c) {
     const Property* property = property_named(c.name);
     if (!property || property->mend.empty() || c.hint.empty() || record.inputs.empty()) return {};
@@ -47,7 +47,7 @@ std::string mending(const RunRecord& record, const Check& c) {
                        for_shell(record.inputs.front().path), property->mend, c.name, for_shell(c.expected));
 }
 
-/// "validate --closed true" knows what "true" is, and of a number its words are no value.
+/// "validate --closed true" accepts "true", but for a number the text may not be a valid value.
 bool can_be_asked(const Check& c) {
     return c.expected == "true" || c.expected == "false" ||
            (!c.expected.empty() && c.expected.find_first_not_of("0123456789.") == std::string::npos);

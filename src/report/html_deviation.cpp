@@ -1,4 +1,4 @@
-// How far a scene is from an earlier one, on a page.
+// The deviation of a scene from an earlier scene, on a page.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
@@ -30,7 +30,7 @@ BarChart chart_of(const DeviationView& view, const std::string& id) {
     for (const auto count : view.counts) total += static_cast<double>(count);
     const auto bins = static_cast<double>(view.counts.size());
     for (std::size_t i = 0; i < view.counts.size(); ++i) {
-        // Roots, so that the few points far off are seen beside the many on the surface.
+        // Square roots, so that the few distant points are visible next to the many on the surface.
         chart.heights.push_back(std::sqrt(static_cast<double>(view.counts[i]) / std::max(total, 1.0)));
         const Colour c = on_a_diverging_scale((static_cast<double>(i) + 0.5) / bins);
         chart.colours.push_back(

@@ -1,4 +1,4 @@
-// Inputs and outputs on a page: bytes and their use, digests, results of reading back.
+// Inputs and outputs on a page: bytes by kind, digests, the results of reading back.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

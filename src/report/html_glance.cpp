@@ -1,4 +1,4 @@
-// The key results of a run, on its page.
+// The summary at the top of a run's page.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

@@ -1,4 +1,4 @@
-// The outputs on a page: the shape next to the input's, and the deviation from it.
+// The outputs on a page: their shape compared with the input, and their deviation from it.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

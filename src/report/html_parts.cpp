@@ -66,9 +66,9 @@ td.share { width: 22%; min-width: 5rem; } td.share span { display: block; height
 @media print { body { max-width: none; padding: 0; } details { display: none; } .scroll { overflow: visible; } }
 )";
 
-/// Shows the picture before beneath a stage's own, left of the slider. Of tables that a phone has no room
-/// for, each cell knows its heading, which it shows there (table.cards). Without scripts the page has no
-/// sliders, and such tables scroll.
+/// Shows the previous picture below a stage's own picture, to the left of the slider. Tables that do not fit
+/// on a phone (table.cards) show each cell with its heading. Without scripts, the page has no sliders, and
+/// such tables scroll.
 constexpr const char* script = R"(
 for (const input of document.querySelectorAll("figure input")) {
   const figure = input.closest("figure"), before = figure.querySelector("[data-of]");
@@ -150,7 +150,7 @@ std::string not_drawn_html(const std::vector<Diagnostic>& not_drawn) {
 std::string heads(std::initializer_list<const char*> titles) {
     std::string out;
     for (const std::string title : titles)                         // a leading # marks a column of numbers
-        out += title.empty()            ? std::string("<td></td>") // what has no words is no heading
+        out += title.empty()            ? std::string("<td></td>") // no text, so not a heading
                : title.starts_with('#') ? fmt::format("<th class=\"number\">{}</th>", title.substr(1))
                                         : fmt::format("<th>{}</th>", title);
     return out;

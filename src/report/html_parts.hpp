@@ -1,5 +1,5 @@
 #pragma once
-// The building blocks of report pages. Texts that are not HTML yet go through escaped() or code().
+// The elements of report pages. Pass plain text through escaped() or code().
 
 #include "base/error.hpp"
 
@@ -9,26 +9,26 @@
 
 namespace facetmill::report {
 
-/// From the doctype to the title; title and about are plain text. whole: what the title is short for, a path;
-/// empty: it is not.
+/// From the doctype to the title; title and about are plain text. whole: the full path if title is shortened;
+/// else empty.
 std::string html_begin(const std::string& title, const std::string& about, const std::string& whole = {});
 /// The version, and the end of the page.
 std::string html_end();
 
 std::string code(const std::string& text);
-/// The same of a path.
+/// The same for a path.
 std::string path_code(const std::string& path);
 std::string cell(const std::string& html);
 std::string number_cell(const std::string& html);
-/// An image (a PNG in base64); no other of the page may have the id.
+/// An image (a PNG in base64); the id must be unique in the page.
 std::string picture(const std::string& id, const std::string& alt, const std::string& png);
-/// A picture above its caption; wide: as wide as the page.
+/// A picture above its caption; wide: full page width.
 std::string figure(const std::string& picture, const std::string& caption, bool wide = false);
-/// The same, with a slider between the picture and the one before it that has that id and was taken by the
-/// same camera, which is shown on the left. name: of the later one.
+/// A figure with a slider between the picture and an earlier picture with that id and the same camera, which
+/// is shown on the left. name: of the later picture.
 std::string compared_figure(const std::string& picture, const std::string& before_id, const std::string& name,
                             const std::string& caption);
-/// The missing pictures, and the reasons, a paragraph each; empty if none are missing.
+/// A paragraph for each omitted part of pictures, with the reason; empty for an empty list.
 std::string not_drawn_html(const std::vector<Diagnostic>& not_drawn);
 /// A row of headings; a leading # marks a column of numbers.
 std::string heads(std::initializer_list<const char*> titles);

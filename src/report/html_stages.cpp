@@ -14,7 +14,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// A value as people read it.
+/// A value in readable form.
 std::string told(const Json& value) {
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
@@ -35,7 +35,7 @@ bool is_list_of_objects(const Json& value) {
 
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// What an object holds, by name; objects inside it as a.b.
+/// The values of an object by name; nested objects as a.b.
 void flatten(const Json& object, const std::string& before, NamedTexts& out) {
     for (const auto& [name, value] : object.items()) {
         if (value.is_object())
@@ -51,7 +51,7 @@ NamedTexts flattened(const Json& object) {
     return out;
 }
 
-/// A table of the objects of a list, a row each; of a single one, a row for each value.
+/// A table of a list of objects, one per row; for a single object, one row per value.
 std::string list_table(const std::string& title, const Json& list) {
     if (list.size() == 1) return subtable(title, heads({"name", "value"}), value_rows(list.front()));
     constexpr std::size_t most = 50;
@@ -81,7 +81,7 @@ std::string list_table(const std::string& title, const Json& list) {
     return subtable(title, header, body) + rest;
 }
 
-/// The lists of objects in an object, a table each.
+/// A table for each list of objects in an object.
 std::string list_tables(const Json& object, const std::string& before) {
     std::string out;
     for (const auto& [name, value] : object.items()) {
@@ -137,8 +137,7 @@ std::string counts(const StageRecord& stage) {
 
 std::string picture_id(std::size_t stage) { return fmt::format("picture-{}", stage); }
 
-/// The picture of a stage; where the one before was seen in the same way, a slider goes from one to the
-/// other.
+/// The picture of a stage, with a slider to the previous picture if that has the same camera.
 std::string picture_of(const RunRecord& record, std::size_t number, std::size_t& last) {
     const StageRecord& stage = record.stages[number];
     if (stage.picture.empty()) return {};

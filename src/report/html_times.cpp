@@ -1,4 +1,4 @@
-// Times and memory on a page, and where its numbers come from: the pipeline and its command.
+// Times and memory on a page, and the source of its numbers: the pipeline and its command.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

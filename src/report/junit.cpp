@@ -35,14 +35,14 @@ std::string to_junit(const RunRecord& record) {
         failures += !check.passed && check.severity == Severity::error;
     }
     for (const auto& d : record.errors) {
-        if (d.of_check) continue; // a case of its own already
+        if (d.of_check) continue; // already a test case
         cases += fmt::format("    <testcase classname=\"run\" name=\"{}\">\n      <error "
                              "message=\"{}\">{}</error>\n    </testcase>\n",
                              escaped(d.id), escaped(d.message), escaped(to_string(d.where)));
         ++tests;
         ++errors;
     }
-    if (tests == 0) { // a run without checks is a case too, so that it is seen
+    if (tests == 0) { // a run without checks is a test case too, so that it is visible
         cases = "    <testcase classname=\"run\" name=\"done\"/>\n";
         tests = 1;
     }

@@ -26,7 +26,7 @@ void add_diagnostics(const Diagnostics& all, const char* kind, MarkdownRows& row
         rows.push_back({kind, markdown_escaped(d.id), markdown_escaped(d.message), markdown_escaped(d.hint)});
 }
 
-/// Without the checks that did not hold, which have a table of their own.
+/// Without failed checks, which have a separate table.
 MarkdownRows message_rows(const RunRecord& record) {
     MarkdownRows rows;
     std::vector<RunError> errors;
@@ -38,7 +38,7 @@ MarkdownRows message_rows(const RunRecord& record) {
     return rows;
 }
 
-/// The failed checks; a count summarises the passed ones.
+/// The failed checks; another line gives their number.
 MarkdownRows failed_rows(const RunRecord& record) {
     MarkdownRows rows;
     for (const auto& c : record.checks) {
@@ -61,7 +61,7 @@ MarkdownRows stage_rows_of(const RunRecord& record) {
     return rows;
 }
 
-/// Faces and bytes before and after; kinds of bytes that neither has are left out.
+/// Faces and bytes before and after; skips kinds of bytes that neither has.
 MarkdownRows glance_rows(const RunRecord& record) {
     MarkdownRows rows;
     if (const auto faces = face_counts(record))

@@ -1,12 +1,12 @@
 #pragma once
-// The building blocks of Markdown reports, of a run and of a batch.
+// The elements of Markdown reports for runs and batches.
 
 #include <string>
 #include <vector>
 
 namespace facetmill::report {
 
-/// A table under a heading; empty without rows. Cells are Markdown already.
+/// A table under a heading; empty without rows. Cells are already Markdown.
 std::string markdown_table(const std::string& title, const std::vector<std::string>& heads,
                            const std::vector<std::vector<std::string>>& rows);
 

@@ -16,10 +16,10 @@ namespace facetmill::report {
 
 namespace {
 
-// Base64 of pictures, of a page of 3 MB.
+// Limits for pictures in base64, for a page of 3 MB.
 constexpr std::size_t bytes_of_large = 1'100'000, most_bytes = 1'600'000;
 constexpr std::size_t most_results = 8, most_measured = 6, most_failures = 8;
-constexpr std::size_t most_faces_of_a_stage = 500'000; // a tree of more takes too long for what it shows
+constexpr std::size_t most_faces_of_a_stage = 500'000; // building a larger tree takes too long for its use
 
 std::size_t vertices_in(const Scene& scene) {
     std::size_t count = 0;
@@ -57,7 +57,7 @@ std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::str
 
 bool Page::is_full() const { return bytes_ > most_bytes; }
 
-/// part: of the size of the largest pictures.
+/// part: relative to the largest pictures.
 PictureSettings Page::sized_for_page(double part) const {
     PictureSettings settings = page_settings();
     if (bytes_ > bytes_of_large) {
@@ -69,8 +69,8 @@ PictureSettings Page::sized_for_page(double part) const {
     return settings;
 }
 
-/// The camera of the picture before, so that the two can be compared, unless the scene goes far beyond it or
-/// became much smaller. Which way is up stays as it was in the first picture.
+/// The camera of the previous picture, so that the two can be compared. A new camera is used if the scene
+/// extends far beyond its view, or is much smaller. The up axis stays that of the first picture.
 const Camera& Page::camera_for(const Scene& scene) {
     PictureSettings as_before;
     const Box before = camera_.seen;
@@ -93,12 +93,12 @@ void Page::add_picture(const Scene& scene, StageRecord& stage) {
         ++record_.pictures_left_out;
         return;
     }
-    // A digest takes a good part of the time of a picture, so it is made where the numbers of vertices and
-    // faces leave room for doubt alone: the first scene that is as the one before is drawn once in vain.
+    // A digest takes a large part of the time of a picture, so it is computed only if the numbers of vertices
+    // and faces match. So the first repetition of a scene is drawn once more than necessary.
     const std::pair size{vertices_in(scene), scene.face_count()};
     std::string digest = size == pictured_size_ ? digest_(scene) : std::string();
     if (!digest.empty() && digest == pictured_) return;
-    materials_.materials(scene, record_.not_drawn); // each texture is told once, and then read already
+    materials_.materials(scene, record_.not_drawn); // reports each texture once, and decodes it in advance
     PictureSettings settings = sized_for_page(1);
     const auto posed = io::posed(scene);
     settings.camera = camera_for(posed ? *posed : scene);
@@ -114,10 +114,10 @@ void Page::add_picture(const Scene& scene, StageRecord& stage) {
 DeviationView Page::distances(const Scene& scene, Reference& from) {
     const auto posed = io::posed(scene);
     const Scene& seen = posed ? *posed : scene;
-    std::optional<PictureSettings> settings; // none: numbers alone
+    std::optional<PictureSettings> settings; // empty: only numbers
     if (with_pictures_ && is_full()) record_.pictures_left_out += 3;
     if (with_pictures_ && !is_full()) {
-        settings = sized_for_page(0.75); // three beside each other
+        settings = sized_for_page(0.75); // three side by side
         settings->camera = camera_for(seen);
     }
     Shown& earlier = *from.shown;

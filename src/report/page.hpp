@@ -1,5 +1,5 @@
 #pragma once
-// What a page shows of a run and nothing else needs: pictures, distances as colours, histograms.
+// Data that only pages need: pictures, coloured distances, histograms.
 
 #include "geometry/render/render.hpp"
 #include "geometry/spatial/face_tree.hpp"
@@ -11,29 +11,29 @@
 
 namespace facetmill::report {
 
-/// What a page has to know of a stage.
+/// The properties of a stage that a page needs.
 struct PageStep {
     std::string name;
     bool loads = false, moves = false, checks = false; ///< see StageInfo
-    bool measures = false;                             ///< how far it moved the surface is shown
+    bool measures = false;                             ///< the page shows how far it moved the surface
 };
 
-/// Collects it while a run goes on. Pictures become smaller, and are left out at last, before the page goes
-/// beyond its 3 MB; the record says so. Calls throw as pictures do (limit).
+/// Collects this data during a run. Pictures become smaller, and are finally omitted, to keep the page below
+/// 3 MB; the record notes it. Calls throw like picture_of (limit).
 class Page {
   public:
-    /// digest: equal for scenes that are equal.
+    /// digest: equal for equal scenes.
     Page(RunRecord& record, std::function<std::string(const Scene&)> digest)
         : record_(record), digest_(std::move(digest)) {}
 
-    /// Before all else: collects no pictures and no histograms, but how far results are off, for Markdown.
+    /// Call it first: then it collects only deviations, for Markdown, and no pictures or histograms.
     void leave_out_pictures() { with_pictures_ = false; }
 
-    /// What a scene shows, in the pose that pictures show, and its tree, made when it is first needed.
+    /// The surface of a scene in the pose of pictures, with its tree, built on first use.
     class Shown {
       public:
         explicit Shown(const Scene& scene);
-        Shown(const Shown&) = delete; // the tree looks into the surface
+        Shown(const Shown&) = delete; // the tree refers to the surface
         Shown& operator=(const Shown&) = delete;
         bool is_same(const Shown& other) const;
         const Surface& surface() const { return surface_; }
@@ -45,40 +45,40 @@ class Page {
         std::optional<Box> bounds_;
         std::optional<FaceTree> tree_;
     };
-    /// A scene that distances are taken from. Shared by the arms of a branch.
+    /// A reference scene for distances. The arms of a branch share it.
     struct Reference {
         std::string name; ///< "the scene as loaded"
         std::shared_ptr<Shown> shown;
-        Index last_cap = 0; ///< what closes later cuts is not measured
+        Index last_cap = 0; ///< later caps are not measured
         ShapeHistograms shape{};
         std::size_t faces = 0;
     };
     static std::shared_ptr<Reference> reference_to(const Scene& scene, std::string name);
-    /// Of results; an arm that moves the scene has one of its own from there on.
+    /// The reference of results; an arm that moves the scene replaces it.
     std::shared_ptr<Reference> reference() const { return loaded_; }
     void set_reference(std::shared_ptr<Reference> reference) { loaded_ = std::move(reference); }
 
-    /// Reads textures once for all that is shown.
+    /// Reads each texture once for all pictures.
     io::MaterialResolver& materials() { return materials_; }
 
-    /// Of the latest picture, and of which up axis its scene is; null before the first.
+    /// The camera of the latest picture, with its scene's up axis; null before the first.
     const Camera* camera() const { return camera_.seen.empty() ? nullptr : &camera_; }
     UpAxis camera_up() const { return camera_up_; }
 
-    /// Before the stage works on the scene.
+    /// Call it before the stage changes the scene.
     void before(const PageStep& step, const Scene& scene);
-    /// After it: its picture, distances where it measured such, and the results that it wrote, which are the
-    /// outputs from that number on.
+    /// Call it after the stage. Adds its picture, its measured distances, and its written results: the
+    /// outputs from first_output on.
     void after(const PageStep& step, const Scene& scene, StageRecord& stage, std::size_t first_output);
-    /// Whether measure() looks at the scene.
+    /// True if measure() needs the scene.
     bool is_measured(const PageStep& step, std::size_t first_output) const;
-    /// In the place of after(), where pictures are left out.
+    /// Replaces after() if pictures are omitted.
     void measure(const PageStep& step, const Scene& scene, std::size_t first_output);
-    /// Pictures of the checks from that number on that did not hold; a run that ends there shows its scene.
+    /// Adds pictures of the failed checks from first_check on; if the run ends there, also its scene.
     void failures(const std::string& step, const Scene& scene, std::size_t first_check);
-    /// Whether the result of that name, or the scene where the run ends, is off the reference.
+    /// True if the result of that name, or the final scene, differs from the reference.
     bool differs(const std::string& name) const;
-    /// When nothing was written.
+    /// Call it at the end if nothing was written.
     void at_end(const Scene& scene);
 
   private:
@@ -96,16 +96,16 @@ class Page {
     std::function<std::string(const Scene&)> digest_;
     bool with_pictures_ = true;
     std::shared_ptr<Reference> loaded_, entering_;
-    std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances, and of what they were from
-    std::string shown_at_, shown_stage_; ///< where these stand, and the name of the stage if it is one
-    std::string last_picture_;           ///< its text
-    /// Vertices and faces of its scene, and the digest of that where it was asked for.
+    std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances: the scene and its reference
+    std::string shown_at_, shown_stage_; ///< where they are shown, and the stage's name if it is a stage
+    std::string last_picture_;           ///< as base64
+    /// Vertices and faces of its scene, with the digest if it was computed.
     std::optional<std::pair<std::size_t, std::size_t>> pictured_size_;
     std::string pictured_;
     Camera camera_;
-    UpAxis camera_up_{};             ///< of the scene that it is of
-    int cameras_ = 0;                ///< so far
-    io::MaterialResolver materials_; ///< textures of the pictures, decoded once
+    UpAxis camera_up_{};             ///< of its scene
+    int cameras_ = 0;                ///< number so far
+    io::MaterialResolver materials_; ///< decodes textures of pictures once
     std::size_t bytes_ = 0, measured_stages_ = 0, failures_shown_ = 0;
 };
 

@@ -18,7 +18,7 @@ bool is_failing(const Mesh& mesh, Index face) {
     return failing && failing->value(face, 0) > 0;
 }
 
-/// The part that the first entry names, if it has the face.
+/// The part of the first entry, if it has the face.
 const Part* part_of_first(const Scene& scene, const EvidenceEntry& first) {
     const auto found = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
         return part.name == first.name && first.face && *first.face < part.mesh.face_count();
@@ -26,15 +26,15 @@ const Part* part_of_first(const Scene& scene, const EvidenceEntry& first) {
     return found == scene.parts.end() ? nullptr : &*found;
 }
 
-/// A place on a face, and from where it is looked at.
+/// A position on a face, and the viewing direction.
 struct Sight {
     Vec3 place, towards; ///< a unit vector
-    double beyond = 0;   ///< what lies so far before the place along it does not lie on the face
+    double beyond = 0;   ///< points farther than this in front of the position are not on the face
 
     double ahead(const Vec3& p) const { return dot(p - place, towards); }
 };
 
-/// Whether the face is met on the way from the place to the viewer.
+/// True if the face is between the position and the viewer.
 bool is_on_the_way(const Part& part, Index face, const Sight& sight) {
     const Mesh& mesh = part.mesh;
     const Index begin = mesh.face_begin(face), end = mesh.face_end(face);
@@ -48,7 +48,7 @@ bool is_on_the_way(const Part& part, Index face, const Sight& sight) {
     return false;
 }
 
-/// Whether it lies before the place as a whole.
+/// True if the whole face is in front of the position.
 bool is_before(const Part& part, Index face, const Sight& sight) {
     for (Index c = part.mesh.face_begin(face); c < part.mesh.face_end(face); ++c)
         if (!(sight.ahead(part.transform.point(part.mesh.point(c))) > sight.beyond)) return false;
@@ -63,7 +63,7 @@ bool is_hidden(const Scene& scene, const Sight& sight) {
     });
 }
 
-/// Without the faces that lie before the place, but those that the check names.
+/// Removes the faces in front of the position, except faces of the check.
 Scene without_what_hides(Scene scene, const Sight& sight) {
     for (Part& part : scene.parts) {
         std::vector<Index> kept;

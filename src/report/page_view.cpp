@@ -6,13 +6,13 @@ namespace facetmill::report {
 
 namespace {
 
-/// A surface of more triangles is not kept to be compared with: some 150 bytes each, with its tree.
+/// Larger surfaces are not kept as references: each triangle takes about 150 bytes with the tree.
 constexpr std::size_t most_to_compare = 8000000;
 
 } // namespace
 
 std::shared_ptr<const ResolvedMaterials> PageView::materials(const Scene& scene) {
-    std::vector<Diagnostic> ignored; // a texture that cannot be drawn is no fault of the run
+    std::vector<Diagnostic> ignored; // textures that cannot be drawn are not errors of the run
     return page_.materials().materials(scene, ignored);
 }
 

@@ -1,25 +1,25 @@
 #pragma once
-// What the 3D view of a run's page shows: the scene as loaded, and what was written.
+// The contents of the 3D view of a run's page: the scene as loaded, and the outputs.
 
 #include "report/page.hpp"
 #include "report/viewer.hpp"
 
 namespace facetmill::report {
 
-/// Collects it while a run goes on. Calls throw as pictures do (limit).
+/// Collects these scenes during a run. Calls throw like picture_of (limit).
 class PageView {
   public:
-    /// expected: about how many outputs there will be. The page's textures and its references are used, too.
+    /// expected: the approximate number of outputs. Uses the page's textures and references.
     PageView(std::size_t expected, Page& page) : viewed_(1 + expected), page_(page) {}
 
-    /// Before a stage works on the scene: what has been loaded by then is shown beside the outputs.
+    /// Call it before a stage changes the scene. It shows the scene as loaded next to the outputs.
     void before(const Scene& scene);
-    /// Of a scene that was written to this path, after the page knows of it: its distances from the page's
-    /// reference are shown where it is off that.
+    /// Adds a written scene; call it after the page has it. Shows its distances from the page's reference if
+    /// they differ.
     void written(const Scene& scene, const std::string& path) { add(scene, path); }
-    /// Where the run ended at a check of the stage of that name.
+    /// Adds the scene at a failed check of that stage.
     void failed(const std::string& name, const Scene& scene);
-    /// Where nothing was written, the scene at the end is shown.
+    /// Adds the final scene if nothing was written.
     void at_end(const Scene& scene);
     /// See viewer_section.
     Json json() const { return viewed_.json(); }

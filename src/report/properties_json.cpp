@@ -23,8 +23,8 @@ Json property_json(const Property& property, const Properties& properties) {
 std::vector<const Property*> told_properties(const Properties& properties) {
     std::vector<const Property*> told;
     for (const auto& p : property_table()) {
-        if (p.kind == PropertyKind::box || p.of_scene()) continue; // told apart
-        if (p.on_request() && !p.get(properties)) continue;        // not asked for, or it does not apply
+        if (p.kind == PropertyKind::box || p.of_scene()) continue; // reported separately
+        if (p.on_request() && !p.get(properties)) continue;        // not requested, or not applicable
         if (p.where_any && p.get(properties) == 0) continue;
         told.push_back(&p);
     }

@@ -10,7 +10,7 @@ namespace facetmill {
 
 namespace report {
 namespace {
-/// Something that is JSON already.
+/// A value that is already JSON.
 struct AsItIs {
     const Json* json = nullptr;
 };
@@ -126,7 +126,7 @@ void declare_check(DeclareFields<Check>& d) {
     d.field("evidence", &Check::evidence, "The first locations, or the worst values.").null_when("it held");
 }
 
-/// read_back: for outputs.
+/// read_back: true for outputs.
 void declare_file(DeclareFields<FileRecord>& d, bool read_back) {
     d.field("path", &FileRecord::path, "");
     d.field("bytes", &FileRecord::bytes, "");

@@ -1,5 +1,5 @@
 #pragma once
-// The declared fields of the data that a run collects, from which the JSON of reports and its schema derive.
+// The declared fields of a run's data, from which the JSON of reports and its schema are generated.
 
 #include "options/fields.hpp"
 #include "report/record.hpp"
@@ -8,16 +8,16 @@ namespace facetmill::report {
 
 /// The fields of a Diagnostic: {id, message, where, hint}.
 const Fields& diagnostic_fields();
-/// The fields of a StageRecord, a Check and a RunRecord in the report.
+/// The fields of a StageRecord, a Check and a RunRecord in reports.
 const Fields& stage_fields();
 const Fields& check_fields();
 const Fields& run_fields();
-/// The varying fields of a RunRecord, which are therefore in no report.
+/// The fields of a RunRecord that differ between runs, and are therefore in no report.
 const Fields& timings_fields();
 
-// Shared helpers of the declarations.
+// Shared by the declarations of all documents.
 
-/// The objects of the field refer to a definition of the schema, which also declares whether they may be
+/// Makes the field's objects refer to a definition of the schema, which also specifies whether they may be
 /// null.
 void refer(FieldRef field, const char* definition);
 
@@ -25,7 +25,7 @@ void refer(FieldRef field, const char* definition);
 struct Tool {};
 const Fields& tool_fields();
 
-/// The start of every document: its format, 1.
+/// The first field of every document: its format, 1.
 template <class R>
 void declare_format(DeclareFields<R>& d) {
     d.field(

@@ -8,7 +8,7 @@ namespace facetmill::report {
 PictureSettings page_settings() {
     PictureSettings settings;
     settings.coarse_occlusion = true;
-    settings.point = 3; // as in pictures of their own: single pixels are hardly seen
+    settings.point = 3; // as in separate pictures: single pixels are hardly visible
     return settings;
 }
 
@@ -27,7 +27,7 @@ std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn
     small.height = 120;
     small.point = 2;
     io::MaterialResolver materials;
-    materials.materials(scene, not_drawn); // once for each texture
+    materials.materials(scene, not_drawn); // reports each texture once
     return scene_picture(scene, small, materials);
 }
 

@@ -9,7 +9,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// One value of a property.
+/// The schema of a property's value.
 Json value_schema(const Property& p) {
     Json schema =
         p.truth() ? typed("boolean") : nullable(p.kind == PropertyKind::count ? "integer" : "number");
@@ -18,7 +18,7 @@ Json value_schema(const Property& p) {
     return schema;
 }
 
-/// Of a property whose values are words.
+/// The schema of a property whose values are words.
 Json words_schema(const Property& p) {
     Json names = Json::array();
     for (const auto& word : p.words()) names.push_back(word);
@@ -39,7 +39,7 @@ Json scene_schema() {
     properties["materials"] = list_of(typed("string"), "Names of the materials");
     properties["parts"] = list_of(part_fields().schema(), "The parts, in order");
     Json scene = closed_object(std::move(properties));
-    for (const auto& p : property_table()) // there when they were asked for, or where there are any
+    for (const auto& p : property_table()) // present if requested, or if the scene has any
         if (p.on_request() || p.where_any) scene["properties"][std::string(p.name)] = value_schema(p);
     return scene;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Forms that the JSON Schemas of reports are made of.
+// Building blocks for the JSON Schemas of reports.
 
 #include "base/json.hpp"
 
@@ -26,7 +26,7 @@ inline Json choice(std::initializer_list<const char*> names) {
     return {{"enum", all}};
 }
 
-/// An object that has exactly these keys.
+/// An object with exactly these keys.
 inline Json closed_object(Json properties) {
     Json required = Json::array();
     for (const auto& [name, schema] : properties.items()) required.push_back(name);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double chart_height = 150, bars_top = 6, bars_bottom = 122, strip = 7;
 
-/// Charts with a strip of colours get a full row; other charts share one.
+/// Charts with a colour scale are on separate lines, others side by side.
 double width_of(const BarChart& chart) { return chart.scale ? 440 : 360; }
 
 double tallest(const BarChart& chart) {
@@ -21,7 +21,7 @@ double tallest(const BarChart& chart) {
     return most > 0 ? most : 1;
 }
 
-/// A nonzero bar is always visible, however low.
+/// A low bar is raised enough to be visible.
 double top_of(double height, double most) {
     return bars_bottom - std::max(height > 0 ? 1.5 : 0.0, height / most * (bars_bottom - bars_top));
 }
@@ -45,7 +45,7 @@ std::string bars(const BarChart& chart, double most) {
     return out;
 }
 
-/// Steps over the bars.
+/// A step line over the bars.
 std::string outline(const BarChart& chart, double most) {
     if (chart.outline.empty()) return {};
     const double wide = width_of(chart) / static_cast<double>(chart.outline.size());
@@ -56,7 +56,7 @@ std::string outline(const BarChart& chart, double most) {
     return fmt::format("<path class=\"before\" d=\"{}V{}\"/>", path, bars_bottom);
 }
 
-/// Where the text of a tick stands.
+/// The position of a tick's text.
 struct TickText {
     double x;
     const char* anchor;
@@ -64,7 +64,7 @@ struct TickText {
 };
 
 TickText tick_text_at(const BarChart& chart, double at, const std::string& text) {
-    constexpr double character = 7.2; // of its 12 pixels, a wide digit
+    constexpr double character = 7.2; // width of a wide digit at 12 pixels
     const double x = std::clamp(std::clamp(at, 0.0, 1.0) * width_of(chart), 0.5, width_of(chart) - 0.5);
     const double wide = character * static_cast<double>(text.size());
     if (at < 0.04) return {x, "start", x, x + wide};
@@ -72,7 +72,7 @@ TickText tick_text_at(const BarChart& chart, double at, const std::string& text)
     return {x, "middle", x - wide / 2, x + wide / 2};
 }
 
-/// Texts between the two at the ends are left out where they would run into another.
+/// Texts between the two end texts are omitted where they would overlap.
 std::string ticks(const BarChart& chart) {
     const double below = bars_bottom + (chart.scale ? strip + 2 : 0);
     std::string out =

@@ -1,5 +1,5 @@
 #pragma once
-// Histograms as inline SVG. All text is plain; numbers are rounded, so that pages stay small.
+// Histograms as inline SVG. All texts are plain; numbers are rounded to keep pages small.
 
 #include "geometry/measure/shape_histograms.hpp"
 
@@ -10,18 +10,17 @@ namespace facetmill::report {
 
 /// A row of bars from left to right.
 struct BarChart {
-    std::string id;                        ///< no other of the page may have it
+    std::string id;                        ///< unique in the page
     std::string title;                     ///< "Smallest angle"
-    std::string description = {};          ///< for those who cannot see it: what the bars say, in words
-    std::vector<double> heights = {};      ///< of the bars, any scale; negative: none
-    std::vector<std::string> colours = {}; ///< of the bars; empty: all in that of the page
-    std::vector<double> outline = {};      ///< a line over the bars, of as many; empty: none
-    std::vector<std::pair<double, std::string>> ticks =
-        {};             ///< 0 to 1 from left to right, and what is written there
-    bool scale = false; ///< a strip of the colours below the bars
+    std::string description = {};          ///< alternative text: the contents in words
+    std::vector<double> heights = {};      ///< of the bars, in any scale; negative: no bar
+    std::vector<std::string> colours = {}; ///< of the bars; empty: the page's colour for all
+    std::vector<double> outline = {};      ///< a line over the bars, with the same count; empty: none
+    std::vector<std::pair<double, std::string>> ticks = {}; ///< position from 0 to 1, left to right, and text
+    bool scale = false;                                     ///< adds a strip of the colours below the bars
 };
 
-/// <svg role="img"> with a title and a description, as wide as its place.
+/// <svg role="img"> with a title and a description, as wide as its container.
 std::string svg_of(const BarChart& chart);
 
 } // namespace facetmill::report

@@ -13,8 +13,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// "12,000 -> 3,000 faces", or one number when the stage left it; vertices, where there are no faces (a cloud
-/// of points).
+/// "12,000 -> 3,000 faces", or one number if unchanged; vertices if there are no faces (a point cloud).
 std::string size_change(const StageRecord& stage) {
     const Brief none;
     const Brief &before = stage.before ? *stage.before : none, &after = stage.after ? *stage.after : none;
@@ -30,7 +29,7 @@ std::string size_change(const StageRecord& stage) {
 }
 
 enum class Form { report, terminal };
-constexpr std::size_t most_lines = 20; ///< of a stage on a terminal
+constexpr std::size_t most_lines = 20; ///< per stage on a terminal
 
 void add_warning(const Diagnostic& warning, const std::string& lead, Painted& out) {
     out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
@@ -58,7 +57,7 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, Painted& 
     for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }
 
-/// A terminal already shows the failed checks.
+/// A terminal has already shown the failed ones.
 void add_checks(const std::vector<Check>& checks, Form form, Painted& out) {
     if (checks.empty()) return;
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return !c.passed; });
@@ -80,7 +79,7 @@ void add_checks(const std::vector<Check>& checks, Form form, Painted& out) {
     }
 }
 
-/// A line for each file; where a folder has many (the tiles of a tileset), one for all of them.
+/// A line for each file; for a folder with many files (the tiles of a tileset), a single line.
 std::string files_written(const std::vector<FileRecord>& files) {
     struct InFolder {
         std::size_t count = 0, bytes = 0;
@@ -110,7 +109,7 @@ std::string files_written(const std::vector<FileRecord>& files) {
     return out;
 }
 
-/// Name and stages, without an end.
+/// Name and stages, without a line end.
 void begin(const RunRecord& record, Form form, Painted& out) {
     out.paint("1", record.pipeline) += (record.about.empty() ? "" : ": " + record.about) + "\n";
     constexpr std::size_t widest = 40;
@@ -123,7 +122,7 @@ void begin(const RunRecord& record, Form form, Painted& out) {
     out += files_written(record.outputs);
 }
 
-/// After a failure; a report may fail after the outputs.
+/// After a failure: a report can fail after the outputs were written.
 std::string outputs_left(const RunRecord& record) {
     return record.outputs.empty() ? "; no output was written" : "";
 }

@@ -18,9 +18,9 @@ namespace facetmill::report {
 
 namespace {
 
-constexpr std::size_t all_faces = 150000, most_faces = 40000; ///< of all scenes, and of one
-constexpr std::size_t most_scenes = 6;                        ///< that have their share of the faces
-/// Of a page of 3 MB, as text: of all scenes with their textures, and of the textures.
+constexpr std::size_t all_faces = 150000, most_faces = 40000; ///< in total, and per scene
+constexpr std::size_t most_scenes = 6;                        ///< that get a share of the faces
+/// Limits for the text in a page of 3 MB: all scenes with their textures, and the textures.
 constexpr std::size_t most_bytes = 1200000, most_texture_bytes = 500000;
 constexpr int largest_texture = 512; ///< pixels a side
 
@@ -31,7 +31,7 @@ double largest_of(const std::vector<float>& distances) {
     return static_cast<double>(largest);
 }
 
-/// The image of the first level that is not too large.
+/// The first mipmap level within the size limit.
 io::Pixels pixels_of(const TextureImage& image, int largest) {
     const auto fits = std::find_if(image.levels.begin(), image.levels.end(), [&](const auto& level) {
         return std::max(level.width, level.height) <= largest;
@@ -50,7 +50,7 @@ const char* word_of(MaterialLook::Alpha alpha) {
                                                  : "opaque";
 }
 
-/// The vertices of faces that are no caps: those that are as far away as their distance tells.
+/// Vertices of faces other than caps, which have exact distances.
 std::vector<Index> measured_vertices(const Preview& preview) {
     const Mesh& mesh = preview.mesh;
     std::vector<std::uint8_t> measured(mesh.vertex_count());
@@ -63,9 +63,9 @@ std::vector<Index> measured_vertices(const Preview& preview) {
     return vertices;
 }
 
-/// As far as the scale of the colours reaches, and farther.
+/// The distances of vertices, and the range of the colour scale.
 struct Distances {
-    std::vector<float> all; ///< [vertices] or empty; what is not measured has 0
+    std::vector<float> all; ///< [vertices] or empty; 0 for unmeasured vertices
     double largest = 0, scale = 1;
 };
 
@@ -86,7 +86,7 @@ Distances distances_of(const Preview& preview, const FaceTree& tree) {
     return out;
 }
 
-/// Whether two scenes of a view look the same.
+/// True if two scenes look the same in the view.
 bool look_alike(const Json& a, const Json& b) {
     for (const char* key : {"data", "groups", "origin", "size", "up", "front"})
         if (a[key] != b[key]) return false;
@@ -145,7 +145,7 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     Distances distances;
     if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
     PackedMesh mesh = report::packed(preview, distances.all, distances.scale);
-    // A scene without an up axis uses the first scene's.
+    // A scene without an up axis uses that of the first.
     const Camera camera = first_ && first_up_ == scene.up ? *first_ : camera_of(scene);
     if (!first_) stand_as(camera, scene.up);
     Json json = {{"name", name},
@@ -191,7 +191,7 @@ Json ViewedScenes::group(const Scene& scene, const PreviewPaint& paint, std::siz
             {"double_sided", material < scene.materials.size() && scene.materials[material].double_sided}};
 }
 
-/// The index of the texture among the page's; null when there is no room.
+/// The index of the texture in the page; null if there is no room.
 Json ViewedScenes::texture(const Texture& texture, bool with_alpha) {
     const TextureKey key{texture.image.get(), texture.wrap_u, texture.wrap_v, texture.nearest, with_alpha};
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
@@ -232,7 +232,7 @@ std::string viewer_section(const Json& viewed) {
     std::string text;
     for (const char c : viewed.dump(-1, ' ', true, Json::error_handler_t::replace))
         if (c == '<')
-            text += "\\u003c"; // no name ends the element
+            text += "\\u003c"; // so that no name ends the element
         else
             text += c;
     return fmt::format("<section class=\"viewer\" hidden>\n<h2>3D view</h2>\n"

@@ -1,5 +1,5 @@
 #pragma once
-// The 3D view of a page: scenes reduced to few triangles, embedded in the page and drawn by viewer.js.
+// The 3D view of a page: scenes with few triangles, embedded in the page and drawn by viewer.js.
 
 #include "base/json.hpp"
 #include "geometry/preview/preview.hpp"
@@ -14,30 +14,30 @@
 
 namespace facetmill::report {
 
-/// A surface that the distances of a scene are taken from.
+/// The reference surface for the distances of a scene.
 struct ViewedFrom {
-    const FaceTree* tree = nullptr; ///< null: there are no such colours
+    const FaceTree* tree = nullptr; ///< null: no coloured distances
     std::string name{};
     std::optional<Index> last_cap{}; ///< SignedDeviationSettings::last_cap
 };
 
-/// Gathers the scenes that one view shows: one before, and those after it.
+/// Collects the scenes of a view: one before, and the scenes after it.
 class ViewedScenes {
   public:
-    /// expected: about how many there will be, before which each gets its share of the triangles.
+    /// expected: the approximate number of scenes, among which the triangles are divided.
     explicit ViewedScenes(std::size_t expected);
 
-    /// Before all scenes: those whose up axis is that one stand as in a picture by this camera, which are the
-    /// pictures beside the view. Otherwise they stand as the first of them does.
+    /// Call it before adding scenes. Scenes with this up axis use the camera's orientation, as in the
+    /// pictures next to the view. Otherwise all use the orientation of the first scene.
     void stand_as(const Camera& camera, UpAxis up);
-    /// The scene that the others are compared with, first of all.
+    /// Adds the scene for comparison; call it first.
     void add_before(const Scene& scene, const std::string& name,
                     const std::shared_ptr<const ResolvedMaterials>& materials);
-    /// A scene after it; one that looks as the last, at the same place, only adds its name to that, as it
-    /// does where nothing has changed. from: coloured by the signed distances of its vertices from this, too.
+    /// Adds a scene after it. If it looks like the last scene at the same position, only its name is added,
+    /// because nothing changed. from: reference for colouring vertices by signed distance.
     void add_after(const Scene& scene, const std::string& name,
                    const std::shared_ptr<const ResolvedMaterials>& materials, const ViewedFrom& from = {});
-    /// The input of viewer_section(); null for an empty view.
+    /// The input of viewer_section(); null if there is nothing to show.
     Json json() const;
 
   private:
@@ -48,14 +48,14 @@ class ViewedScenes {
                const ResolvedMaterials* materials);
     Json texture(const Texture& texture, bool with_alpha);
 
-    std::size_t faces_;           ///< of each scene
-    std::optional<Camera> first_; ///< which way the scenes stand
+    std::size_t faces_;           ///< per scene
+    std::optional<Camera> first_; ///< orientation of the scenes
     UpAxis first_up_{};
     std::size_t bytes_ = 0, texture_bytes_ = 0, left_out_ = 0;
     Json scenes_ = Json::array(), textures_ = Json::array();
     using TextureKey = std::tuple<const TextureImage*, TextureWrap, TextureWrap, bool, bool>;
-    std::map<TextureKey, Json> images_;                     ///< their places among the textures, or null
-    std::vector<std::shared_ptr<const TextureImage>> kept_; ///< so that their addresses stay theirs
+    std::map<TextureKey, Json> images_;                     ///< indices among the textures, or null
+    std::vector<std::shared_ptr<const TextureImage>> kept_; ///< so that addresses stay unique
 };
 
 /// The section of a page; empty for null.

@@ -10,14 +10,14 @@ namespace facetmill::report {
 
 namespace {
 
-/// The position of x in [low, low + size], quantised to 0 .. most.
+/// The position of x in [low, low + size], as an integer from 0 to most.
 std::uint32_t quantised(double x, double low, double size, std::uint32_t most) {
     if (!(size > 0)) return 0;
     const double part = std::clamp((x - low) / size, 0.0, 1.0);
     return static_cast<std::uint32_t>(std::floor(part * most + 0.5));
 }
 
-/// Planes of bytes: the lowest bytes of all numbers, then the next.
+/// Splits numbers into planes of bytes: the lowest bytes of all numbers, then the next.
 class Planes {
   public:
     void numbers(const std::vector<std::uint32_t>& values, int width) {
@@ -27,7 +27,8 @@ class Planes {
             for (const std::uint32_t value : values)
                 bytes_[at++] = static_cast<std::byte>(value >> (8 * w) & 255);
     }
-    /// Each number less the one before, modulo its width, the sign in the last bit.
+    /// Stores each number as the difference from the previous one, modulo its width, with the sign in the
+    /// last bit.
     void differences(std::vector<std::uint32_t> values, int width) {
         const std::uint32_t mask = (1U << (8 * width)) - 1;
         std::uint32_t before = 0;
@@ -43,11 +44,11 @@ class Planes {
     io::Bytes bytes_;
 };
 
-/// Where a direction lies on the net of an octahedron, two bytes (Q. Meyer et al., "On Floating-Point Normal
-/// Vectors", 2010).
+/// The coordinates of a direction on an octahedron's net, two bytes (Q. Meyer et al., "On Floating-Point
+/// Normal Vectors", 2010).
 std::array<std::uint32_t, 2> folded(const Vec3& n) {
     const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    if (!(sum > 0)) return {255, 255}; // viewer.js takes any direction there
+    if (!(sum > 0)) return {255, 255}; // any direction works for viewer.js
     double x = n.x / sum, y = n.y / sum;
     if (n.z < 0) {
         const double over = (1 - std::abs(y)) * (x >= 0 ? 1 : -1);
@@ -57,11 +58,11 @@ std::array<std::uint32_t, 2> folded(const Vec3& n) {
     return {quantised(x, -1, 2, 255), quantised(y, -1, 2, 255)};
 }
 
-/// The faces by their primitives, and the wedges in the order in which they are then met.
+/// The faces sorted by primitive, and the wedges in order of first use.
 struct Order {
     std::vector<Index> faces, wedges;
-    std::size_t loose = 0;            ///< of the wedges, the first one that no face has
-    std::vector<std::uint32_t> codes; ///< [corners] of those faces: wedges met so far less the wedge's number
+    std::size_t loose = 0;            ///< the first wedge without a face
+    std::vector<std::uint32_t> codes; ///< [corners] of these faces: wedges so far minus the wedge's number
 };
 
 Order order_of(const Preview& preview) {
@@ -102,7 +103,7 @@ std::vector<PackedGroup> groups_of(const Preview& preview, const Order& order) {
     return groups;
 }
 
-/// One number for each wedge, in their order.
+/// One number per wedge, in order.
 template <class Of>
 std::vector<std::uint32_t> column(const Order& order, Of&& of) {
     std::vector<std::uint32_t> out(order.wedges.size());

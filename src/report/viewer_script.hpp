@@ -4,7 +4,7 @@
 
 namespace facetmill::report {
 
-/// The text of viewer.js; cmake/Embed.cmake puts it into the executable.
+/// The text of viewer.js; cmake/Embed.cmake embeds it in the executable.
 std::string_view viewer_script();
 
 } // namespace facetmill::report

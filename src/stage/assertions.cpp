@@ -25,7 +25,7 @@ bool same(const std::vector<Length>& a, const std::vector<Length>& b) {
                                               [](const auto& x, const auto& y) { return x.text == y.text; });
 }
 
-/// The lengths, and what they are in the scene when that is another spelling: "10mm (0.01)".
+/// The lengths as written, with their values in the scene if these differ: "10mm (0.01)".
 std::string told(const std::vector<Length>& lengths, const std::vector<double>& are) {
     const bool plain = std::all_of(lengths.begin(), lengths.end(),
                                    [](const Length& l) { return l.kind == Length::Kind::scene; });
@@ -133,7 +133,7 @@ std::optional<bool> holds(const Assertion& assertion, const Properties& properti
 }
 
 namespace {
-/// Hints on smallest values are for those that are too small, on largest ones for those too large.
+/// Hints for minima apply to values that are too small, hints for maxima to values that are too large.
 bool hint_fits(const Property& property, const Bound& bound, const Properties& properties) {
     if (property.join != Join::least && property.join != Join::most) return true;
     const auto value = property.get(properties);
@@ -142,14 +142,15 @@ bool hint_fits(const Property& property, const Bound& bound, const Properties& p
                                         : !(bound.min && *value < *bound.min);
 }
 
-/// A cloud of points, asked for what only faces or lines have, or how many points it has: no stage helps.
+/// True for a point cloud and a property that only faces or lines have, or a number of points: no stage can
+/// help.
 bool lacks_faces(const Property& property, const Properties& properties) {
     return properties.faces == 0 && properties.lines == 0 && properties.vertices > 0 &&
            !property.of_scene() && property.kind != PropertyKind::box &&
            (property.of_faces || !property.measure);
 }
 
-/// Whether what is measured, and not counted, is to be one number: hardly what was meant, unless it is 0.
+/// True if a measured property must equal one number. That is rarely intended, unless the number is 0.
 bool asks_exactly(const Property& property, const Bound& bound) {
     using enum PropertyKind;
     const bool measured = property.kind == number || property.kind == angle || property.kind == length ||

@@ -1,5 +1,5 @@
 #pragma once
-// Assertions on properties: what `validate`, `ensure` (stage and common key) and `when` have in common.
+// Assertions on properties, shared by `validate`, `ensure` (stage and common key) and `when`.
 
 #include "geometry/inspect/inspect.hpp"
 #include "options/declaration.hpp"
@@ -9,56 +9,56 @@ namespace facetmill {
 
 class Context;
 
-/// A property and what it must be.
+/// A property and its required values.
 struct Assertion {
     std::string property;
-    Bound bound{};           ///< of a word: its place among the property's words; of a length: once resolved
-    Mark where{};            ///< of what it must be
-    bool if_applies = false; ///< holds where the property does not apply
-    /// Lengths as written: one for a property that is a length, three for a corner of a box, or none.
+    Bound bound{};           ///< of a word: its index; of a length: once resolved
+    Mark where{};            ///< of the required value
+    bool if_applies = false; ///< also holds if the property does not apply
+    /// Lengths as written: one for a length property, three for a corner of a box, otherwise none.
     std::vector<Length> min{}, max{};
-    std::vector<Mark> min_at{}, max_at{}; ///< where each was written
-    Box within{};                         ///< of a box, once resolved; infinite where nothing was asked
+    std::vector<Mark> min_at{}, max_at{}; ///< where each is written
+    Box within{};                         ///< of a box, after resolving; infinite where unspecified
 };
 
 /// "true", "2", "at most 5".
 std::string expectation(const Bound& bound);
 bool holds(const Bound& bound, double value);
-/// As it could be written: "true", "mm", "{max: 5mm}".
+/// In the syntax of pipelines: "true", "mm", "{max: 5mm}".
 std::string to_string(const Assertion& assertion);
 
-/// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}; in the order written.
+/// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}, in written order.
 struct Assertions {
     std::vector<Assertion> all;
-    /// What inspect has to be asked for.
+    /// The settings with which inspect measures these properties.
     InspectSettings settings() const;
     struct PhysicalLength {
         std::string property;
         const Length* length;
         Mark where;
     };
-    /// The lengths that have a physical unit.
+    /// The lengths with a physical unit.
     std::vector<PhysicalLength> physical() const;
 };
 
-/// With the lengths as numbers of the scene; percentages are of what entered the context's stage. Throws
-/// usage (E-UNIT) for a physical unit when the scene has none.
+/// Converts the lengths to scene units; percentages refer to the input of the context's stage. Throws usage
+/// (E-UNIT) for a physical unit when the scene has none.
 Assertions resolved(Assertions assertions, const Scene& scene, Context& context);
 
-/// Reads assertions from a map value; unknown properties, truths where numbers belong and the reverse are
-/// problems.
+/// Reads assertions from a map value. Unknown properties are problems, and so are truth values in place of
+/// numbers or the reverse.
 bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
                       const std::set<std::string>& also_known = {});
-/// Adds E-MISSING unless the map of properties, or something else beside them, says anything.
+/// Adds E-MISSING unless at least one assertion or other key is given.
 void verify_any(bool any, const Value& given, std::string_view owner, Problems& problems);
-/// JSON Schema of such a map.
+/// The JSON Schema of such a map.
 Json assertions_schema();
-/// What the manual says of a property: its help, and the unit where the type does not tell it.
+/// The manual's text for a property: its help, and the unit if the type does not imply it.
 std::string help_of(const Property& property);
-/// The words of a property with what they mean; none for other kinds.
+/// The words of a property with their meanings; none for other kinds.
 std::vector<Choice> word_choices(const Property& property);
 
-/// Declares one option per property of the table; each given one is appended to the struct's assertions.
+/// Declares one option per property of the table; each option used is added to the struct's assertions.
 template <class S>
 void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner) {
     const Json schema = assertions_schema();
@@ -85,11 +85,11 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
     }
 }
 
-/// One check per assertion, in order; lengths have to be resolved. A property that does not apply (volume of
-/// an open mesh) does not hold.
+/// One check per assertion, in order; lengths must be resolved. The check fails if the property does not
+/// apply (volume of an open mesh).
 std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
                                     const std::string& stage);
-/// Whether one of them holds; none when the property does not apply.
+/// True if the assertion holds; none when the property does not apply.
 std::optional<bool> holds(const Assertion& assertion, const Properties& properties);
 
 template <>

@@ -1,4 +1,4 @@
-// Assertions from what people write, of stage/assertions.hpp.
+// Reads the assertions of stage/assertions.hpp from user input.
 #include "base/math/numbers.hpp"
 #include "options/lists.hpp"
 #include "stage/assertions.hpp"
@@ -44,7 +44,7 @@ bool read_truth(const Property& property, const Value& value, Assertion& out, Pr
     return out.bound.truth || wrong_kind(property, value, problems);
 }
 
-/// Whether the bound says something that a value of the property can meet.
+/// True if some value of the property can satisfy the bound.
 bool verify(const Property& property, const Value& value, const Bound& bound, Problems& problems) {
     const auto refuse = [&](std::string message, std::string hint) {
         problems.add(value.mark, "E-RANGE", std::move(message), std::move(hint));
@@ -82,7 +82,7 @@ bool read_word(const Property& property, const Value& value, Assertion& out, Pro
     return index.has_value();
 }
 
-/// One length, or the three of a corner: as a list, or as the one-liner writes it, "0,0,20cm".
+/// One length, or three for a corner: as a list, or in the one-liner's syntax, "0,0,20cm".
 bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, std::vector<Mark>& marks,
                   Problems& problems) {
     if (count == 1) {
@@ -100,7 +100,7 @@ bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& ou
     return good;
 }
 
-/// Whether some number is at least min and at most max, as far as that is known without a scene.
+/// True if a number can be both at least min and at most max, as far as this is known without a scene.
 bool may_hold(const Assertion& a) {
     for (std::size_t i = 0; i < std::min(a.min.size(), a.max.size()); ++i)
         if (a.min[i].kind == a.max[i].kind && a.min[i].of == a.max[i].of && a.min[i].amount > a.max[i].amount)
@@ -195,7 +195,7 @@ Json schema_of(const Property& property) {
     return OptionType<Bound>::schema();
 }
 
-/// Of a bound: min or max, where only one of them is given.
+/// The position of min or max, if only one of them is given.
 Mark place_of(const Value& bound, const Mark& otherwise) {
     const Value& one = bound.is_map() && bound.entries.size() == 1 ? bound.entries[0].value : bound;
     return one.mark.known() ? one.mark : otherwise;

@@ -10,7 +10,7 @@ namespace facetmill {
 
 namespace {
 
-/// How far a vertex is from where it is shown, at most, as a share of the diagonal of what is shown.
+/// The largest distance of a vertex from its shown position, as a share of the shown part's diagonal.
 double share_of_move(const Part& bind, const Part& shown) {
     Box box;
     double farthest = 0;

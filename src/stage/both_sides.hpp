@@ -1,5 +1,5 @@
 #pragma once
-// Parts that fall into two.
+// Parts that are split in two.
 
 #include "mesh/scene.hpp"
 
@@ -8,12 +8,12 @@
 
 namespace facetmill {
 
-/// Keeps the other side of parts until all were cut, as a scene's parts must stay where they are so long.
+/// Collects the other sides of parts until all are cut, because the scene's parts must not move before.
 class BothSides {
   public:
     explicit BothSides(Scene& scene) : scene_(scene) {}
 
-    /// The part gets one name and keeps its mesh; a copy of it with the other name and mesh comes behind it.
+    /// The part gets the first name and keeps its mesh; a copy with the other name and mesh follows it.
     void part_in_two(Part& part, const char* name, const char* other_name, Mesh other) {
         Part copy = part;
         copy.name += other_name;
@@ -22,7 +22,7 @@ class BothSides {
         copy.changed = true;
         others_.emplace_back(static_cast<std::size_t>(&part - scene_.parts.data()), std::move(copy));
     }
-    /// Puts them into the scene.
+    /// Inserts the other sides into the scene.
     void insert() {
         for (std::size_t k = others_.size(); k-- > 0;)
             scene_.parts.insert(scene_.parts.begin() + static_cast<std::ptrdiff_t>(others_[k].first) + 1,
@@ -32,7 +32,7 @@ class BothSides {
 
   private:
     Scene& scene_;
-    std::vector<std::pair<std::size_t, Part>> others_; ///< behind which part, and the part
+    std::vector<std::pair<std::size_t, Part>> others_; ///< the index of the part before it, and the part
 };
 
 } // namespace facetmill

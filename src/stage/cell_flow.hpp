@@ -1,6 +1,6 @@
 #pragma once
-// A scene that is larger than memory on its way through the first stages of a run: cells on disk, until a
-// stage has made it small, or to the end.
+// A scene larger than memory in the first stages of a run. It is stored as cells on disk, until a stage has
+// made it small enough, or to the end.
 
 #include "cells/partition/partition.hpp"
 #include "mesh/scene.hpp"
@@ -10,19 +10,19 @@ namespace facetmill {
 
 struct CellFlow {
     cells::CellResources means;
-    std::unique_ptr<cells::Partition> partition; ///< after a load; gone when there is a scene
+    std::unique_ptr<cells::Partition> partition; ///< after a load; null once the scene is in memory
     std::string part;                            ///< the name of the only part
-    Transform transform;                         ///< from the cells' own space to the world
-    Box box;                                     ///< around the part, in the world
+    Transform transform;                         ///< from the cells' space to the world
+    Box box;                                     ///< the part's bounding box, in the world
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    std::optional<Scene> scene; ///< in memory again
-    /// Of a stage that made the scene, and is to keep the surface: what it was given.
+    std::optional<Scene> scene; ///< back in memory
+    /// The input of the stage that created the scene, for its surface check.
     std::optional<PartSurface> surface;
 
     Box bounds() const { return scene ? scene->bounds() : box; }
 
-    /// A scene of one part with the corners of the cells' box, where lengths are resolved.
+    /// A scene of one part with the corners of the cells' box, for resolving lengths.
     Scene outline() const {
         Scene outline;
         outline.unit = unit;

@@ -1,6 +1,6 @@
 #pragma once
-// The keys that every step of a pipeline takes beside its stage's options, and the steps that are no stages:
-// declared once, for the parser, the one-liner, the help and the schema.
+// The keys that every step of a pipeline accepts besides its stage's options, and the control items. Declared
+// once for the parser, the one-liner, the help and the schema.
 
 #include "base/json.hpp"
 
@@ -11,7 +11,7 @@
 namespace facetmill {
 
 struct CommonKey {
-    /// What the planner does with it: its switch has a case for each.
+    /// How the planner uses the key: its switch has a case for each.
     enum class Use { names, conditions, selects, ensures };
     Use use;
     std::string name;
@@ -23,18 +23,18 @@ struct CommonKey {
 const std::vector<CommonKey>& common_keys();
 bool is_common_key(std::string_view name);
 
-/// An item of a list of stages that is no stage: it has stages inside.
+/// A list item that contains stages instead of being one.
 struct ControlItem {
     enum class Kind { branch, foreach, include };
     Kind kind;
     std::string name, about;
-    std::vector<std::string> keys; ///< that belong beside it
+    std::vector<std::string> keys; ///< allowed next to it
     bool takes_common_keys = true;
 };
 
 /// branch, foreach, include.
 const std::vector<ControlItem>& control_items();
-/// Null when there is none of the name.
+/// Null for an unknown name.
 const ControlItem* control_item(std::string_view name);
 inline bool is_control_item(std::string_view name) { return control_item(name) != nullptr; }
 

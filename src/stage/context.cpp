@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether the pattern names the part itself or a material that faces, lines or points of it have.
+/// True if the pattern matches the part, or a material of its faces, lines or points.
 bool names(std::string_view pattern, const Part& part, const Scene& scene) {
     if (glob_matches(pattern, part.name)) return true;
-    std::vector<bool> used; // looked for when a name matches
+    std::vector<bool> used; // computed when a name matches
     for (std::size_t p = 0; p < part.mesh.primitives.size(); ++p) {
         const Index material = part.mesh.primitives[p].material;
         if (material >= scene.materials.size() || !glob_matches(pattern, scene.materials[material].name))
@@ -35,7 +35,7 @@ fs::path placed(const fs::path& base, const std::string& text) {
 }
 
 /// The diagonal of the part's box in world space. Boxes do not depend on the order of points, so chunks may
-/// join freely.
+/// be merged in any order.
 double world_diagonal(const Part& part) {
     const Transform to_world = part.transform;
     const auto& points = part.mesh.positions;
@@ -154,7 +154,7 @@ void Context::warn(std::string id, std::string message, std::string hint) {
 
 void Context::report(const Fields& fields, const void* result) {
     Json made = fields.json(result);
-    if (record_.result.empty()) // most often; of many parts, a copy takes as long as all else
+    if (record_.result.empty()) // the usual case; for many parts, a copy would dominate the time
         record_.result = std::move(made);
     else
         record_.result.update(made);

@@ -135,7 +135,7 @@ void check_deviation(const DeviationLimits& limits, const LimitMarks& where, con
         report::Check c;
         c.name = name;
         c.where = where[which];
-        // A bare percentage is of the diagonal of what the scene is compared with.
+        // A percentage without a reference is of the diagonal of the comparison scene.
         const bool of_reference = limit->kind == Length::Kind::percent && limit->of == Length::Of::stage;
         const double most =
             of_reference ? limit->amount / 100 * measured.diagonal : context.resolve(*limit, scene, name);

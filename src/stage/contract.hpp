@@ -1,6 +1,6 @@
 #pragma once
-// What the common key `ensure` takes: assertions on properties, and a limit on the deviation from what
-// entered.
+// The value of the common key `ensure`: assertions on properties, and a limit on the deviation from the
+// input.
 
 #include "geometry/deviation/deviation.hpp"
 #include "stage/assertions.hpp"
@@ -14,14 +14,14 @@ namespace facetmill {
 struct DeviationLimits {
     enum class From { stage, load };
     std::optional<Length> max, rms, mean;
-    From from = From::stage; ///< compared with what entered the step, or with the scene as last loaded
-    std::optional<std::int64_t> samples; ///< all of them are averaged; without, as many as that takes
+    From from = From::stage; ///< compares with the input of the step, or with the scene as last loaded
+    std::optional<std::int64_t> samples; ///< averages exactly this many; without it, as many as necessary
     std::int64_t seed = 1;
     bool certify = false;
 
     DeviationSettings settings() const;
 };
-/// Where max, rms and mean were written.
+/// Where max, rms and mean are written.
 using LimitMarks = std::array<Mark, 3>;
 
 void declare_deviation(Declare<DeviationLimits>& d);
@@ -35,13 +35,13 @@ struct Contract {
 };
 bool parse_contract(const Value& value, Contract& out, Problems& problems);
 Json contract_schema();
-/// ... and of what a contract on the deviation adds to the result of its stage, under "deviation".
+/// The schema of the data that a deviation contract adds to its stage's result, under "deviation".
 Json contract_result_schema();
 /// "max 0.5%, rms 0.1%", for plans.
 std::string to_string(const DeviationLimits& limits);
 
-/// Measures how far the scene is from `before` and makes a check of every limit, with the place of the
-/// maximum as evidence. The whole measurement goes into the stage's result under "deviation".
+/// Measures the deviation of the scene from `before`, and makes a check of every limit, with the position of
+/// the maximum as evidence. Stores the complete measurement in the stage's result under "deviation".
 void check_deviation(const DeviationLimits& limits, const LimitMarks& where, const Surface& before,
                      const Scene& scene, Context& context);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Faces that cross themselves, for stages that cut faces into triangles or along planes.
+// Self-intersecting faces, for stages that triangulate faces or cut them along planes.
 
 #include "mesh/scene.hpp"
 
@@ -7,25 +7,25 @@ namespace facetmill {
 
 class Context;
 
-/// What is done about faces that cross themselves before a stage runs.
+/// How to handle self-intersecting faces before a stage runs.
 enum class CrossingFacePolicy {
-    keep, ///< nothing: only their edges and corners matter to it, or it does without
-    name, ///< those that cross themselves in no plane are named: it goes by what faces cover (filled_surface)
-    fill, ///< planar ones become triangles, the others are named: it cuts faces, or moves single vertices
+    keep, ///< no change: the stage only uses edges and corners, or tolerates them
+    name, ///< warns about non-planar ones: the stage uses the area that faces cover (filled_surface)
+    fill, ///< triangulates planar ones, warns about others: the stage cuts faces or moves single vertices
 };
 
-/// Of the parts that the stage works on. fill makes triangles of planar faces that cross themselves, over
-/// what they wind around (geometry/triangulate/crossing_faces.hpp), and records what becomes of attributes
-/// there; parts without such faces are as they were. Warns as warn_of_fans.
+/// Prepares the selected parts. fill triangulates the area that a planar self-intersecting face winds around
+/// (geometry/triangulate/crossing_faces.hpp), and records the changes to attributes. Parts without such faces
+/// stay unchanged. Warns like warn_of_fans.
 void prepare_crossing_faces(CrossingFacePolicy policy, Scene& scene, Context& context);
 
-/// Warns (W-FANS) of the faces that cross themselves in no plane, of the parts that the stage works on.
+/// Warns (W-FANS) about non-planar self-intersecting faces of the selected parts.
 void name_fans(const Scene& scene, Context& context);
 
 /// Faces whose triangles may overlap.
 struct FanCounts {
-    std::size_t fans = 0;        ///< in no plane, or without area
-    std::size_t overlapping = 0; ///< filled, with triangles that lie over each other
+    std::size_t fans = 0;        ///< non-planar, or without area
+    std::size_t overlapping = 0; ///< filled with overlapping triangles
 };
 
 /// Warns (W-FANS) when there are any.

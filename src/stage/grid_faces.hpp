@@ -1,12 +1,12 @@
 #pragma once
-// Faces that cross themselves, for stages that lay a grid on each face.
+// Self-intersecting faces, for stages that apply a grid to each face.
 
 #include "stage/context.hpp"
 
 namespace facetmill {
 
-/// Warns (W-FANS) of the faces that cross themselves, of the parts that the stage works on: a grid takes
-/// faces of four corners at most, so they cannot be filled first, and pieces of them overlap.
+/// Warns (W-FANS) about self-intersecting faces of the selected parts. A grid needs faces of at most four
+/// corners, so they cannot be filled first, and their pieces overlap.
 void warn_of_crossing_faces_in_grid(const Scene& scene, Context& context);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Stages in a row: what one leaves of the surface is what the next one finds.
+// Consecutive stages: the surface measured after one stage is reused by the next.
 
 #include "stage/stage.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace facetmill {
 
-/// As the other perform. surfaces: those of the scene, if they are known; then those of what is returned, or
-/// none, also where this throws.
+/// Like the other perform. surfaces: of the scene, if known; replaced by the result's surfaces, or none. Also
+/// none if this throws.
 Scene perform(const Stage& stage, Scene scene, Context& context,
               std::optional<std::vector<PartSurface>>& surfaces);
 

@@ -19,10 +19,10 @@ void record_input(Context& context, const std::string& path, io::Span bytes) {
     record_input(context, path, bytes.size(), sha256(bytes), bytes);
 }
 
-/// With the sum of what was read, which a file that was replaced since then no longer has.
+/// Records the checksum of the bytes read, because the file may have been replaced since.
 void record_neighbour(Context& context, const io::ReadFile& file) {
     if (!file.sha256.empty()) return record_input(context, file.path.string(), file.bytes, file.sha256);
-    context.mark_uncacheable(); // what is read now need not be what the reader saw
+    context.mark_uncacheable(); // the file may differ now from the bytes that the reader saw
     record_input(context, file.path.string(), io::Input::open(file.path).stored());
 }
 
@@ -48,11 +48,11 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
 
 namespace {
 
-/// Warns (W-UNITS) where one of the scenes states no unit and one is so small beside the other that nothing
-/// of it can be seen or compared.
+/// Warns (W-UNITS) if one scene has no unit, and one is so small relative to the other that it is invisible
+/// in a comparison.
 void warn_of_sizes(const std::string& name, Unit others, const Scene& other, const Scene& scene,
                    Context& context) {
-    constexpr double apart = 100; // in a picture of 800 pixels the smaller one has 8
+    constexpr double apart = 100; // in a picture of 800 pixels, the smaller scene has 8
     const double mine = diagonal(scene.bounds()), its = diagonal(other.bounds());
     if (!(mine > 0 && its > 0) || (mine < apart * its && its < apart * mine)) return;
     if (others != Unit::unknown && scene.unit != Unit::unknown) return;

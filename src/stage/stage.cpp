@@ -41,8 +41,7 @@ const StageInfo* stage_named(std::string_view name) {
 
 namespace {
 
-/// Of what a stage that works on faces leaves: `id` warns of it, unless the stage leaves it out of what it
-/// says or makes.
+/// Warns with `id` about parts that a stage for faces leaves unchanged, unless it omits them from its result.
 void tell_of_left(const StageInfo& stage, const std::string& what, bool is_one, bool leaves_out,
                   const char* id, const char* hint, Context& context) {
     if (leaves_out)
@@ -86,7 +85,7 @@ Scene perform(const Stage& stage, Scene scene, Context& context,
               std::optional<std::vector<PartSurface>>& surfaces) {
     auto known = std::exchange(surfaces, std::nullopt);
     const CrossingFacePolicy crossing = stage.crossing_faces();
-    if (crossing == CrossingFacePolicy::fill) known.reset(); // filled faces have another area
+    if (crossing == CrossingFacePolicy::fill) known.reset(); // filling changes the area of faces
     prepare_crossing_faces(crossing, scene, context);
     leave_lines(*stage.info, scene, context);
     tell_of_points(*stage.info, scene, context);

@@ -28,75 +28,76 @@
 
 namespace facetmill {
 
-/// What a stage reads and writes, as far as its options tell; for plan, depfiles and collisions.
+/// The files that a stage reads and writes, as far as its options determine them; for plan, depfiles and
+/// collisions.
 struct StageFiles {
     std::vector<PathText> inputs, outputs;
-    std::vector<PathText> asset_roots{}; ///< folders below which the inputs may name files
+    std::vector<PathText> asset_roots{}; ///< folders in which the inputs may refer to files
     std::optional<PathText> materials{}; ///< also written when the scene has materials
-    std::optional<PathText> images{};    ///< the output that images of the scene are copied beside
-    std::function<bool(const io::NamedImage&)> copies{}; ///< which of them; empty: all
-    std::optional<PathText> evidence{}; ///< written at once where a check fails; no output of a plan
+    std::optional<PathText> images{};    ///< the scene's images are copied next to this output
+    std::function<bool(const io::NamedImage&)> copies{}; ///< selects these images; empty: all
+    std::optional<PathText> evidence{}; ///< written immediately when a check fails; not an output of a plan
 };
 
-/// Options of a stage that the pipeline has to know of, by their names; empty: it has none such.
+/// Names of options with a meaning for the pipeline; empty: no such option.
 struct OptionRoles {
-    std::string sets_unit = {};        ///< says what the numbers of the scene mean afterwards
+    std::string sets_unit = {};        ///< the unit of the scene's numbers after the stage
     std::string writes_in_unit = {};   ///< the unit of the numbers in the file that it writes
-    std::string baseline = {};         ///< the file of what is known and may go on
-    std::string updates_baseline = {}; ///< writes that file anew: --update-baseline gives it
+    std::string baseline = {};         ///< the file of known, accepted failures
+    std::string updates_baseline = {}; ///< rewrites the baseline file: --update-baseline sets it
 };
 
-/// What a stage does with parts of lines.
+/// How a stage handles parts of lines.
 enum class LinesPolicy {
-    leave, ///< it works on faces and leaves them as they are, with a warning (W-LINES)
-    pass,  ///< they have nothing that it works on: they are left without a warning
-    work   ///< it works on them
+    leave, ///< works on faces and skips them with a warning (W-LINES)
+    pass,  ///< skips them without a warning, because they have no data for it
+    work   ///< processes them
 };
 
 class Stage;
 
-/// What is true of a stage, whatever its options.
+/// The properties of a stage, independent of its options.
 struct StageInfo {
     std::string name; ///< the verb users write
-    /// What other programs call it, separated by blanks. For hints only: a stage has one name.
+    /// Names in other programs, separated by blanks. Only for hints: a stage has one name.
     const char* also_called = "";
-    /// An operation of other programs that this stage does together with other stages.
+    /// An operation of other programs that needs this stage together with others.
     struct Chain {
         const char *words = "", *stages = ""; ///< separated by blanks; a hint with the stages
     } chain = {};
     std::string about; ///< one line
-    /// Paragraphs of short lines: what it guarantees, what it does to attributes, its source.
+    /// Paragraphs of short lines: its guarantees, its effect on attributes, its source.
     const char* details = "";
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
-    bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
-    bool tells = false;  ///< something is left of it beside the scene: a file, or lines on the terminal
-    bool moves = false;  ///< it may move the scene as a whole: distances from before it tell nothing
-    bool changes_images = false;     ///< it makes, drops or renames images that a write may put into files
-    bool measures_deviation = false; ///< it tells how far it moved the surface
+    bool checks = false; ///< it only checks: consecutive checks all run before a failure ends the branch
+    bool tells = false;  ///< it has an effect besides the scene: a file, or lines on the terminal
+    bool moves = false;  ///< it may move the whole scene: distances from before are meaningless
+    bool changes_images = false;     ///< it creates, drops or renames images that a write may export
+    bool measures_deviation = false; ///< it reports how far it moved the surface
     LinesPolicy lines = LinesPolicy::leave;
-    bool leaves_points = false;        ///< it works on faces and leaves clouds as they are; told (W-POINTS)
-    bool loads = false;                ///< it adds to the scene rather than working on it (may come first)
-    MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
-    /// What is done about faces that cross themselves before it runs, unless its options say otherwise: the
-    /// most that any of them ask for.
+    bool leaves_points = false;        ///< it skips point clouds, with a warning (W-POINTS)
+    bool loads = false;                ///< it adds to the scene instead of changing it (may come first)
+    MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options change that
+    /// How self-intersecting faces are handled before it runs, unless its options change that: the strictest
+    /// policy of any option.
     CrossingFacePolicy crossing_faces = CrossingFacePolicy::keep;
     OptionRoles roles = {};
-    bool ends_cells = false; ///< what on_cells makes is a scene in memory; else cells go on
+    bool ends_cells = false; ///< on_cells produces a scene in memory; else cells
 
-    // Filled by make_stage. Declarations are made when they are first asked for.
+    // Filled by make_stage. Declarations are created on first use.
     Lazy<Declaration> options = {};
-    Lazy<Fields> result = {};            ///< of the report; empty: the stage has none
-    bool names_files = false;            ///< it has files() of its own
-    bool reads_headers = false;          ///< ... header()
-    bool chooses_crossing_faces = false; ///< ... crossing_faces()
-    bool works_on_cells = false;         ///< ... on_cells()
+    Lazy<Fields> result = {};            ///< of the report; empty: no report
+    bool names_files = false;            ///< it overrides files()
+    bool reads_headers = false;          ///< it overrides header()
+    bool chooses_crossing_faces = false; ///< it overrides crossing_faces()
+    bool works_on_cells = false;         ///< it overrides on_cells()
     std::shared_ptr<Stage> (*make)() = nullptr;
 
     /// A use of this stage, with default options; it must not outlive this.
     std::shared_ptr<Stage> made() const;
 };
 
-/// One use of a stage: its options, and what it does with them.
+/// A use of a stage: its options and its functions.
 class Stage {
   public:
     Stage() = default;
@@ -104,28 +105,28 @@ class Stage {
     Stage& operator=(const Stage&) = delete;
     virtual ~Stage() = default;
 
-    /// Where its declaration (info->options) puts the options that it parses.
+    /// Where its declaration (info->options) stores the parsed options.
     virtual void* target() = 0;
     virtual Scene run(Scene scene, Context& context) const = 0;
     virtual StageFiles files() const { return {}; }
-    /// What the header of a file says that this stage would add to the scene. Throws as run.
+    /// The header data of a file that this stage would add to the scene. Throws like run.
     virtual io::FileHeader header(const std::filesystem::path&, const Folders&) const { return {}; }
-    /// Adds problems that a declaration cannot find, at the marks of the values.
+    /// Adds problems that the declaration cannot detect, at the marks of the values.
     virtual void verify(const Value& /*given*/, Problems&) const {}
-    /// What these options ask the stage to take of the surface.
+    /// The loss of surface that these options intend.
     virtual MayLose may_lose() const { return info->may_lose; }
-    /// What these options need of faces that cross themselves.
+    /// How self-intersecting faces must be handled with these options.
     virtual CrossingFacePolicy crossing_faces() const { return info->crossing_faces; }
-    /// Whether these options compare with the scene as loaded.
+    /// True if these options compare with the scene as loaded.
     virtual bool compares_with_load() const { return false; }
-    /// As run, of a mesh that is larger than memory; only where info->works_on_cells.
+    /// Like run, for a mesh larger than memory; only if info->works_on_cells.
     virtual void on_cells(CellFlow&, Context&) const {}
-    /// Why these options need the mesh in memory, in words.
+    /// The reason, in words, why these options need the mesh in memory.
     virtual std::optional<std::string> why_not_on_cells() const { return {}; }
-    /// How many triangles these options make of one, where they can work on cells.
+    /// How many triangles these options make of one, if they work on cells.
     virtual double triangles_of_one() const { return 1; }
 
-    const StageInfo* info = nullptr; ///< which stage it is
+    const StageInfo* info = nullptr; ///< the stage
 };
 
 struct RegisterStage {
@@ -137,14 +138,14 @@ const std::vector<StageInfo>& stages();
 const StageInfo* stage_named(std::string_view name);
 std::vector<std::string> stage_names();
 
-/// The stage that other programs call by this name, or null.
+/// The stage with this name in other programs, or null.
 const StageInfo* stage_called(std::string_view other_name);
-/// A hint for an operation of other programs that takes several stages (remesh); empty for other words.
+/// A hint for an operation of other programs that needs several stages (remesh); empty for other words.
 std::string_view chain_called(std::string_view other_name);
-/// A hint for a word that names no stage: the stage of this meaning, or the nearest of the names.
+/// A hint for an unknown stage name: the stage with this meaning, or the most similar name.
 std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names);
 
-/// Runs the stage on faces as it needs them (crossing_faces), and warns of the surface that it loses.
+/// Prepares faces for the stage (crossing_faces), runs it, and warns about lost surface.
 Scene perform(const Stage& stage, Scene scene, Context& context);
 
 template <class OptionsOfStage>
@@ -174,7 +175,7 @@ template <class Options, class ReportOfStage,
 class StageOf<function> : public StageWith<Options> {
   public:
     using Report = ReportOfStage;
-    /// The report is recorded and said when the stage is done.
+    /// Records and prints the report when the stage is done.
     Scene run(Scene scene, Context& context) const override {
         Report report;
         Scene out = function(std::move(scene), this->o, context, report);
@@ -183,7 +184,7 @@ class StageOf<function> : public StageWith<Options> {
     }
 };
 
-/// Whether a stage overrides what Stage does: else both pointers are to the same member.
+/// True if a stage overrides a function of Stage: otherwise both pointers refer to the same member.
 template <class Own, class Default>
 constexpr bool is_own(Own, Default) {
     return !std::is_same_v<Own, Default>;

@@ -29,7 +29,7 @@ PartSurface total(const std::vector<PartSurface>& parts) {
     return sum;
 }
 
-/// The share of the area that may go.
+/// The share of the area that may be lost.
 double share(MayLose may_lose) {
     switch (may_lose) {
     case MayLose::tenth:
@@ -43,7 +43,7 @@ double share(MayLose may_lose) {
     return 1;
 }
 
-/// What was lost of one part, empty when that is no more than may be: "none of its 12 faces is left".
+/// The loss of a part, empty if allowed: "none of its 12 faces is left".
 std::string loss(const PartSurface& before, const PartSurface& after, MayLose may_lose) {
     if (before.faces == 0 || may_lose == MayLose::all) return {};
     if (after.faces == 0)
@@ -55,8 +55,8 @@ std::string loss(const PartSurface& before, const PartSurface& after, MayLose ma
                        before.area);
 }
 
-/// The area of a mesh, and for each direction how much of it faces that way: sums over its faces of the area
-/// times the products of the normal's coordinates.
+/// The area of a mesh by direction: the sum over its faces of the area times the products of the normal's
+/// coordinates.
 class FacingArea {
   public:
     FacingArea() = default;
@@ -71,13 +71,13 @@ class FacingArea {
             [](const FacingArea& a, const FacingArea& b) { return a.plus(b); });
     }
 
-    /// What the area becomes: as it is where the place scales alike in all directions; else no less than it
-    /// is, by the mean of squares. Takes no look at the mesh.
+    /// The area after a transform. Exact for uniform scaling; otherwise an upper estimate by the mean of
+    /// squares. Does not read the mesh.
     double at(const Transform& place) const {
         const Vec3 rows[] = {{place.m[0][0], place.m[0][1], place.m[0][2]},
                              {place.m[1][0], place.m[1][1], place.m[1][2]},
                              {place.m[2][0], place.m[2][1], place.m[2][2]}};
-        double squares = 0; // of what becomes of the normals
+        double squares = 0; // of the transformed normals
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3 c = cross(rows[(i + 1) % 3], rows[(i + 2) % 3]);
             for (std::size_t k = 0; k < 3; ++k) squares += c[k] * dot(by_[k], c);
@@ -103,7 +103,7 @@ class FacingArea {
     Vec3 by_[3];
 };
 
-/// Of a part at all its places.
+/// A part with all its instances.
 struct AtPlaces {
     std::optional<FacingArea> facing;
     double area = 0, count = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Promise 3 for the surface itself: no stage loses it in silence.
+// Promise 3 for the surface itself: no stage loses surface without a warning.
 
 #include "geometry/edit/moved.hpp"
 #include "mesh/scene.hpp"
@@ -13,30 +13,30 @@ namespace facetmill {
 
 class Context;
 
-/// How much of a part's surface a stage may take without a word.
+/// How much of a part's surface a stage may remove without a warning.
 enum class MayLose {
-    tenth, ///< a tenth of the area: it keeps the surface
+    tenth, ///< a tenth of the area: it preserves the surface
     half,  ///< half of the area: it changes the shape
-    area,  ///< any area: it cuts off, scales or replaces, as it was asked to; but not every face
-    all,   ///< it says itself when nothing is left
+    area,  ///< any area, but not every face: it cuts, scales or replaces on request
+    all,   ///< everything: it warns itself when nothing is left
 };
 
-/// What there is of the surface of a part, in world space, at all places that a glTF document has it at
+/// The surface of a part in world space, in all instances that a glTF document has of it
 /// (EXT_mesh_gpu_instancing).
 struct PartSurface {
     std::string name;
     std::size_t faces = 0;
     double area = 0;
-    std::optional<SurfaceSize> size{}; ///< of the mesh at the part's transform, where a stage measured it
+    std::optional<SurfaceSize> size{}; ///< of the mesh with the part's transform, if a stage measured it
 };
-/// Of each part. O(corners), parallel. Of instances that are scaled by different factors along the axes the
-/// area is estimated, alike before a stage and behind it. sizes: [parts] those that are known, or empty.
+/// The surface of each part. O(corners), parallel. For instances with non-uniform scale, the area is
+/// estimated, in the same way before and after a stage. sizes: [parts] known sizes, or empty.
 std::vector<PartSurface> surfaces_of_parts(const Scene& scene,
                                            std::span<const std::optional<SurfaceSize>> sizes = {});
 
-/// Warns (W-SURFACE-LOST) of what a stage took beyond that: all faces, or more of the area. Part by part as
-/// long as these are the same before and after; else of the scene as a whole. Areas that are not finite or 0
-/// are not compared.
+/// Warns (W-SURFACE-LOST) about a larger loss than allowed: all faces, or too much area. It compares part by
+/// part if the parts are the same before and after; else the whole scene. Infinite and zero areas are
+/// skipped.
 void warn_of_lost_surface(const std::vector<PartSurface>& before, const std::vector<PartSurface>& after,
                           MayLose may_lose, Context& context);
 

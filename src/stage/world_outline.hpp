@@ -1,11 +1,11 @@
 #pragma once
-// Where lengths and planes of a mesh in cells are resolved.
+// A scene for resolving lengths and planes of a mesh in cells.
 
 #include "stage/cell_flow.hpp"
 
 namespace facetmill {
 
-/// A scene of a part without a transform whose box is that of the cells in the world.
+/// A scene of one part without a transform, with the cells' box in the world.
 inline Scene world_outline(const CellFlow& flow) {
     Scene outline = flow.outline();
     Part& part = outline.parts.front();

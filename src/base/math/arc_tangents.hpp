@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// arc_tangent(y[i], x[i]) (base/math/portable_math.hpp) to the last bit, side by side in the processor; y
-/// and x are finite, and never both 0. The spans are of one length; angles may be one of them.
+/// arc_tangent(y[i], x[i]) (base/math/portable_math.hpp), bit-identical, with SIMD instructions. y and x are
+/// finite, and never both 0. The spans have the same length; angles may be the same span as y or x.
 void arc_tangents(std::span<const double> y, std::span<const double> x, std::span<double> angles);
 
 } // namespace facetmill

@@ -15,7 +15,7 @@ mpz_class exact_integer(double x) {
     if (shift >= 0)
         n <<= static_cast<unsigned>(shift);
     else
-        n /= mpz_class(1) << static_cast<unsigned>(-shift); // what is cut off is zero
+        n /= mpz_class(1) << static_cast<unsigned>(-shift); // the removed bits are zero
     return n;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sums of products of doubles without rounding, for signs that must be right.
+// Sums of products of doubles without rounding, for exact signs.
 
 #include <array>
 #include <cmath>
@@ -9,11 +9,11 @@
 
 namespace facetmill {
 
-/// A sum kept as an expansion: parts that do not overlap, smallest first, so that the sign of the last is the
-/// sign of all (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-/// predicates", 1997). capacity: the most numbers that are ever added, a product counting as two; 0 for any
-/// number of them, at the cost of an allocation. Exact as long as nothing overflows and no product's last bit
-/// is below 1e-300.
+/// A sum stored as an expansion: non-overlapping parts, smallest first, so that the last part has the sign of
+/// the sum (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+/// predicates", 1997). capacity: the maximum number of added numbers, where a product counts as two; 0 for
+/// any number, at the cost of an allocation. Exact as long as nothing overflows and no product's last bit is
+/// below 1e-300.
 template <std::size_t capacity = 0>
 class ExactSum {
   public:
@@ -48,7 +48,7 @@ class ExactSum {
     /// meaningless. Sums passed only to add() are trusted.
     bool holds() const { return holds_; }
     int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
-    /// The value, rounded; never 0 for a sum that is not.
+    /// The value, rounded; 0 only for a zero sum.
     double value() const {
         double sum = 0;
         for (std::size_t i = 0; i < size_; ++i) sum += parts_[i];

@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// inverse_normal(p[i]) (base/math/portable_math.hpp) to the last bit, four side by side in the processor.
-/// The spans are of one length; x may be p.
+/// inverse_normal(p[i]) (base/math/portable_math.hpp), bit-identical, four at a time with SIMD instructions.
+/// The spans have the same length; x may be p.
 void inverse_normals(std::span<const double> p, std::span<double> x);
 
 } // namespace facetmill

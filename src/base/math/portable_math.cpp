@@ -17,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// c[0] + x (c[1] + x (c[2] + ...)), from the highest down.
+/// The polynomial c[0] + x (c[1] + x (c[2] + ...)), evaluated from the highest coefficient.
 template <class Real, std::size_t N>
 constexpr Real polynomial(const Real& x, const double (&c)[N]) {
     Real sum = c[N - 1];
@@ -25,7 +25,7 @@ constexpr Real polynomial(const Real& x, const double (&c)[N]) {
     return sum;
 }
 
-/// An angle as quarter turns and the rest, in two parts: |high| <= pi / 4.
+/// An angle as quarter turns and a remainder in two parts: |high| <= pi / 4.
 struct Reduced {
     double high, low;
     unsigned quadrant;
@@ -42,7 +42,7 @@ Reduced reduce(double x) {
     return {sum, (high - sum) + low, static_cast<unsigned>(static_cast<std::int64_t>(n)) & 3u};
 }
 
-// The Taylor series; on |x| <= pi / 4 what is left out is below 1e-19.
+// The Taylor series; for |x| <= pi / 4 the truncation error is below 1e-19.
 double sine_series(double x, double low) {
     constexpr double c[] = {-1.0 / 6,        1.0 / 120,         -1.0 / 5040,         1.0 / 362880,
                             -1.0 / 39916800, 1.0 / 6227020800., -1.0 / 1307674368e3, 1.0 / 355687428096e3};
@@ -83,7 +83,7 @@ namespace {
 constexpr double ln2_high = 0x1.62e42feep-1,
                  ln2_low = 0x1.a39ef35793c76p-33; // high: 32 bits, so n * high is exact
 
-/// How many halves of ln 2 below and above it is: n in exp(x) = 2^n exp(rest) is the floor of it.
+/// x in powers of 2, plus 1/2: its floor is the n in exp(x) = 2^n exp(rest).
 template <class Real>
 Real in_powers_of_2(const Real& x) {
     return x * (1 / (ln2_high + ln2_low)) + 0.5;
@@ -103,7 +103,7 @@ Real exponential_of_rest(const Real& x, const Real& n) {
 /// exp over the whole range of doubles; no result is subnormal for x >= -708.
 double exponential_unlimited(double x) {
     const double n = std::floor(in_powers_of_2(x)), e = exponential_of_rest(x, n);
-    if (n < -1021) return std::ldexp(e, static_cast<int>(n)); // it may be subnormal
+    if (n < -1021) return std::ldexp(e, static_cast<int>(n)); // the result may be subnormal
     return e * std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023)
                                      << 52); // exact
 }
@@ -137,11 +137,11 @@ double logarithm(double x) {
 
 namespace {
 
-/// atan(t) for 0 <= t <= 1: the angle of the nearest quarter, and the series of what is left (|u| <= 1/8).
+/// atan(t) for 0 <= t <= 1: the angle of the nearest quarter, plus the series of the remainder (|u| <= 1/8).
 double arc_tangent_series(double t) {
     constexpr double angles[] = {0, 0.24497866312686415417, 0.46364760900080611621, 0.64350110879328438680,
                                  pi / 4};
-    const double beyond = t * 4 + 0.5; // t >= 0: without its fraction it is t * 4, rounded
+    const double beyond = t * 4 + 0.5; // t >= 0: truncated, it is t * 4, rounded
     const auto quarter = static_cast<std::size_t>(beyond);
     const double c = static_cast<double>(quarter) / 4, u = (t - c) / (1 + t * c), z = u * u;
     constexpr double k[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17};
@@ -182,11 +182,11 @@ double arc_cosine(double x) {
 
 namespace {
 
-constexpr double tail = 0.02425; // below, another approximation
+constexpr double tail = 0.02425; // below, another approximation is used
 
 /// Rational approximations of the quantile for 0 < p <= 1/2 with a relative error of 1.2e-9: P. J. Acklam,
-/// "An algorithm for computing the inverse normal cumulative distribution function" (2003). Of the middle,
-/// where p >= tail; q: p - 1/2.
+/// "An algorithm for computing the inverse normal cumulative distribution function" (2003). This function
+/// covers the middle, p >= tail; q: p - 1/2.
 template <class Real>
 Real rough_middle(const Real& q) {
     constexpr double a[] = {2.506628277459239e+00,  -3.066479806614716e+01, 1.383577518672690e+02,
@@ -201,7 +201,7 @@ Real rough_middle(const Real& q) {
     return q * polynomial(r, a) / polynomial(r, b);
 }
 
-/// The same of all p.
+/// The same for all p.
 double rough_quantile(double p) {
     constexpr double c[] = {2.938163982698783e+00,  4.374664141464968e+00,  -2.549732539343734e+00,
                             -2.400758277161838e+00, -3.223964580411365e-01, -7.784894002430293e-03};
@@ -222,7 +222,7 @@ Real central_probability(const Real& x, const Real& density) {
     return sum * density;
 }
 
-/// P(N > x) for x >= 2: phi(x) / (x + 1/(x + 2/(x + 3/...))), enough levels for 1e-16 there.
+/// P(N > x) for x >= 2: phi(x) / (x + 1/(x + 2/(x + 3/...))), with enough levels for 1e-16.
 double tail_probability(double x, double density) {
     double fraction = x;
     for (int k = 120; k > 0; --k) fraction = x + k / fraction;
@@ -233,7 +233,7 @@ double tail_probability(double x, double density) {
 double lower_quantile(double p) {
     const double x = -rough_quantile(p), sure = std::abs(x);
     const double density = exponential_unlimited(-x * x / 2) * 0.39894228040143267794;
-    // How much P(N < -sure) exceeds p; near the middle as a difference of what is left to one half.
+    // The difference P(N < -sure) - p; near the middle computed from the differences to one half.
     const double excess =
         sure < 2.2 ? (0.5 - p) - central_probability(sure, density) : tail_probability(sure, density) - p;
     const double step = excess / density; // Newton's, for x -> x - f / f'
@@ -254,7 +254,8 @@ namespace {
 using Two = double __attribute__((vector_size(16)));
 using Truths = std::int64_t __attribute__((vector_size(16)));
 
-/// Four numbers, whose arithmetic is that of each: the time of one is mostly waiting for its last step.
+/// Four numbers with the same arithmetic: processing one at a time would mostly wait for the previous
+/// operation.
 struct Lanes {
     Two a, b;
 
@@ -276,7 +277,7 @@ bool any(const LaneTruths& t) {
     return (either[0] | either[1]) != 0;
 }
 
-/// The one where t is below x, the other elsewhere.
+/// The first value where t is below x, the other elsewhere.
 Lanes choose_below(const Lanes& t, double x, double below, double other) {
     const Lanes there = below, elsewhere = other, edge = x;
     return {t.a < edge.a ? there.a : elsewhere.a, t.b < edge.b ? there.b : elsewhere.b};
@@ -284,7 +285,7 @@ Lanes choose_below(const Lanes& t, double x, double below, double other) {
 
 Lanes absolute(const Lanes& x) { return {x.a < 0 ? -x.a : x.a, x.b < 0 ? -x.b : x.b}; }
 
-/// As exponential_unlimited, for -2.4 < x <= 0.
+/// Like exponential_unlimited, for -2.4 < x <= 0.
 Lanes exponential(const Lanes& x) {
     const Lanes t = in_powers_of_2(x); // above -3
     const Lanes n = choose_below(t, 0, -1, 0) + choose_below(t, -1, -1, 0) + choose_below(t, -2, -1, 0);
@@ -293,8 +294,8 @@ Lanes exponential(const Lanes& x) {
     return exponential_of_rest(x, n) * power;
 }
 
-/// As lower_quantile, for tail <= p < 1/2, which is where |x| < 2. A lane whose series is at its end goes on
-/// with the others: its terms fall and are too small to change its sum.
+/// Like lower_quantile, for tail <= p < 1/2, which means |x| < 2. A lane whose series has converged continues
+/// with the others: its decreasing terms are too small to change its sum.
 Lanes middle_quantiles(const Lanes& p) {
     const Lanes x = -rough_middle(p - 0.5), sure = absolute(x);
     const Lanes density = exponential(-x * x / 2) * 0.39894228040143267794;
@@ -303,7 +304,7 @@ Lanes middle_quantiles(const Lanes& p) {
     return -sure - step / (1 + -sure * step / 2);
 }
 
-/// Numbers that wait until there are four.
+/// Collects numbers until there are four.
 class Waiting {
   public:
     explicit Waiting(std::span<double> x) : x_(x) {}

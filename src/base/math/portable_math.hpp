@@ -1,6 +1,6 @@
 #pragma once
-// Transcendental functions of our own: libm's results change with the processor, and what reaches an output
-// must not. Only + - x / sqrt are used; the accuracy of each is stated and tested against libm.
+// Our own transcendental functions, because libm's results depend on the processor, and outputs must not.
+// They use only + - x / sqrt; the accuracy of each is stated, and tested against libm.
 
 namespace facetmill {
 

@@ -13,13 +13,13 @@ namespace {
 
 int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-/// Room for what three products of three differences need.
+/// Capacity for three products of three differences.
 using Expansion = ExactSum<192>;
 
-/// The numbers along one axis, brought near 1 by a power of two so that their products do not overflow.
+/// The numbers along one axis, scaled by a power of two to near 1 so that their products do not overflow.
 struct Axis {
     double scale = 1;
-    int lowest = 0; ///< no number, scaled, has a bit below 2^lowest
+    int lowest = 0; ///< the scaled numbers have no bits below 2^lowest
 
     Axis(std::initializer_list<double> numbers) {
         double most = 0, least = HUGE_VAL;
@@ -35,14 +35,15 @@ struct Axis {
     }
 };
 
-/// Whether every product of one number of each axis is made of doubles: nothing of it is below the smallest.
+/// True if every product of one number from each axis is a sum of doubles: no bit is below the smallest
+/// double.
 bool doubles_hold_products(std::initializer_list<Axis> axes) {
     int lowest = 0;
     for (const Axis& axis : axes) lowest += axis.lowest;
     return lowest >= -1070;
 }
 
-/// Whole numbers, for what no expansion of doubles can hold: coordinates of very different sizes along an
+/// Uses integers where expansions of doubles fail: for coordinates of very different magnitudes along an
 /// axis.
 int integer_orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) {
     const mpz_class x = exact_integer(cx), y = exact_integer(cy);
@@ -67,7 +68,7 @@ int integer_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
     return sgn(sum);
 }
 
-/// a - b exactly: the rounded difference and what it lost.
+/// a - b exactly: the rounded difference and its rounding error.
 struct Difference {
     double high, low;
     Difference(double a, double b) : high(a - b) {
@@ -148,7 +149,7 @@ int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                         (std::abs(zx) + std::abs(xz)) * std::abs(w.y) +
                         (std::abs(xy) + std::abs(yx)) * std::abs(w.z);
     constexpr double error = 7.771561172376103e-16; // Shewchuk's (7 + 56 e) e
-    // What the products of two lose at the lower end of doubles, the third factor magnifies.
+    // The third factor magnifies the underflow error of the products of two.
     const double lost = orientation_smallest * (1 + std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
     if (std::abs(det) > error * size && std::abs(det) > lost) return sign_of(det);
     return exact_orientation_3d(a, b, c, d);

@@ -1,5 +1,5 @@
 #pragma once
-// Signs decided exactly, for the layers that do not see CGAL.
+// Exact signs, for the layers that do not use CGAL.
 
 #include "base/math/vec.hpp"
 
@@ -26,8 +26,9 @@ constexpr bool is_level(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t
     return a[k] == b[k] && b[k] == c[k];
 }
 
-/// The side of the plane through a, b, c that contains d: 1 for the side that (b - a) x (c - a) points to,
-/// -1 for the other, 0 on the plane. Exact for finite coordinates of any size, decided like orientation_2d.
+/// The side of the plane through a, b, c that contains d. It is 1 for the side that (b - a) x (c - a) points
+/// to, -1 for the opposite side, 0 on the plane. Exact for finite coordinates of any size, with the same
+/// method as orientation_2d.
 int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 } // namespace facetmill

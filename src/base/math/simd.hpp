@@ -1,5 +1,5 @@
 #pragma once
-// Four float32 numbers at once, as the compiler's vectors: all processors have instructions for them.
+// Four float32 numbers at once, as compiler vectors: every processor has instructions for them.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ inline Float4 load(const float (&four)[4]) { return Float4{four[0], four[1], fou
 inline Float4 greater(const Float4& a, const Float4& b) { return a > b ? a : b; }
 inline Float4 lesser(const Float4& a, const Float4& b) { return a < b ? a : b; }
 
-/// One bit for each lane of a comparison, the first lowest.
+/// One bit for each lane of a comparison, the first lane lowest.
 inline unsigned bits_of(const Int4& truths) {
 #if defined(__SSE__)
     return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<const Float4&>(truths)));
@@ -22,8 +22,8 @@ inline unsigned bits_of(const Int4& truths) {
 #endif
 }
 
-/// Asks the memory for an object that is read soon, without waiting for it. Always inline: GCC 12 drops calls
-/// of functions that do nothing else.
+/// Prefetches an object that is read soon. Always inline: GCC 12 drops calls of functions that do nothing
+/// else.
 template <class T>
 [[gnu::always_inline]] inline void fetch_soon(const T& object) {
     const char* const begin = reinterpret_cast<const char*>(&object);

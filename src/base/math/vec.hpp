@@ -80,7 +80,7 @@ struct Box {
     }
     Vec3 centre() const { return (min + max) * 0.5; }
     Vec3 extent() const { return empty() ? Vec3{} : max - min; }
-    /// Along the axes; 0 when empty.
+    /// The longest side; 0 when empty.
     double longest_side() const {
         const Vec3 e = extent();
         return std::max({e.x, e.y, e.z});
@@ -100,7 +100,7 @@ struct Transform {
         return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
                 m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
     }
-    /// The plane normal n (n.p = const) seen before the map: transpose of the linear part times n.
+    /// The plane normal n (n.p = const) before the map: the transpose of the linear part times n.
     Vec3 pull_normal(const Vec3& n) const {
         return {m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z, m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
                 m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z};

@@ -62,7 +62,7 @@ void expand(const fs::path& base, std::vector<fs::path>::const_iterator componen
 
 bool glob_matches(std::string_view pattern, std::string_view text) {
     std::size_t p = 0, t = 0;
-    std::optional<std::size_t> star; // just after the last star, and where its run ends for now
+    std::optional<std::size_t> star; // after the last star, and where its match currently ends
     std::size_t run_end = 0;
     while (t < text.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

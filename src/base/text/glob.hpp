@@ -1,6 +1,6 @@
 #pragma once
-// Shell-like patterns: * (any run of characters), ? (one character), [abc], [a-z], [!a]. A backslash takes
-// the next character as it is.
+// Shell-like patterns: * (any run of characters), ? (one character), [abc], [a-z], [!a]. A backslash makes
+// the next character literal.
 
 #include <filesystem>
 #include <string_view>
@@ -8,13 +8,14 @@
 
 namespace facetmill {
 
-/// Whether the text holds a character that makes it a pattern.
+/// True if the text contains a wildcard.
 bool is_glob(std::string_view text);
 
-/// Whether the pattern matches the whole text. Time is at most pattern times text, whatever the pattern.
+/// True if the pattern matches the whole text. The time is at most proportional to pattern length times text
+/// length.
 bool glob_matches(std::string_view pattern, std::string_view text);
 
-/// Whether a path is one that a pattern names: component by component, ** being any number of them.
+/// True if a path matches the pattern component by component; ** matches any number of components.
 bool glob_matches_path(const std::filesystem::path& pattern, const std::filesystem::path& path);
 
 /// The files that match a path with patterns in any of its components, sorted by their bytes. ** matches any

@@ -6,8 +6,8 @@
 
 namespace facetmill {
 
-/// The text with & < > and both quotes as entities; control characters and bytes that are no UTF-8, which XML
-/// cannot hold, become U+FFFD, each.
+/// The text with & < > and both quotes as entities. Control characters and invalid UTF-8 bytes, which XML
+/// forbids, each become U+FFFD.
 std::string escaped(std::string_view text);
 
 /// A name or a path, escaped, with line breaks allowed after slashes and underscores, because browsers would
@@ -22,13 +22,13 @@ std::string markdown_escaped(std::string_view text);
 /// source line). Each becomes '?', except line ends and tabs; so do C1 controls and invalid UTF-8.
 std::string for_terminal(std::string_view text);
 
-/// A text for a terminal: all that is added is as for_terminal() has it, and some may have a colour.
+/// A text for a terminal: everything added is escaped as by for_terminal(), and parts may be coloured.
 class Painted {
   public:
     explicit Painted(bool colour) : colour_(colour) {}
 
     Painted& operator+=(std::string_view text);
-    /// Adds it in a colour, "1;31" as terminals number them; as it is where colours are off.
+    /// Adds text in a colour, "1;31" in terminal codes; without colour if colours are off.
     Painted& paint(std::string_view code, std::string_view text);
     const std::string& text() const { return text_; }
 
@@ -37,7 +37,7 @@ class Painted {
     std::string text_;
 };
 
-/// The text as one word for sh: as it is when nothing in it has a meaning, else in single quotes.
+/// The text as one word for sh: unchanged if it has no special characters, else in single quotes.
 std::string for_shell(std::string_view text);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of messages and help, most of which are counts and limits of counts.
+// Numbers in messages and help, mostly counts and their limits.
 
 #include "base/math/numbers.hpp"
 
@@ -9,8 +9,8 @@
 
 namespace facetmill {
 
-/// The shortest text that reads as the same number; whole numbers of up to 15 digits without an exponent,
-/// which 1e+05 has where 100000 is longer.
+/// The shortest text that reads back as the same number. Whole numbers of up to 15 digits have no exponent:
+/// 100000, not the shorter 1e+05.
 inline std::string plain_number(double x) {
     return x == std::floor(x) && std::abs(x) < 1e15 ? std::to_string(static_cast<std::int64_t>(x))
                                                     : to_string(x);

@@ -34,7 +34,7 @@ std::string timed(double seconds) {
 
 std::string percentage(double percent, int digits) {
     const std::string text = fmt::format("{:.{}g}", percent, digits);
-    constexpr double most = 1e12; // exact as a whole number
+    constexpr double most = 1e12; // exact as an integer
     if (!(std::abs(percent) >= 999) || !(std::abs(percent) < most)) return text + " %";
     const auto whole = static_cast<std::uint64_t>(std::abs(*parse_real(text)));
     return fmt::format("{}{} %", percent < 0 ? "-" : "", grouped(whole));
@@ -45,7 +45,7 @@ std::string readable(double number) {
 }
 
 std::string readable_coordinate(double x) {
-    constexpr double most = 1e12; // beyond, decimals say nothing
+    constexpr double most = 1e12; // beyond, decimals are meaningless
     if (!(std::abs(x) >= 1000 && std::abs(x) < most)) return readable(x);
     std::string text = fmt::format("{:.3f}", x);
     text.erase(text.find_last_not_of('0') + 1);

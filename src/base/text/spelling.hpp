@@ -1,5 +1,5 @@
 #pragma once
-// Words as people type them: small letters for large ones, and the nearest valid name.
+// Compares words as people type them: ignoring case, and finding the nearest valid name.
 
 #include <string>
 #include <string_view>
@@ -16,15 +16,14 @@ bool same_word(std::string_view a, std::string_view b);
 /// b.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to the word (ties: the first), or empty when none is near enough to be a likely
-/// meaning.
+/// The candidate nearest to the word (the first of ties), or empty if none is near enough.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "did you mean 'x'?" when there is a likely meaning, else otherwise.
+/// "did you mean 'x'?" if a candidate is near enough, else otherwise.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                          std::string otherwise = {});
 
-/// "did you mean 'x'?" when there is a likely meaning, else "expected one of: a, b, c".
+/// "did you mean 'x'?" if a candidate is near enough, else "expected one of: a, b, c".
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace facetmill

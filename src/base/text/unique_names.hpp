@@ -1,5 +1,5 @@
 #pragma once
-// Names that differ: NAME, NAME_2, NAME_3 ..., or with another separator.
+// Makes names unique: NAME, NAME_2, NAME_3 ..., or with another separator.
 
 #include <fmt/format.h>
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// The name when it is free, else the first of NAME_2, NAME_3 ... that is: for which taken(name) is false.
+/// The name if it is free, else the first free one of NAME_2, NAME_3 ...: for which taken(name) is false.
 template <class Taken>
 std::string free_name(const std::string& wanted, Taken&& taken) {
     std::string name = wanted;
@@ -16,14 +16,14 @@ std::string free_name(const std::string& wanted, Taken&& taken) {
     return name;
 }
 
-/// Names that were given out: none twice. Adding takes the logarithm of their count, also where a thousand
-/// want the same.
+/// Assigns names without repetition. Adding takes logarithmic time, even if a thousand callers want the same
+/// name.
 class UniqueNames {
   public:
     explicit UniqueNames(char separator = '_') : separator_(separator) {}
-    /// A name that exists already.
+    /// Reserves an existing name.
     void take(const std::string& name) { taken_.insert(name); }
-    /// As free_name.
+    /// Like free_name.
     std::string add(const std::string& wanted) {
         std::string name = wanted;
         while (!taken_.insert(name).second)
@@ -34,7 +34,7 @@ class UniqueNames {
   private:
     char separator_;
     std::set<std::string> taken_;
-    std::map<std::string, int> copies_; ///< where to go on counting
+    std::map<std::string, int> copies_; ///< where to continue counting
 };
 
 } // namespace facetmill

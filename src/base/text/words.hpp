@@ -30,7 +30,7 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
 std::string_view trimmed(std::string_view text);
 
 /// The texts between commas, without blanks around them: "a, b" is a and b. Two commas enclose an empty
-/// item, and so do a comma and an end, so that the caller can refuse it; a blank text has no items.
+/// item, and so do a comma and an end, so that the caller can refuse it. A blank text has no items.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Adds an item to a list in text; an empty one adds nothing.
@@ -39,7 +39,8 @@ void append_item(std::string& list, std::string_view item, std::string_view betw
 /// Joins the items that are not empty.
 std::string join_texts(const std::vector<std::string>& texts, std::string_view between = ", ");
 
-/// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).
+/// The length of the UTF-8 sequence at i; 0 if it is invalid (truncated, overlong, a surrogate, beyond
+/// U+10FFFF).
 std::size_t utf8_length(std::string_view text, std::size_t i);
 
 } // namespace facetmill

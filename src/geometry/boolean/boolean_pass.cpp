@@ -22,7 +22,7 @@ constexpr const char* inside_out = "a component is inside out and is not a cavit
                                    "orient first to decide which side is inside";
 constexpr const char* turned_by_rounding =
     "faces run along each other so closely that rounding the coordinates of the union turns pieces over";
-/// A winding number, by what turns outward and what turns inward.
+/// A winding number, split into outward and inward components.
 struct Winding {
     int outward = 0, inward = 0;
     int all() const { return outward + inward; }
@@ -30,7 +30,8 @@ struct Winding {
     bool operator==(const Winding&) const = default;
 };
 
-/// Those of the operands on one side of a patch; without operands all is of the first.
+/// The operands' winding numbers on one side of a patch; without operands, all components count for the
+/// first.
 using Sides = std::array<Winding, 2>;
 
 Sides sum(Sides a, const Sides& b) {
@@ -55,13 +56,13 @@ bool encloses(const Sides& sides, const Operands* operands) {
     return first >= 1 && second > -1;
 }
 
-/// A face that was not cut, or a piece of cut ones; more of its sources turn as it does than the other way.
+/// An uncut face, or a piece of cut faces, oriented like the majority of its source triangles.
 struct Leaf {
     std::array<Index, 3> nodes;
-    Index first = none;   ///< a source that turns as it does, unless they cancel
-    Index against = none; ///< the first of its sources that turns the other way
+    Index first = none;   ///< a source of the same orientation, unless they cancel
+    Index against = none; ///< the first source of the opposite orientation
     Index cluster = none;
-    Sides turns; ///< how many of the sources turn as it does, less those that turn the other way
+    Sides turns; ///< sources of the same orientation, minus sources of the opposite one
     std::array<bool, 2> of_inward{};
 };
 
@@ -151,7 +152,7 @@ class BooleanPass {
     }
 
     void merge_where_cut() {
-        if (!solids_.rings.empty()) return; // no two are at one place
+        if (!solids_.rings.empty()) return; // then no two vertices have the same position
         auto target = lowest_at_place(mesh_);
         std::vector<std::uint8_t> touched(mesh_.vertex_count(), 0);
         for (Index f = 0; f < mesh_.face_count(); ++f)
@@ -162,7 +163,7 @@ class BooleanPass {
         merge_vertices(mesh_, target);
     }
 
-    /// The triangles of all closed components.
+    /// Collects the triangles of all closed components.
     void gather() {
         const bool plain = mesh_.all_triangles();
         const Surface surface = plain ? Surface{} : surface_of(mesh_);
@@ -213,7 +214,7 @@ class BooleanPass {
             for (Index s = first_[f]; s < first_[f + 1]; ++s)
                 for (Index t = first_[g]; t < first_[g + 1]; ++t)
                     if (boxes_meet(box(s), box(t))) soup.pairs.emplace_back(s, t);
-        for (Index f = 0; f < cut_.size(); ++f) // where a polygon has a triangle without area
+        for (Index f = 0; f < cut_.size(); ++f) // a polygon may have a triangle without area
             for (Index s = first_[f]; cut_[f] && s < first_[f + 1]; ++s)
                 for (Index t = first_[f]; !has_area(s) && t < first_[f + 1]; ++t)
                     if (s != t) soup.pairs.emplace_back(s, t);
@@ -230,7 +231,7 @@ class BooleanPass {
     }
     std::size_t leaf_count() const { return uncut_.size() + pieces_.size(); }
 
-    /// That which stands for an uncut face: a triangle with area.
+    /// The triangle that represents an uncut face: the first with area.
     Index triangle_of(Index face) const {
         Index t = first_[face];
         while (t + 1 < first_[face + 1] && !has_area(t)) ++t;
@@ -268,9 +269,10 @@ class BooleanPass {
         return leaf;
     }
 
-    /// Leaves that hang together where no other leaf does have the same on their sides.
+    /// Finds patches: leaves connected by edges without other leaves. They have the same winding numbers on
+    /// their sides.
     void find_patches(const Arrangement& arrangement) {
-        std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // may have been
+        std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // may have been merged
         for (Index f = 0; f < mesh_.face_count(); ++f)
             for (Index c = mesh_.face_begin(f); cut_[f] && c < mesh_.face_end(f); ++c)
                 merged[mesh_.vertex(c)] = 1;
@@ -280,8 +282,8 @@ class BooleanPass {
         parallel_for(patch_.size(), [&](std::size_t i) { patch_[i] = sets.find(patch_[i]); });
     }
 
-    /// Along edges that have no more faces than they had: patch_ becomes the lowest leaf for each. Around a
-    /// ring that no cut face touches all edges are such.
+    /// Joins uncut faces along edges that got no more faces: patch_ becomes the lowest leaf of each. All
+    /// edges around a ring that no cut face touches are such edges.
     void join_uncut(const std::vector<std::uint8_t>& merged) {
         Rings calm = solids_.rings;
         parallel_for(calm.size(), [&](std::size_t v) { calm[v] = calm[v] && !merged[v]; });
@@ -308,7 +310,7 @@ class BooleanPass {
         }
     }
 
-    /// Along edges of pieces, and those between vertices where others may have come.
+    /// Joins leaves along edges of pieces, and along edges between vertices that may have been merged.
     void join_rest(const Arrangement& arrangement, const std::vector<std::uint8_t>& merged,
                    DisjointSets& sets) const {
         Mesh mesh;
@@ -347,8 +349,8 @@ class BooleanPass {
         }
     }
 
-    /// The winding number in front of a leaf; without the components that the cluster does not hold, unless
-    /// there is a cavity in them.
+    /// The winding numbers in front of a leaf. Components outside the cluster count only if the cluster
+    /// contains a cavity.
     Sides front_of(const Leaf& leaf, const Arrangement::Seen& seen) const {
         Sides ahead;
         int around = 0;
@@ -366,14 +368,14 @@ class BooleanPass {
         return ahead;
     }
 
-    /// The lower winding number of what turns outward, on either side.
+    /// The lower winding number of the outward components, of both sides.
     int least_around(const Sides& front, const Sides& back, std::size_t operand) const {
         const bool reversed = operand == 1 && operands_->operation == CombineOperation::subtract;
         const int sign = reversed ? -1 : 1;
         return std::min(sign * front[operand].outward, sign * back[operand].outward);
     }
 
-    /// Whether the centre of a leaf is surely where nothing stays.
+    /// True if the centre of a leaf is certainly in a region where no face stays.
     bool is_buried(const Arrangement& arrangement, Index i) const {
         if (!buried_->takes_all()) return false;
         const Leaf l = leaf(i);
@@ -412,7 +414,7 @@ class BooleanPass {
         find_filled_cavities(arrangement);
     }
 
-    /// Cavities that no face of a cluster crosses go where another solid of it fills them.
+    /// Finds uncut cavities that another solid of a cluster fills; they are removed.
     void find_filled_cavities(const Arrangement& arrangement) {
         filled_.assign(solids_.components.count, 0);
         std::vector<std::uint8_t> asked(solids_.components.count, 0);
@@ -484,17 +486,17 @@ class BooleanPass {
     const Solids& solids_;
     const SelfIntersections& found_;
     SnapTolerance rounding_;
-    const Operands* operands_; ///< or nothing
+    const Operands* operands_; ///< may be null
     const PassBudget& effort_;
-    std::optional<Buried> buried_;               ///< once triangles are gathered
+    std::optional<Buried> buried_;               ///< set once triangles are gathered
     std::vector<std::uint8_t> cut_;              ///< [faces]
-    std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
+    std::vector<std::pair<Index, Index>> pairs_; ///< of faces to cut
     TriangleFaces triangles_;                    ///< of closed components
     std::vector<Index> first_;                   ///< [faces + 1] into triangles_
     std::vector<Index> uncut_;                   ///< faces
-    std::vector<Leaf> pieces_;                   ///< in the order of the arrangement
-    std::vector<Index> patch_;                   ///< [leaves] the lowest of the same patch
-    std::vector<std::uint8_t> has_cavity_;       ///< [clusters] or an inward component at least
+    std::vector<Leaf> pieces_;                   ///< in the arrangement's order
+    std::vector<Index> patch_;                   ///< [leaves] the lowest leaf of the same patch
+    std::vector<std::uint8_t> has_cavity_;       ///< [clusters] 1 if it has an inward component
     std::vector<Fate> fate_;                     ///< [leaves]
     std::vector<std::uint8_t> filled_;           ///< [components]
     United result_;

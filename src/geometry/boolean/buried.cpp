@@ -12,11 +12,11 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr std::size_t max_walls = 4096; ///< of a core: each point is compared with all of them
+constexpr std::size_t max_walls = 4096; ///< per core: each point is compared with all walls
 
 double largest(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// The common box of two triangles; that of one point where they are rounded apart.
+/// The intersection of the bounding boxes of two triangles. It may be inverted if rounding separates them.
 Box common_box(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
     Box one, other;
     for (const Vec3& p : a) one.add(p);
@@ -35,7 +35,7 @@ std::array<int, 3> sides(const std::array<Vec3, 3>& of, const std::array<Vec3, 3
     return side;
 }
 
-/// Whether the second triangle is in the plane of the first, and turns the same way.
+/// True if both triangles are in the same plane and have the same orientation.
 bool is_same_plane(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
     const Vec3 n = cross(a[1] - a[0], a[2] - a[0]), m = cross(b[1] - b[0], b[2] - b[0]);
     return dot(n, m) > 0.5 * length(n) * length(m) && sides(b, a) == std::array{0, 0, 0};
@@ -43,8 +43,8 @@ bool is_same_plane(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
 
 using Ends = std::array<NearPoint, 2>;
 
-/// Between which points a triangle with corners on these sides is in the plane of another; none where it has
-/// no point there. How far off the points are is told by the errors that Buried::core_of bounds.
+/// The segment in which a triangle meets the plane of another, given the sides of its corners; empty if it
+/// does not meet the plane. The error of the points follows from the bounds in Buried::core_of.
 std::optional<Ends> ends_in_plane(const std::array<Vec3, 3>& t, const std::array<int, 3>& side,
                                   const std::array<Vec3, 3>& plane) {
     Box box;
@@ -75,7 +75,7 @@ std::optional<Ends> ends_in_plane(const std::array<Vec3, 3>& t, const std::array
     return count == 0 ? std::nullopt : std::optional(ends);
 }
 
-/// What two stretches of one line have in common.
+/// The overlap of two segments of the same line.
 Ends common_stretch(Ends a, Ends b) {
     Box box;
     double off = 0;
@@ -88,15 +88,15 @@ Ends common_stretch(Ends a, Ends b) {
     const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     for (Ends* ends : {&a, &b})
         if ((*ends)[0].at[axis] > (*ends)[1].at[axis]) std::swap((*ends)[0], (*ends)[1]);
-    // Which of two is farther along is not sure where they are nearer to each other than twice `off` along
-    // the axis on which the line is longest; then they are nearer than ten times that.
+    // Along the axis on which the line is longest, points closer than twice `off` have no certain order. Then
+    // the distance between them is less than ten times that.
     const NearPoint& low = a[0].at[axis] > b[0].at[axis] ? a[0] : b[0];
     const NearPoint& high = a[1].at[axis] < b[1].at[axis] ? a[1] : b[1];
     return {NearPoint{low.at, 16 * off}, NearPoint{high.at, 16 * off}};
 }
 
 Box box_around(const NearPoint& p) {
-    const double off = 2 * p.off; // with the error of what follows
+    const double off = 2 * p.off; // includes the error of the following steps
     const Vec3 d{off, off, off};
     return {p.at - d, p.at + d};
 }
@@ -109,16 +109,16 @@ bool is_within(const Box& inner, const Box& outer) {
 
 } // namespace
 
-/// Of a segment, from 0 to 1, what is in a core.
+/// The part of a segment, from 0 to 1, inside a core.
 struct Buried::Stretch {
     double from = 0, to = 1;
-    bool has_start = true, has_end = true; ///< the first and the last point are surely in it
+    bool has_start = true, has_end = true; ///< the end point is certainly inside
 };
 
 Buried::Buried(const Mesh& mesh, const Solids& solids, const SelfIntersections& found,
                const TriangleFaces& triangles, const std::vector<Index>& first, const Operands* operands)
     : mesh_(mesh), solids_(solids), triangles_(triangles), first_(first) {
-    // What is buried is between two components, and in a third.
+    // A buried intersection needs two components, and a third around them.
     if (solids.components.count < 3) return;
     if (operands && operands->operation == CombineOperation::intersect) only_second_ = &operands->second;
     const bool unites = !operands || operands->operation == CombineOperation::unite;
@@ -177,10 +177,10 @@ Buried::Corners Buried::corners(Index triangle) const {
     return {mesh_.point(a), mesh_.point(b), mesh_.point(c)};
 }
 
-/// The errors: with e the rounding unit 2^-53, a component of the normal is off by less than 5 e times the
-/// sizes of its two products together (`size`), a difference from a corner by e of itself, and a sum of three
-/// products by 4 e times the sum of their sizes: no more than 10 e times `size` times the extent of the box
-/// that holds the point. Twice that is allowed, and no product is below the smallest doubles.
+/// The errors, with e the rounding unit 2^-53. A component of the normal has an error below 5 e times the sum
+/// of its two products' sizes (`size`). A difference from a corner has a relative error of e. A sum of three
+/// products has an error below 4 e times the sum of their sizes. The total is at most 10 e times `size` times
+/// the extent of the box around the point. Twice this is allowed, and no product underflows.
 std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bool turned,
                                             std::vector<Wall>& walls) const {
     if (triangles.empty() || triangles.size() > max_walls) return {};
@@ -212,7 +212,7 @@ std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bo
         }
         const double deep = -(dot(wall.normal, core.centre - a) + wall.unsure);
         if (!(deep > 0)) return {};
-        // The normal is no longer than `reach`; a thousandth is more than all errors of this and of `holds`.
+        // The normal is no longer than `reach`; a thousandth exceeds all errors of this step and of `holds`.
         core.radius = std::min(core.radius, 0.999 * deep / (length(wall.normal) + 1e-14 * wall.reach));
         if (previous && is_same_plane(*previous, {a, b, c})) continue;
         walls.push_back(wall);
@@ -221,7 +221,7 @@ std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bo
     return core;
 }
 
-/// Of components without a core, those that might wind around something less than zero times.
+/// Marks components without a core that may have negative winding numbers.
 std::vector<std::uint8_t> Buried::doubtful(const SelfIntersections& found,
                                            const std::vector<std::uint8_t>& has_core,
                                            const Operands* operands) const {
@@ -229,17 +229,16 @@ std::vector<std::uint8_t> Buried::doubtful(const SelfIntersections& found,
     std::vector<std::uint8_t> is(has_core.size(), 0);
     for (Index p = 0; p < is.size(); ++p)
         is[p] = solids_.cluster[p] != none && !has_core[p] && solids_.inward[p];
-    for (Index f = 0; operands && f < operands->lost.size();
-         ++f) // where it passes through itself is not known
+    for (Index f = 0; operands && f < operands->lost.size(); ++f) // its self-intersections are unknown
         if (operands->lost[f] && !has_core[of_face[f]]) is[of_face[f]] = 1;
     for (const auto& [f, g] : found.pairs)
         if (of_face[f] == of_face[g] && !has_core[of_face[f]]) is[of_face[f]] = 1;
     const auto place = lowest_at_place(mesh_);
-    std::vector<std::tuple<Index, Index, Index, bool>> edges; // lower, higher place, component, way
+    std::vector<std::tuple<Index, Index, Index, bool>> edges; // lower, higher position, component, way
     for (Index f = 0; f < mesh_.face_count(); ++f) {
         const Index p = of_face[f];
         if (has_core[p] || is[p] || solids_.cluster[p] == none) continue;
-        if (mesh_.face_size(f) > 4) is[p] = 1; // it may lie on itself
+        if (mesh_.face_size(f) > 4) is[p] = 1; // it may overlap itself
         for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
             const Index a = place[mesh_.vertex(c)], b = place[mesh_.vertex(next_corner(mesh_, f, c))];
             edges.emplace_back(std::min(a, b), std::max(a, b), p, a < b);
@@ -324,8 +323,8 @@ bool Buried::holds_point(const NearPoint& p, Index cluster) const {
 bool Buried::holds_pair(Index s, Index t, const std::vector<Index>& cores) const {
     const Corners a = corners(s), b = corners(t);
     const Box box = common_box(a, b);
-    if (box.empty()) return true; // they have nothing in common
-    std::vector<Index> near;      // the core of neither's own component ever holds anything of it
+    if (box.empty()) return true; // no common points
+    std::vector<Index> near;      // a component's own core never contains its faces
     for (const Index core : cores)
         if (boxes_meet(cores_[core].box, box)) near.push_back(core);
     if (near.empty()) return false;
@@ -367,7 +366,7 @@ Buried::Stretch Buried::stretch_of(const Core& core, const NearPoint& p, const N
     return s;
 }
 
-/// From core to core, each holding the point where the next one begins.
+/// Walks from core to core; each contains the point where the next begins.
 bool Buried::holds_segment(const NearPoint& p, const NearPoint& q, const std::vector<Index>& cores) const {
     std::vector<std::pair<Stretch, Index>> all;
     const std::pair<Stretch, Index>* current = nullptr;
@@ -401,7 +400,7 @@ bool Buried::holds_segment(const NearPoint& p, const NearPoint& q, const std::ve
     return current != nullptr;
 }
 
-/// Halves what no core holds as a whole, as often as the budget allows.
+/// Halves boxes that no core contains completely, until the budget is used up.
 bool Buried::holds_box(const Box& box, const std::vector<Index>& cores, int& budget) const {
     for (const Index core : cores)
         if (holds(cores_[core], box)) return true;

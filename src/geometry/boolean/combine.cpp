@@ -18,7 +18,7 @@ namespace {
 
 using namespace clean_steps;
 
-/// Face attribute that tells, while this works, which mesh a face came from.
+/// Temporary face attribute: the mesh that a face came from.
 constexpr std::string_view mesh_name = "facetmill:mesh";
 
 Mesh all_of(std::vector<Mesh> meshes) {
@@ -38,7 +38,7 @@ std::span<const std::uint32_t> mesh_of_faces(const Mesh& mesh) {
     return std::get<std::vector<std::uint32_t>>(mesh.find(mesh_name, Domain::face)->data);
 }
 
-/// Takes faces without area out of what stays closed without them. Whether there were none.
+/// Removes faces without area from surfaces that stay closed without them. Returns true if there were none.
 bool take_out_degenerate(Work& work) {
     const auto is_any = [&](std::size_t begin, std::size_t end) {
         int any = 0;
@@ -51,7 +51,7 @@ bool take_out_degenerate(Work& work) {
     return false;
 }
 
-/// Of the first face whose component is no solid.
+/// A failure for the first face whose component is not a solid.
 std::optional<CombineFailure> misfit(const Mesh& mesh, const Solids& solids) {
     if (std::find(solids.closed.begin(), solids.closed.end(), 0) == solids.closed.end()) return {};
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -63,7 +63,7 @@ std::optional<CombineFailure> misfit(const Mesh& mesh, const Solids& solids) {
     return {};
 }
 
-/// Of the first mesh that encloses less than nothing: beside others it would pass for a cavity.
+/// A failure for the first mesh with a negative volume: next to other meshes it would count as a cavity.
 std::optional<CombineFailure> turned_over(const Mesh& mesh, const Solids& solids, std::size_t meshes) {
     std::vector<double> volumes(meshes, 0);
     std::vector<Index> first(meshes, none);
@@ -89,7 +89,7 @@ class Combining {
 
     CombineResult run() {
         const bool had_area = take_out_degenerate(work_);
-        constexpr std::uint64_t bytes_a_pair = 32;  // and as much again is left for what follows
+        constexpr std::uint64_t bytes_a_pair = 32;  // the following steps need as much again
         constexpr std::uint64_t bytes_a_face = 170; // measured
         const std::uint64_t bytes = memory_left().value_or(std::uint64_t{4} << 30);
         if (work_.mesh.face_count() > 0 && bytes < bytes_a_face * work_.mesh.face_count())
@@ -113,7 +113,7 @@ class Combining {
         operands.lost = std::move(lost);
         if (settings_.operation == CombineOperation::subtract) {
             turn_what_is_taken();
-            solids.edges = LooseEdges(work_.mesh, solids.rings); // other corners run along them now
+            solids.edges = LooseEdges(work_.mesh, solids.rings); // rebuilt for new corners
         }
         return combine(solids, found, operands);
     }
@@ -133,7 +133,7 @@ class Combining {
         return operands;
     }
 
-    /// [faces] 1 for those of the second operand.
+    /// [faces] 1 for faces of the second operand.
     std::vector<std::uint8_t> second_faces() const {
         const auto meshes = mesh_of_faces(work_.mesh);
         std::vector<std::uint8_t> flags(meshes.size());

@@ -1,21 +1,21 @@
 #pragma once
-// Where faces hang together, without a table of all edges: around most vertices that is known beforehand.
+// Face adjacency without a full edge table, because it is already known around most vertices.
 
 #include "mesh/topology.hpp"
 #include "parallel/parallel.hpp"
 
 namespace facetmill::clean_steps {
 
-/// Vertices around which the faces are one closed ring that runs the same way all round
-/// (SelfIntersections::rings): [vertices], or empty where it is not known of any.
+/// Vertices whose faces form one closed ring with consistent orientation (SelfIntersections::rings).
+/// [vertices], or empty if no ring is known.
 using Rings = std::vector<std::uint8_t>;
 
-/// The edges with an end that is no ring. All others have two faces, which run along them both ways: at the
-/// end that is a ring each vertex beside it is the second of one face and the third of another.
+/// The edges with an end that is not a ring. Every other edge has two faces with opposite directions. At a
+/// ring, each neighbour is the second vertex of one face and the third of another.
 class LooseEdges {
   public:
     LooseEdges() = default;
-    /// Requires rings of this mesh; they are left as they are when faces are turned over.
+    /// Requires rings of this mesh; reversing faces does not change them.
     LooseEdges(const Mesh& mesh, const Rings& rings);
 
     std::size_t size() const { return offsets_.empty() ? 0 : offsets_.size() - 1; }
@@ -28,10 +28,10 @@ class LooseEdges {
     std::vector<Index> offsets_, corners_;
 };
 
-/// Faces in sets of those that hang together: by the rings that they share, and by what else is joined.
+/// Sets of connected faces: by common rings, and by explicit joins.
 class FaceSets {
   public:
-    /// Only rings that are flagged join their faces, and only those faces for which takes(f).
+    /// Uses only flagged rings, and only faces for which takes(f) is true.
     template <class Takes>
     FaceSets(const Mesh& mesh, const Rings& rings, Takes&& takes)
         : mesh_(mesh), rings_(rings), sets_(rings.size() + mesh.face_count()) {
@@ -45,12 +45,12 @@ class FaceSets {
     }
 
     void join(Index f, Index g) { sets_.join(element(f), element(g)); }
-    /// The same for faces of one set, below `bound`, once all joins are done.
+    /// An equal number, below `bound`, for all faces of a set. Call it after all joins.
     Index find(Index f) { return sets_.find(element(f)); }
     std::size_t bound() const { return rings_.size() + mesh_.face_count(); }
 
   private:
-    /// What stands for a face: a ring of its own, or the face itself.
+    /// The element that represents a face: one of its rings, or the face itself.
     Index element(Index f) const {
         if (!rings_.empty())
             for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
@@ -63,7 +63,7 @@ class FaceSets {
     DisjointSets sets_;
 };
 
-/// As face_components(mesh, build_edges(mesh)).
+/// Like face_components(mesh, build_edges(mesh)).
 Components face_components(const Mesh& mesh, const Rings& rings, const LooseEdges& edges);
 
 } // namespace facetmill::clean_steps

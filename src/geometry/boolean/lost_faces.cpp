@@ -11,11 +11,11 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr std::size_t least_faces = 4096; ///< of fewer, all is searched as quickly
-/// A room is asked about that has one of so many equal shares of the faces: so there are few such rooms.
+constexpr std::size_t least_faces = 4096; ///< for fewer faces, a full search is as fast
+/// A room is tested only if it has at least this share of the faces (1/64), so few rooms are tested.
 constexpr std::size_t most_rooms = 64;
 
-/// The rooms between marked cells: numbered, each cell has the number of its own.
+/// The rooms between marked cells, with a number for each cell.
 class Rooms {
   public:
     explicit Rooms(const TouchedCells& touched) {
@@ -36,27 +36,27 @@ class Rooms {
                     sets.join(run_of(row, std::countr_zero(left)), run_of(next, std::countr_zero(left)));
             }
         number_.resize(runs);
-        for (Index run = 0; run < runs; ++run) { // of a set the root is the lowest
+        for (Index run = 0; run < runs; ++run) { // the root of a set is its lowest run
             const Index root = sets.find(run);
             number_[run] = root == run ? static_cast<Index>(count_++) : number_[root];
         }
     }
 
     std::size_t count() const { return count_; }
-    /// Of a cell that is not marked.
+    /// The room of an unmarked cell.
     Index of(const Cell& c) const { return number_[run_of(c[0] * cells_along + c[1], c[2])]; }
 
   private:
     static constexpr std::size_t rows = cells_along * cells_along;
 
-    /// The run of open cells along the last axis that holds an open one.
+    /// The run of open cells along the last axis that contains an open cell.
     Index run_of(std::size_t row, int at) const {
         const std::uint64_t up_to = starts_[row] << (cells_along - 1 - static_cast<std::size_t>(at));
         return first_[row] + static_cast<Index>(std::popcount(up_to)) - 1;
     }
 
     std::array<std::uint64_t, rows> starts_; ///< of the runs, in the bits of a number
-    std::array<Index, rows> first_;          ///< number of a row's first run
+    std::array<Index, rows> first_;          ///< number of each row's first run
     std::vector<Index> number_;              ///< [runs] the room
     std::size_t count_ = 0;
 };
@@ -69,7 +69,7 @@ class Losing {
     std::vector<std::uint8_t> run() {
         std::array<TouchedCells, 2> touched;
         parallel_for(mesh_.face_count(), [&](std::size_t f) { touched[second_[f]].mark(cells_[f]); });
-        std::array<std::vector<std::uint8_t>, 2> goes; // by room, of the faces of an operand in it
+        std::array<std::vector<std::uint8_t>, 2> goes; // [rooms] 1 if the operand's faces are lost
         const std::array rooms{Rooms(touched[1]), Rooms(touched[0])};
         std::vector<Index> room(mesh_.face_count()); // or none
         parallel_for(room.size(), [&](std::size_t f) {
@@ -89,13 +89,13 @@ class Losing {
     }
 
   private:
-    /// From a vertex of an operand, in a room between the faces of the other.
+    /// A test ray from a vertex of an operand, in a room between the faces of the other.
     struct View {
         Vec3 from;
         Cell cell;
         std::size_t operand;
         Index room;
-        int winding = 0; ///< of the other operand
+        int winding = 0; ///< around the vertex, of the other operand
     };
 
     std::uint8_t is_lost(const View& view) const {
@@ -111,9 +111,9 @@ class Losing {
         return view.operand == 0 ? within : !within;
     }
 
-    /// What boxes of both operands have in common, or a little more.
+    /// The common box of both operands, slightly enlarged.
     Box common_box() const {
-        struct Range { // of vertices
+        struct Range { // range of vertices
             Index low = none, high = 0;
             void add(const Range& r) {
                 low = std::min(low, r.low);
@@ -146,7 +146,7 @@ class Losing {
         return both;
     }
 
-    /// A view from each room with many faces. room: of the faces.
+    /// Chooses a test vertex in each room with many faces. room: of each face.
     void find_views(const std::array<Rooms, 2>& rooms, const std::vector<Index>& room) {
         std::array<std::vector<std::size_t>, 2> count;
         for (std::size_t k = 0; k < 2; ++k) count[k].assign(rooms[k].count(), 0);
@@ -157,9 +157,9 @@ class Losing {
         }
     }
 
-    /// By rays along an axis; polygons as fans, whose triangles are all in the box of the polygon: since no
-    /// view is from there, any surface between its sides would do. Outside of the box of the other operand no
-    /// ray is needed.
+    /// Counts winding numbers by rays along an axis. Polygons are split into fans, whose triangles stay
+    /// inside the polygon's box. No test vertex is in such a box, so any surface with the same boundary gives
+    /// the same count. Outside the other operand's box, no ray is needed.
     void ask() {
         std::vector<View*> within;
         for (View& view : views_)

@@ -1,5 +1,5 @@
 #pragma once
-// What of two operands surely bounds nothing of what they are combined to, found before anything is cut.
+// Finds faces that certainly do not bound the result of a boolean operation, before anything is cut.
 
 #include "geometry/boolean/combine.hpp"
 
@@ -8,24 +8,25 @@
 
 namespace facetmill::clean_steps {
 
-/// [faces] 1 for faces of which nothing stays, whatever intersects them; empty where none are known. second:
-/// [faces] 1 for those of the second operand. Both operands should be closed, consistently oriented and
-/// without faces of no area, as is checked later: else this says nothing.
+/// [faces] 1 for faces without any part in the result, whatever intersects them; empty if none are known.
+/// second: [faces] 1 for faces of the second operand. Both operands should be closed, consistently oriented
+/// and without zero-area faces. This is checked later; otherwise the result is meaningless.
 ///
-/// Cells of a grid that no box of one operand's faces touches, and that hang together side by side, are a
-/// *room*: that operand winds around all of its points equally often. Faces of the other operand that are in
-/// a room are lost where that is once at least, of a union, and of what something is taken away from; where
-/// it is not even once, of an intersection, and of what is taken away: on both of their sides there is
-/// nothing but what the other decides. How often it is, a ray from a vertex in the room tells (exact); of
-/// rooms with few faces nothing is said.
+/// A *room* is a connected set of grid cells that no box of one operand's faces touches. That operand has a
+/// constant winding number in the room. The other operand's faces in the room are lost when the number
+/// decides both of their sides. At a number of at least 1 this holds for a union, and for faces of the
+/// minuend. Below 1 it holds for an intersection, and for faces of the subtrahend. An exact ray from a vertex
+/// in the room determines the number. Rooms with few faces are skipped.
 ///
-/// **Pairs of one operand with a lost face need not be known.** Let K be the open set of the points that are
-/// not on the other operand, around which it winds as above. All that is not known of an operand's faces lies
-/// in its K, since a point of a lost face does. A leaf of that operand (a piece or an uncut face) lies in K
-/// or has no point in it, for K ends at the other's faces only, and along those all is cut. One in K goes,
-/// and is found to go, wherever on it one asks: a ray counts exactly how often the other winds, because the
-/// point is on none of its faces. What it is joined with beyond an edge that no other leaf has is in K, too.
-/// All other leaves are cut along all that they meet. Parallel; the same for any number of threads.
+/// **Pairs of two faces of the same operand may be skipped if one is lost.** Let K be the open set of points
+/// off the other operand where its winding number decides as above. A lost face has a point in K, and all
+/// skipped intersections of its operand are in its K. K ends only at the other operand's faces, and
+/// everything is cut along these. So a leaf (a piece or an uncut face) of the operand is entirely in K or has
+/// no point in K. A leaf in K is removed, and any test point shows that. A ray counts exactly how often the
+/// other operand winds, because the point is on none of its faces. Its neighbour across an edge without other
+/// leaves is also in K. All other leaves are cut along all faces that they meet.
+///
+/// Parallel; the same for any number of threads.
 std::vector<std::uint8_t> lost_faces(const Mesh& mesh, std::span<const std::uint8_t> second,
                                      CombineOperation operation);
 

@@ -17,12 +17,12 @@ namespace {
 
 using Triple = std::array<Index, 3>;
 
-/// Whether triangles that share an edge are of one flat face.
+/// Decides whether triangles that share an edge form a flat face.
 class Flatness {
   public:
     Flatness(const Mesh& mesh, const TriangleFaces& triangles) : mesh_(mesh), triangles_(triangles) {}
 
-    /// The edge begins at corner i of s and at corner j of t, which run along it against each other.
+    /// The edge starts at corner i of s and at corner j of t, which traverse it in opposite directions.
     bool is_flat(Index s, std::size_t i, Index t, std::size_t j) const {
         const auto corner = [&](Index of, std::size_t k) { return triangles_.corners[of][k % 3]; };
         const Triple abc{corner(s, i), corner(s, i + 1), corner(s, i + 2)};
@@ -40,7 +40,7 @@ class Flatness {
     }
 
   private:
-    /// Of one plane, and on both sides of the edge from the first to the second.
+    /// True if d is in the plane of abc, on the other side of the edge from the first to the second.
     bool is_planar(const Triple& abc, Index d) const {
         const Vec3 &a = mesh_.point(abc[0]), &b = mesh_.point(abc[1]), &c = mesh_.point(abc[2]),
                    &p = mesh_.point(d);
@@ -61,7 +61,7 @@ class Flatness {
         return true;
     }
 
-    /// With which d is mixed of the others, which may be outside of them.
+    /// The barycentric weights of d in the triangle abc; d may be outside it.
     std::array<double, 3> weights(const Triple& abc, Index d) const {
         const Vec3 &a = mesh_.point(abc[0]), u = mesh_.point(abc[1]) - a, v = mesh_.point(abc[2]) - a,
                    w = mesh_.point(d) - a, n = cross(u, v);
@@ -69,8 +69,8 @@ class Flatness {
         return {1 - s - t, s, t};
     }
 
-    /// Whether the fourth value is what the three others come to: exactly, where they are one; of numbers of
-    /// 32 and 64 bits as far as their own rounding tells.
+    /// True if the fourth value is the weighted sum of the other three. Equal values match exactly; 32-bit
+    /// and 64-bit floats match within their rounding error.
     static bool is_linear(const Attribute& a, const std::array<Index, 4>& at,
                           const std::array<double, 3>& weight) {
         if (is_same(a, at[0], at[1]) && is_same(a, at[0], at[2]) && is_same(a, at[0], at[3])) return true;
@@ -119,14 +119,14 @@ class Redrawing {
     Index triangle_of(Index corner) const { return pieces_[corner / 3].triangles[0]; }
     Index node_at(Index corner) const { return pieces_[corner / 3].nodes[corner % 3]; }
     Index end_of(Index corner) const { return pieces_[corner / 3].nodes[(corner + 1) % 3]; }
-    /// The lowest triangle of the sheet.
+    /// The lowest triangle of the corner's sheet.
     Index sheet_of(Index corner) const { return sheet_[corner / 3]; }
 
     void find_sheets() {
-        std::vector<Index> cut; // the triangles
+        std::vector<Index> cut; // cut triangles
         for (const OuterPiece& p : pieces_)
             if (cut.empty() || cut.back() != p.triangles[0]) cut.push_back(p.triangles[0]);
-        using Side = std::tuple<Index, Index, Index, Index>; // low, high, place in cut, corner
+        using Side = std::tuple<Index, Index, Index, Index>; // low, high, index in cut, corner
         std::vector<Side> all;
         for (Index i = 0; i < cut.size(); ++i)
             for (Index k = 0; k < 3; ++k) {
@@ -193,7 +193,7 @@ class Redrawing {
         return low == node ? high : low;
     }
 
-    /// Whether both outer edges at the node are on one line.
+    /// True if both outer edges at the node are collinear.
     bool is_straight(Index node) const {
         const auto& [first, second] = outer_[node].edges;
         const auto one = sheets_at(first), other = sheets_at(second);
@@ -226,7 +226,7 @@ class Redrawing {
                arrangement_.side_of(triangle, node) == side;
     }
 
-    /// The next node that stays, on the line from one to another.
+    /// The next node that stays, along the line from one node to the other.
     Index along(Index from, Index to) const {
         while (goes_[to]) {
             const auto& [first, second] = outer_[to].edges;
@@ -255,7 +255,7 @@ class Redrawing {
         }
         const auto filled = arrangement_.fill(regions);
         for (std::size_t r = 0; r < regions.size(); ++r) {
-            if (!filled[r]) return; // cannot be; all stays as it was cut
+            if (!filled[r]) return; // retriangulation failed: all pieces stay
             for (const auto& [a, b, c] : *filled[r])
                 drawn.push_back({{a, b, c}, {holders[r].at(a), holders[r].at(b), holders[r].at(c)}});
         }
@@ -277,7 +277,7 @@ class Redrawing {
         return node_of(triangle, 0) == node || node_of(triangle, 1) == node || node_of(triangle, 2) == node;
     }
 
-    /// The outer edges at a node, the first two by number.
+    /// The number of outer edges at a node, and the first two.
     struct Outer {
         Index count = 0;
         std::array<Index, 2> edges{};

@@ -1,27 +1,27 @@
 #pragma once
-// What is kept of faces that were cut, drawn anew without what only the cutting needed.
+// Retriangulates the remaining parts of cut faces without vertices that only the cutting needed.
 
 #include "geometry/boolean/united_mesh.hpp"
 
 namespace facetmill::clean_steps {
 
-/// Cutting leaves nodes where the cut does not show: where it ended in what went, where another solid only
-/// touched it, and along lines that crossed a face of which both sides stay. Here they go.
+/// Cutting leaves nodes where no cut is visible. A cut may end in a removed part, or another solid may only
+/// touch the face. A line may also cross a face of which both sides stay. This function removes such nodes.
 ///
-/// A *sheet* are the pieces of one triangle, and those of its neighbours that are exactly of its plane, turn
-/// as it does, have equal face attributes, and all other attributes as the plane through the corners of one
-/// of them has them (but for the rounding of 32-bit floats where they are such): a flat face that happens to
-/// be triangulated. An edge is *inner* when it has two pieces, both of one sheet. A node goes when it is no
-/// corner of an uncut face, nor of a triangle whose pieces it is a corner of, and
+/// A *sheet* contains the pieces of a triangle, and of neighbours that form a flat face with it. These
+/// neighbours have exactly the same plane and orientation, and equal face attributes. All other attributes
+/// are linear across the triangles (within float rounding). An edge is *inner* when it has two pieces, both
+/// of the same sheet. A node is removed if it is not a corner of an uncut face, nor of the triangle of one of
+/// its pieces, and
 ///
-/// - all edges at it are inner: it is in the midst of a sheet; or
-/// - all but two are, and these are on one line: along both the same sheets meet, two of which are of two
-///   planes that have but a line in common; or they are along one side of one triangle.
+/// - all its edges are inner, so it is inside a sheet; or
+/// - all but two edges are inner, and these two are collinear. Either the same sheets meet along both, and
+///   two of the sheets have different planes; or both are on the same side of a triangle.
 ///
-/// The surface as a set of points stays exactly what it was, and stays closed, since what meets at a line
-/// loses the same nodes. (An inner edge that an uncut face runs along, too, there is none: such a face would
-/// meet the triangle elsewhere than in corners and would have been cut.) Sheets that lose nodes are
-/// triangulated again between those that are left. By triangle, ascending; uncut: the faces that stay.
+/// The surface as a point set stays exactly the same. It also stays closed, because all sheets at a line lose
+/// the same nodes. (An uncut face never runs along an inner edge: it would meet the triangle elsewhere than
+/// in corners, and would have been cut.) Sheets that lose nodes are triangulated again between the remaining
+/// nodes. Returns pieces by triangle, ascending. uncut: the uncut faces that stay.
 std::vector<OuterPiece> redrawn(const Mesh& mesh, const std::vector<Index>& uncut,
                                 std::vector<OuterPiece> pieces, const Arrangement& arrangement,
                                 const TriangleFaces& triangles);

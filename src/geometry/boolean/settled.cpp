@@ -16,7 +16,7 @@ bool is_tidy(const Mesh& mesh, const std::vector<std::uint8_t>& settled, std::si
     };
     const auto faces = indices_where(mesh.face_count(), [&](Index f) { return !is_settled(f); });
     const Mesh some = only_faces(mesh, faces);
-    std::vector<std::uint8_t> whole(some.vertex_count()); // all of whose faces are here
+    std::vector<std::uint8_t> whole(some.vertex_count()); // `some` contains all of its faces
     for (Index c = 0; c < some.corner_count(); ++c)
         whole[some.vertex(c)] = !settled[mesh.vertex(mesh.face_begin(faces[c / 3]) + c % 3)];
     const EdgeTable edges = build_edges(some);

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a union left anything to tidy up, by a look at what is new in it.
+// Decides whether a union needs tidying, by checking only its new parts.
 
 #include "mesh/mesh.hpp"
 
@@ -8,15 +8,17 @@
 
 namespace facetmill::clean_steps {
 
-/// Whether the mesh is one of triangles in which no two vertices are at one place, no face has no area or is
-/// there twice, each edge has two faces, which run along it both ways, and the faces around each vertex are
-/// one fan. False says nothing. The first `uncut` faces, and all around settled vertices (United::settled),
-/// is as it was in a mesh whose faces all have area; settled: [vertices], or empty: nothing is known.
+/// True if the mesh is a triangle mesh with distinct vertex positions, without zero-area or double faces.
+/// Each edge must have two faces in opposite directions, and the faces around each vertex must form one fan.
+/// False proves nothing.
 ///
-/// Only faces at vertices that are not settled are looked at, and that is enough. Around a settled vertex v
-/// the faces are the ring that they were: one fan, and each edge at v has two faces, which run along it both
-/// ways. No face there is there twice: the two would have the same vertex second. So what is not as it should
-/// be is at a vertex that is not settled, and all faces of that are looked at.
+/// The first `uncut` faces, and all faces around settled vertices (United::settled), must be unchanged from a
+/// mesh whose faces all have area. settled: [vertices], or empty: unknown.
+///
+/// It is enough to check the faces at unsettled vertices. A settled vertex v has its original ring of faces.
+/// The ring is one fan, and each edge at v has two faces in opposite directions. It has no double face,
+/// because two equal faces would have the same second vertex. So any defect is at an unsettled vertex, and
+/// all faces there are checked.
 bool is_tidy(const Mesh& mesh, const std::vector<std::uint8_t>& settled, std::size_t uncut);
 
 } // namespace facetmill::clean_steps

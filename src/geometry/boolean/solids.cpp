@@ -35,7 +35,7 @@ const char* reason(Fitness f) {
     return "";
 }
 
-/// Whether all corner means are finite, for certain.
+/// True if all corner means are certainly finite.
 bool are_small(const std::vector<Vec3>& positions) {
     constexpr double most = 1e290;
     return parallel_reduce(
@@ -73,7 +73,7 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const LooseEdges& edges, const
     return fitness;
 }
 
-/// Of the components that are not fit, one entry for each that intersects something.
+/// One entry for each unfit component that intersects something.
 std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components,
                                   const std::vector<Fitness>& fitness, const SelfIntersections& found) {
     struct Place {
@@ -98,7 +98,7 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
     return all;
 }
 
-/// The bare mesh, vertices at one place being one.
+/// Positions and faces only, with vertices at the same position merged.
 Mesh at_places(const Mesh& mesh, const std::vector<Index>& place) {
     Mesh plain;
     plain.positions = mesh.positions;
@@ -109,7 +109,7 @@ Mesh at_places(const Mesh& mesh, const std::vector<Index>& place) {
     return plain;
 }
 
-/// Of a mesh of triangles.
+/// The stars of a triangle mesh.
 std::vector<Star> stars_of(const Mesh& mesh) {
     if (!mesh.has_seams()) return plain_stars(mesh.positions, mesh.corners);
     std::vector<Index> corners(mesh.corner_count());
@@ -117,7 +117,7 @@ std::vector<Star> stars_of(const Mesh& mesh) {
     return plain_stars(mesh.positions, corners);
 }
 
-/// The pairs of which no face is lost.
+/// Finds the pairs without lost faces.
 SelfIntersections find_but(const std::vector<std::uint8_t>& lost, const Mesh& mesh, std::size_t limit,
                            std::vector<Star> stars) {
     if (lost.empty()) return find_self_intersections(mesh, {.limit = limit, .stars = std::move(stars)});
@@ -193,7 +193,7 @@ Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
 
 namespace {
 
-/// Those whose boxes meet the box of a flagged face, ascending.
+/// Faces whose boxes meet the box of a flagged face, ascending.
 std::vector<Index> faces_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     const auto box_of = [&](Index f) {
         Box box;
@@ -254,7 +254,7 @@ Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings
     };
     for (const auto& [f, g] : found.pairs)
         if (both_fit(f, g)) sets.join(s.components.of_face[f], s.components.of_face[g]);
-    std::map<Index, Index> numbers; // of sets, by their first pair
+    std::map<Index, Index> numbers; // numbers of sets, by their first pair
     for (const auto& [f, g] : found.pairs)
         if (both_fit(f, g) &&
             numbers.try_emplace(sets.find(s.components.of_face[f]), static_cast<Index>(s.at.size())).second)
@@ -279,7 +279,7 @@ namespace {
 
 using clean_steps::Solids;
 
-/// For each closed component the closed components that it lies in, ascending.
+/// For each closed component, the closed components that contain it, ascending.
 std::vector<std::vector<Index>> around_each(const Mesh& mesh, const Solids& solids) {
     std::vector<Index> first(solids.components.count, none);
     for (Index f = mesh.face_count(); f-- > 0;) first[solids.components.of_face[f]] = f;
@@ -312,7 +312,7 @@ Components solid_components(const Mesh& mesh) {
     const auto around = around_each(mesh, solids);
     for (Index p = 0; p < solid_of.size(); ++p) {
         if (!is_cavity(p)) continue;
-        std::size_t depth = 0; // the innermost lies in most others itself
+        std::size_t depth = 0; // the innermost is itself inside most others
         for (const Index q : around[p])
             if (!is_cavity(q) && (solid_of[p] == p || around[q].size() > depth)) {
                 solid_of[p] = q;

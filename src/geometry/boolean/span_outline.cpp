@@ -11,11 +11,11 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t max_searched = 400; // some 10 million candidates
+constexpr std::size_t max_searched = 400; // about 10 million candidates
 
 Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
 
-/// How much two faces are bent: 0 for flat, 2 for folded onto each other; 0 next to one without area.
+/// The bend between two faces: 0 if flat, 2 if folded onto each other; 0 next to a face without area.
 double dihedral(const Vec3& a, const Vec3& b) {
     const double lengths = std::sqrt(dot(a, a) * dot(b, b));
     return lengths > 0 ? 1 - dot(a, b) / lengths : 0;
@@ -28,7 +28,8 @@ struct Cost {
     }
 };
 
-/// Costs of the best triangles over the points i .. k, and the corner that the edge i, k goes to.
+/// The costs of the best triangles for the points i .. k, and the third corner of the triangle at the edge i,
+/// k.
 class Search {
   public:
     Search(const std::vector<Vec3>& points, const std::vector<Vec3>& across)
@@ -62,7 +63,7 @@ class Search {
             Cost cost{std::max({left.dihedral, right.dihedral, dihedral_over(i, m, normal),
                                 dihedral_over(m, k, normal)}),
                       left.area + right.area + length(normal)};
-            if (flat(i, m, k, normal)) cost.dihedral = 3; // only when nothing else is left
+            if (flat(i, m, k, normal)) cost.dihedral = 3; // only as a last choice
             if (i == 0 && k + 1 == n_ && !across_.empty())
                 cost.dihedral = std::max(cost.dihedral, dihedral(across_[k], normal));
             if (at == none || cost < best) {
@@ -73,13 +74,14 @@ class Search {
         cost_[i * n_ + k] = best;
         apex_[i * n_ + k] = at;
     }
-    /// Whether the corner lies on the line of the other two, exactly; asked only where rounding leaves a
-    /// doubt.
+    /// True if the corner is exactly on the line of the other two. Uses exact arithmetic only where rounding
+    /// makes it uncertain.
     bool flat(std::size_t i, std::size_t m, std::size_t k, const Vec3& normal) const {
         const Vec3 u = p_[m] - p_[i], v = p_[k] - p_[i];
         return !(dot(normal, normal) > 1e-20 * dot(u, u) * dot(v, v)) && collinear(p_[i], p_[m], p_[k]);
     }
-    /// Between a triangle over the edge i, k with this normal and what is chosen beyond.
+    /// The bend between a triangle at the edge i, k with this normal and the chosen triangle across that
+    /// edge.
     double dihedral_over(std::size_t i, std::size_t k, const Vec3& normal) const {
         if (k - i == 1) return across_.empty() ? 0 : dihedral(across_[i], normal);
         return dihedral(twice_area(p_[i], p_[apex_[i * n_ + k]], p_[k]), normal);
@@ -92,7 +94,8 @@ class Search {
     std::vector<Index> apex_;
 };
 
-/// Cuts the smallest ears until so many corners are left; returns them, with what is across their edges.
+/// Cuts the smallest ears until max_searched corners are left. Returns the corners, and updates the normals
+/// across their edges.
 std::vector<Index> without_ears(const std::vector<Vec3>& p, std::vector<Vec3>& across,
                                 std::vector<std::array<Index, 3>>& ears) {
     const auto n = static_cast<Index>(p.size());

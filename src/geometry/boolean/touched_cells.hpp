@@ -1,6 +1,5 @@
 #pragma once
-// The cells of a grid that some faces touch: tells quickly of most other faces that they come near none of
-// them.
+// The grid cells that marked faces touch: a fast test that most other faces are far from all of them.
 
 #include "mesh/mesh.hpp"
 #include "parallel/parallel.hpp"
@@ -21,8 +20,8 @@ struct CellRange {
 };
 constexpr std::size_t cells_along = 64; ///< each axis
 
-/// In which cells the faces of a mesh are. What is outside of the box is in the first or the last cell along
-/// an axis, which hold nothing else. Never lower for what is higher: boxes that meet have a cell in common.
+/// The grid cells of each face of a mesh. Parts outside the box belong to the first or the last cell along an
+/// axis, which contain nothing else. Cell numbers are monotonic, so boxes that meet have a common cell.
 class FaceCells {
   public:
     FaceCells(const Mesh& mesh, const Box& box) : box_(box), ranges_(mesh.face_count()) {
@@ -63,7 +62,7 @@ class FaceCells {
     std::vector<CellRange> ranges_; ///< [faces]
 };
 
-/// Ranges may be marked from any thread; once all are, others are asked about.
+/// Any thread may mark ranges; queries are valid once all are marked.
 class TouchedCells {
   public:
     void mark(const CellRange& range) {
@@ -74,16 +73,16 @@ class TouchedCells {
             return false;
         });
     }
-    /// False: it touches none of the cells of those that were marked.
+    /// False: the range touches no marked cell.
     bool may_meet(const CellRange& range) const {
         return visit(range, [&](std::size_t row, std::uint64_t bits) { return (rows_[row] & bits) != 0; });
     }
-    /// The cells of a row along the last axis, a bit each: set where they are marked. Rows lie along the
-    /// middle axis, cells_along of them at each place on the first.
+    /// The marked cells of a row along the last axis, as bits. Rows are ordered along the first, then the
+    /// middle axis: cells_along rows for each position on the first.
     std::uint64_t row(std::size_t i) const { return rows_[i]; }
 
   private:
-    /// stop(row, bits of the range) for its rows, until it is true. Whether it was.
+    /// Calls stop(row, bits of the range) for each row until it returns true. Returns whether it did.
     template <class Stop>
     static bool visit(const CellRange& range, Stop&& stop) {
         constexpr std::uint64_t all = ~std::uint64_t{0};
@@ -94,7 +93,7 @@ class TouchedCells {
         return false;
     }
 
-    /// The cells along the last axis are the bits of a number.
+    /// Each number has the cells along the last axis as bits.
     std::vector<std::uint64_t> rows_ = std::vector<std::uint64_t>(cells_along * cells_along, 0);
 };
 

@@ -13,13 +13,14 @@ namespace {
 
 constexpr int max_passes = 8;
 constexpr const char* spreading = "rounding the coordinates of the union makes ever more faces intersect";
-/// Where passes make new crossings, points that are this near (of the size of the mesh) become one, and eight
-/// times as far in each pass after; in the first, only those that round to one place.
+/// Merge distance, relative to the size of the mesh. The first pass merges only points that round to the same
+/// position. If a pass makes new intersections, the second uses this distance, and each later pass eight
+/// times the previous.
 constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
-/// ... where positions have 32 bits: the rounding of those.
+/// The same for 32-bit positions: their rounding error.
 constexpr double nearest_single = 1.0 / static_cast<double>(std::int64_t{1} << 22);
-/// Face attribute that tells, while this step works, the cluster (counted from 1) that a face came from, and
-/// whether the last pass made it.
+/// Temporary face attribute: the cluster of a face (counted from 1), and a flag for faces made by the last
+/// pass.
 constexpr std::string_view mark_name = "facetmill:solid";
 constexpr std::uint32_t fresh = std::uint32_t{1} << 31;
 
@@ -77,8 +78,8 @@ Failures Trial::run(const SelfIntersections& first, const Operands* operands) {
     return std::move(failures_);
 }
 
-/// The passes after the first are for what rounding does: were that more than all there was, or a million
-/// pairs, they would not come to an end.
+/// Passes after the first only repair rounding. If that needs more pairs than the first pass, and more than a
+/// million, the passes would not converge.
 PassBudget Trial::effort(int pass) const {
     if (!is_operation_) return {available_memory()};
     PassBudget effort{memory_left(), SIZE_MAX, SIZE_MAX};
@@ -105,7 +106,7 @@ bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, doubl
     United united = unite(work_.mesh, solids, found, {tolerance, settings_.single}, operands, effort);
     short_of_memory_ |= united.short_of_memory;
     first_pairs_ = std::max(first_pairs_, united.pairs);
-    for (const auto& refused : united.refused) { // a cluster of this pass; its marks say which of the first
+    for (const auto& refused : united.refused) { // a cluster of this pass; marks give the original cluster
         for (Index f = 0; f < work_.mesh.face_count(); ++f)
             if (solids.cluster_of_face(f) == refused.cluster) fail(marks_of(work_.mesh)[f], refused.why);
     }
@@ -132,23 +133,23 @@ void Trial::tidy() {
     if (settings_.duplicates) remove_duplicates(work_);
     if (settings_.non_manifold)
         take_apart_non_manifold(work_, {.all = true, .single = settings_.single}, &edges_);
-    work_.counts = before; // a part of the union
+    work_.counts = before; // part of the union, so not counted
 }
 
-/// Faces that are not fresh cross as little as they did before the last pass.
+/// Faces that are not fresh intersect no more than before the last pass.
 SelfIntersections Trial::crossings_of_fresh() const {
     const auto marks = marks_of(work_.mesh);
     std::vector<std::uint8_t> among(marks.size());
     for (std::size_t f = 0; f < among.size(); ++f) among[f] = (marks[f] & fresh) != 0;
     SelfIntersections found = crossings_near(work_.mesh, among);
-    std::erase_if(found.pairs, [&](const auto& pair) { // there before
+    std::erase_if(found.pairs, [&](const auto& pair) { // existed before
         const auto m = marks[pair.first] & ~fresh, n = marks[pair.second] & ~fresh;
         return (m == 0 && solids_.meets_unfit[n - 1]) || (n == 0 && solids_.meets_unfit[m - 1]);
     });
     return found;
 }
 
-/// What intersects still must be of the clusters, closed and turned outward as before.
+/// Fails clusters whose remaining intersections are not between closed, outward components of clusters.
 void Trial::check_marks(const Solids& solids, const SelfIntersections& found) {
     const auto marks = marks_of(work_.mesh);
     for (const auto& [f, g] : found.pairs)

@@ -1,4 +1,4 @@
-// The step of clean that makes one solid of closed components that pass through each other or themselves.
+// The clean step that unites closed components which intersect each other or themselves.
 #include "geometry/boolean/solids.hpp"
 #include "geometry/boolean/trial.hpp"
 #include "geometry/clean/steps.hpp"
@@ -14,8 +14,8 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// Those that cannot be united are left out and the rest is tried again, so often: a bound for what is
-/// hostile.
+/// Clusters that cannot be united are excluded, and the rest is tried again. This bounds the attempts for
+/// hostile input.
 constexpr int max_trials = 8;
 
 } // namespace
@@ -24,7 +24,7 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
                   const CleanSettings& settings) {
     Solids solids = find_solids(work.mesh, found);
     if (!overlaps.empty()) {
-        for (const auto& [f, g] : overlaps) // of components that are not closed they say nothing
+        for (const auto& [f, g] : overlaps) // overlaps of components that are not closed are ignored
             if (solids.closed[solids.components.of_face[f]] && solids.closed[solids.components.of_face[g]])
                 found.pairs.emplace_back(f, g);
         std::sort(found.pairs.begin(), found.pairs.end());
@@ -74,11 +74,11 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
     return false;
 }
 
-// Triangles without area, as rounding makes them of the pieces of a union.
+// Triangles without area: rounding creates them from pieces of a union.
 
 namespace {
 
-/// The corner opposite to the longest side of a triangle on a line; none where corners are at one place.
+/// The corner opposite the longest side of a collinear triangle; empty if corners have the same position.
 std::optional<Index> middle_corner(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f);
     std::array<Index, 3> c{begin, begin + 1, begin + 2};
@@ -93,11 +93,11 @@ std::optional<Index> middle_corner(const Mesh& mesh, Index f) {
     return apart ? std::optional(c[1]) : std::nullopt;
 }
 
-/// One round: triangles that go, and what is put where. Each face takes part once.
+/// A round of removing flat triangles and splitting edges. Each face takes part once.
 struct Round {
     std::vector<std::uint8_t> goes;
     std::vector<Insertion> insertions;
-    std::vector<Index> cut; ///< triangles that become two, ascending
+    std::vector<Index> cut; ///< triangles that are split in two, ascending
 };
 
 Round plan(const Mesh& mesh) {
@@ -139,7 +139,7 @@ void take_out_flat(Work& work) {
         Round round = plan(work.mesh);
         if (round.insertions.empty()) return;
         std::vector<std::uint8_t> goes(round.goes.size() + round.cut.size(), 0);
-        std::size_t before = 0; // triangles that became two, below f
+        std::size_t before = 0; // triangles split in two, below f
         for (Index f = 0; f < round.goes.size(); ++f) {
             goes[f + before] = round.goes[f];
             if (before < round.cut.size() && round.cut[before] == f) ++before;
@@ -149,16 +149,16 @@ void take_out_flat(Work& work) {
     }
 }
 
-// Solids that overlap and yet meet in edges only: grids that cross along their lines.
+// Solids that overlap and yet meet only in edges, for example grids that cross along their lines.
 
 namespace {
 
-/// Whether two leaves, neighbours in the order around the edge, are at the same angle.
+/// True if two leaves, adjacent in the order around the edge, have the same angle.
 bool same_angle(const Vec3& u, const Vec3& v, const EdgeLeaf& a, const EdgeLeaf& b) {
     return a.half == b.half && (a.half % 2 == 0 || orientation_3d(u, v, a.beside, b.beside) == 0);
 }
 
-/// Whether the winding number takes more than two values around the edge.
+/// True if the winding number takes more than two values around the edge.
 bool winds_twice(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf> leaves) {
     sort_around_edge(u, v, leaves);
     int winding = 0, least = 0, most = 0;
@@ -174,7 +174,7 @@ bool winds_twice(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf> leaves) {
 } // namespace
 
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
-    Mesh plain; // vertices at one place are one
+    Mesh plain; // vertices at the same position are merged
     plain.positions = mesh.positions;
     plain.face_offsets = mesh.face_offsets;
     const auto place = lowest_at_place(mesh);
@@ -191,7 +191,7 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
         for (const Index c : corners)
             leaves.push_back({c, beside_edge(plain, faces[c], c), plain.vertex(c) == low});
         if (!winds_twice(plain.positions[low], plain.positions[high], std::move(leaves))) continue;
-        for (std::size_t i = 0; i + 1 < corners.size(); ++i) // a chain: all pairs could be too many
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) // adjacent pairs: all could be too many
             if (faces[corners[i]] != faces[corners[i + 1]])
                 pairs.push_back(std::minmax({faces[corners[i]], faces[corners[i + 1]]}));
     }
@@ -203,7 +203,7 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
                                                        const LooseEdges& edges) {
     const auto is_crowded = [&](Index e) { return edges.corners_of(e).size() > 2; };
-    if (!rings.empty()) { // then no two vertices are at one place
+    if (!rings.empty()) { // then all positions are distinct
         bool any = false;
         for (Index e = 0; e < edges.size(); ++e) any |= is_crowded(e);
         if (!any) return {};

@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::array sides{std::array{0, 1}, std::array{1, 2}, std::array{2, 0}};
 
-/// How a point is mixed from the corners of a triangle.
+/// A point as a mix of a triangle's corners.
 struct Mix {
     std::array<Index, 3> corners;
     std::array<double, 3> weights;
     std::size_t size;
 };
 
-/// p between a and b, from 0 to 1.
+/// The position of p between a and b, from 0 to 1.
 double along(const Vec3& p, const Vec3& a, const Vec3& b) {
     const double squared = dot(b - a, b - a);
     return squared > 0 ? std::clamp(dot(p - a, b - a) / squared, 0.0, 1.0) : 0.5;
@@ -68,7 +68,7 @@ class Assembly {
     }
 
   private:
-    /// Which vertices and wedges are copied: those in use, and those that no face used.
+    /// Numbers the vertices and wedges to copy: those in use, and those that were already unused.
     void number(const std::vector<Index>& kept) {
         enum : std::uint8_t { unused, used, lost };
         std::vector<std::uint8_t> vertices(mesh_.vertex_count(), unused),
@@ -84,7 +84,7 @@ class Assembly {
         parallel_for(kept.size(), [&](std::size_t i) {
             for (const Index w : mesh_.face_wedges(kept[i])) mark(w, used);
         });
-        for (const Index w : fresh_corners_) { // of a new wedge the vertex may be an old one
+        for (const Index w : fresh_corners_) { // a new wedge may have an old vertex
             if (w < wedge_count()) mark(w, used);
             if (const Index v = vertex_of(w); v < mesh_.vertex_count()) vertices[v] = used;
         }
@@ -120,7 +120,7 @@ class Assembly {
                 result_.wedge_vertex.push_back(vertex(mesh_.vertex_of_wedge(w)));
             for (const Index v : fresh_wedge_vertex_) result_.wedge_vertex.push_back(vertex(v));
         }
-        std::vector<Index> begin; // of the kept faces, among the corners
+        std::vector<Index> begin; // first corner of each kept face
         std::size_t corners = 3 * kept.size();
         if (!mesh_.all_triangles()) {
             for (const Index f : kept) begin.push_back(mesh_.face_size(f));
@@ -162,7 +162,7 @@ class Assembly {
         return {place(p.x, beside.x), place(p.y, beside.y), place(p.z, beside.z)};
     }
 
-    /// The lowest vertex at the place or near it.
+    /// The lowest vertex at the position or within tolerance.
     Index vertex_near(const Vec3& p) const {
         Index lowest = none;
         const int reach = tolerance_ > 0 ? 1 : 0;
@@ -231,8 +231,8 @@ class Assembly {
         return at->second;
     }
 
-    /// Corners and weights. On a side the lower corner's vertex comes first, for the same weights from both
-    /// faces.
+    /// Corners and weights. On a side, the lower corner's vertex comes first, so that both faces get the same
+    /// weights.
     Mix mix_of(Index node, Index triangle) const {
         const auto& c = triangles_.corners[triangle];
         const Vec3 p = arrangement_.position(node);
@@ -259,15 +259,15 @@ class Assembly {
     const TriangleFaces& triangles_;
     double tolerance_;
     bool single_;
-    bool plain_; ///< a vertex is all there is to a wedge
-    // Of the pieces; numbers from those of the mesh on are new ones.
+    bool plain_; ///< wedges and vertices are the same
+    // Corners of the pieces; numbers beyond the mesh's own refer to new elements.
     std::vector<Index> fresh_corners_, fresh_wedge_vertex_;
     std::vector<Vec3> fresh_positions_;
-    std::vector<Index> vertex_numbers_, wedge_numbers_; ///< [of the mesh] in the result, or none
+    std::vector<Index> vertex_numbers_, wedge_numbers_; ///< [old elements] number in the result, or none
     Mesh result_;
     MeshProvenance provenance_;
     std::unordered_multimap<Vec3, Index, HashOfPlace> at_place_;   ///< vertices that pieces use, by cell
-    std::vector<Index> of_node_;                                   ///< [nodes that are new] vertices, or none
+    std::vector<Index> of_node_;                                   ///< [new nodes] vertices, or none
     std::map<std::tuple<Index, Index, Index, Index>, Index> made_; ///< wedges
 };
 

@@ -31,7 +31,7 @@ void tell_of_crossings(Work& work, std::string why, const Vec3& at) {
     work.not_done.push_back({"self_intersections", std::move(why), at});
 }
 
-/// The crossings of the mesh; none, and told, when too many boxes meet to look for them.
+/// The intersections of the mesh. If too many boxes meet, it searches none and reports that.
 SelfIntersections affordable_crossings(Work& work) {
     const std::size_t free = work.max_box_pairs() - work.budget.box_pairs;
     SelfIntersections found = crossings(work.mesh, {}, work.max_box_pairs());
@@ -98,7 +98,7 @@ bool one_round(Work& work, const CleanSettings& s) {
         work.untangled = false;
         work.tangled.reset();
     };
-    // What a patch runs into is united with it in the next round, or told there.
+    // The next round unites a patch with the faces that it intersects, or reports it.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
     ProgressSteps steps({2, 2, 2, s.self_intersections != Untangle::off ? 20.0 : 0.0, 1});
     if (s.single) did(round_to_single(work));
@@ -111,10 +111,10 @@ bool one_round(Work& work, const CleanSettings& s) {
         did(resolve_t_junctions(work, s.t_junctions == Nearness::near ? s.tolerance : 0));
     if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.tolerance : 0));
     steps.next();
-    if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
+    if (s.holes && s.non_manifold) { // holes that touch at a vertex would merge when the vertex is split
         const std::size_t told = work.not_done.size();
         did(fill_holes(work, *s.holes, nullptr, may_cross));
-        work.not_done.resize(told); // those that stay are told below
+        work.not_done.resize(told); // holes that stay are reported below
     }
     if (s.non_manifold) did(take_apart_non_manifold(work, {.single = s.single}));
     steps.next();
@@ -125,12 +125,12 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.components) did(remove_components(work, *s.components));
     if (s.inner_components) did(remove_inner_components(work));
     if (s.isolated && !work.cloud) did(remove_isolated(work));
-    // Last, so that no other step meets surfaces that are a few roundings apart.
+    // Last, so that no other step processes surfaces only a few rounding steps apart.
     if (s.apart && s.single && s.non_manifold && s.weld != Nearness::off && !changed) did(move_apart(work));
     return changed;
 }
 
-/// What became of the attributes: dropped faces and vertices change none that stay.
+/// The changes to the attributes; dropping faces and vertices does not change the remaining values.
 AttributeChanges changes_of(const Mesh& mesh, const AttributeChanges& mixed) {
     return mixed.empty() ? kept_changes(mesh.attributes) : mixed;
 }

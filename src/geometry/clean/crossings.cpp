@@ -1,4 +1,4 @@
-// The step of clean that replaces faces that intersect others, place by place.
+// The clean step that replaces intersecting faces locally.
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/face.hpp"
@@ -14,18 +14,18 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int max_rings = 4;
-/// Each costs as much as the mesh is large; most meshes need as many as there are rings. After the half of
-/// them no region is widened any more.
+/// An attempt takes time proportional to the mesh, and most meshes need one per ring. After half of them, no
+/// region grows further.
 constexpr int max_attempts = 32;
 
-/// The edges of one face as (low, high), ascending.
+/// The edges of a single face as (low, high), ascending.
 EdgeList boundary_of(const Mesh& mesh) {
     EdgeList list;
     for (const BoundaryEdge& e : boundary_edges(mesh)) list.push_back(std::minmax({e.from, e.to}));
     return list;
 }
 
-/// V - E + F of the faces of each group, boundaries included.
+/// The Euler characteristic V - E + F of each group of faces, including boundaries.
 std::map<Index, int> euler_of_groups(const Mesh& mesh, const std::vector<Index>& groups) {
     std::map<Index, int> euler;
     std::set<std::pair<Index, Index>> vertices; // (group, vertex)
@@ -42,12 +42,12 @@ std::map<Index, int> euler_of_groups(const Mesh& mesh, const std::vector<Index>&
     return euler;
 }
 
-/// Faces that intersect and hang together: what is repaired, or given up, as one.
+/// Connected intersecting faces, which are repaired or given up together.
 struct Knot {
     std::vector<Index> faces;
     std::size_t pairs = 0;
     Vec3 at;
-    int rings = 0; ///< how many rings of faces around them go, too
+    int rings = 0; ///< rings of faces around them that are removed too
     bool given_up = false;
 };
 
@@ -61,7 +61,7 @@ class Untangler {
         find_knots();
     }
 
-    /// Widens the knots that fail until those that are left can be repaired together.
+    /// Widens the failed knots until the rest can be repaired together.
     bool run() {
         bool changed = false;
         while (std::any_of(knots_.begin(), knots_.end(), [](const Knot& k) { return !k.given_up; })) {
@@ -120,7 +120,7 @@ class Untangler {
     double area(Index f) const { return length(area_vector(mesh_, f)) / 2; }
     Index place(Index corner) const { return place_[mesh_.vertex(corner)]; }
 
-    /// For each flagged face a number that is the same for faces that share a place or intersect; none for
+    /// A group number for each flagged face: equal for faces that share a position or intersect. none for
     /// others.
     std::vector<Index> groups_of(const std::vector<std::uint8_t>& flags) const {
         DisjointSets sets(mesh_.vertex_count());
@@ -153,9 +153,9 @@ class Untangler {
         }
     }
 
-    /// The faces of the knots that are not given up, and the rings around them.
+    /// The faces of the knots that are not given up, and of the rings around them.
     std::vector<std::uint8_t> region_of_knots() const {
-        std::vector<std::uint8_t> reach(mesh_.face_count(), 0); // 1 more than the rings still to go
+        std::vector<std::uint8_t> reach(mesh_.face_count(), 0); // 1 more than the rings still to add
         for (const Knot& k : knots_)
             for (const Index f : k.faces)
                 if (!k.given_up) reach[f] = static_cast<std::uint8_t>(k.rings + 1);
@@ -172,9 +172,9 @@ class Untangler {
         return reach;
     }
 
-    /// A knot that would take half of a component along is no repair.
+    /// Gives up knots that would remove half of a component.
     bool give_up_large(const std::vector<std::uint8_t>& region, const std::vector<Index>& groups) {
-        std::map<std::pair<Index, Index>, double> going; // of each group from each component
+        std::map<std::pair<Index, Index>, double> going; // removed area, of each group from each component
         for (Index f = 0; f < region.size(); ++f)
             if (region[f]) going[{groups[f], components_.of_face[f]}] += area(f);
         std::set<Index> large;
@@ -185,8 +185,8 @@ class Untangler {
         return !large.empty();
     }
 
-    /// Takes the region out of the mesh and fills what that opens. The groups for which that leaves an open
-    /// edge or an intersection.
+    /// Removes the region from the mesh and fills the holes. Returns the groups where an open edge or an
+    /// intersection remains.
     std::set<Index> replace(const std::vector<std::uint8_t>& region, const std::vector<Index>& groups,
                             Work& trial) const {
         const auto kept = faces_without(region);
@@ -210,20 +210,21 @@ class Untangler {
         for (const auto& [low, high] : open_)
             if (!goes[low] && !goes[high]) before.emplace_back(number[low], number[high]);
         fill_holes(trial, {}, &before, true);
-        std::vector<Index> patches(trial.mesh.face_count(), none); // the groups of the faces that came
+        std::vector<Index> patches(trial.mesh.face_count(), none); // groups of the new faces
         for (auto f = static_cast<Index>(kept.size()); f < patches.size(); ++f)
             for (Index c = trial.mesh.face_begin(f); c < trial.mesh.face_end(f); ++c)
                 if (trial.mesh.vertex(c) < group.size()) patches[f] = group[trial.mesh.vertex(c)];
         auto failed = failures(trial.mesh, before, group, patches, work_.max_box_pairs());
-        // A tube is not to be cut, a handle not to be closed: what comes has the shape of what went.
+        // A patch must not cut a tube or close a handle: the new faces must have the topology of the old
+        // ones.
         auto went = euler_of_groups(mesh_, groups), came = euler_of_groups(trial.mesh, patches);
         for (const auto& [g, euler] : went)
             if (came[g] != euler) failed.insert(g);
         return failed;
     }
 
-    /// The groups of whose patches an edge is open or a face intersects another. groups: of the vertices that
-    /// were there; patches: of the faces that came.
+    /// The groups whose patches have an open edge or an intersecting face. groups: of the old vertices;
+    /// patches: of the new faces.
     static std::set<Index> failures(const Mesh& mesh, const EdgeList& before,
                                     const std::vector<Index>& groups, const std::vector<Index>& patches,
                                     std::size_t max_box_pairs) {
@@ -249,12 +250,12 @@ class Untangler {
     }
 
     Work& work_;
-    const Mesh mesh_; // as it was, also when the work's is replaced
+    const Mesh mesh_; // the original, even after the work's mesh is replaced
     SelfIntersections found_;
     std::vector<Index> place_;
     EdgeList open_;
     Components components_;
-    std::vector<double> areas_; ///< of the components
+    std::vector<double> areas_; ///< [components]
     std::vector<Knot> knots_;
     int attempts_ = 0;
 };

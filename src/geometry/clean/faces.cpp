@@ -1,4 +1,4 @@
-// Steps of clean that remove faces and vertices.
+// The clean steps that remove faces and vertices.
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
@@ -17,8 +17,7 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// Takes out corners that repeat the vertex before them; faces that are left with fewer than three are
-/// flagged.
+/// Removes corners that repeat the vertex before them, and flags faces with fewer than three corners left.
 std::size_t drop_repeated_corners(Mesh& mesh, std::vector<std::uint8_t>& gone) {
     if (mesh.all_triangles()) return 0; // a triangle that repeats a vertex has no area
     std::vector<Index> corners, offsets{0};
@@ -29,7 +28,7 @@ std::size_t drop_repeated_corners(Mesh& mesh, std::vector<std::uint8_t>& gone) {
         for (Index c = begin; c < end; ++c)
             if (mesh.vertex(c) != mesh.vertex(previous_corner(c, begin, end)))
                 corners.push_back(mesh.corners[c]);
-        if (corners.size() - first < 3) { // without area: it goes as a whole, and stays whole until then
+        if (corners.size() - first < 3) { // without area: it is removed as a whole, and unchanged until then
             corners.resize(first);
             corners.insert(corners.end(), mesh.corners.begin() + begin, mesh.corners.begin() + end);
             gone[f] = 1;
@@ -51,7 +50,7 @@ std::vector<Index> sorted_vertices(const Mesh& mesh, Index f) {
     return set;
 }
 
-/// Whether g runs around its vertices the way f does. Both have the same set of vertices.
+/// True if g has the same orientation as f. Both have the same set of vertices.
 bool same_way(const Mesh& mesh, Index f, Index g) {
     const Index a = mesh.vertex(mesh.face_begin(f)), b = mesh.vertex(mesh.face_begin(f) + 1);
     for (Index c = mesh.face_begin(g); c < mesh.face_end(g); ++c)
@@ -59,7 +58,7 @@ bool same_way(const Mesh& mesh, Index f, Index g) {
     return false;
 }
 
-/// The faces of every set of two and more with the same vertices, by lowest face.
+/// The faces of every set of two or more with the same vertices, ordered by lowest face.
 std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
     std::vector<std::uint8_t> listed(mesh.face_count(), 0);
     std::map<std::vector<Index>, std::vector<Index>> groups;
@@ -68,7 +67,7 @@ std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
         listed[f] = 1;
     }
     if (groups.empty()) return {};
-    for (Index f = 0; f < mesh.face_count(); ++f) { // the first of each set
+    for (Index f = 0; f < mesh.face_count(); ++f) { // the first face of each set
         if (listed[f]) continue;
         const auto at = groups.find(sorted_vertices(mesh, f));
         if (at != groups.end()) at->second.push_back(f);
@@ -82,7 +81,7 @@ std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
     return lists;
 }
 
-/// How often each edge is run along from low to high, less how often back.
+/// For each edge, the number of faces that run from low to high minus the others.
 std::vector<int> balances(const Mesh& mesh, const EdgeTable& edges) {
     std::vector<int> balance(edges.size(), 0);
     for (Index e = 0; e < edges.size(); ++e)
@@ -90,8 +89,8 @@ std::vector<int> balances(const Mesh& mesh, const EdgeTable& edges) {
     return balance;
 }
 
-/// For each face that cancels with another (flagged): whether its patch of such faces stands on others; of a
-/// closed surface, if only with a corner: there one side alone would be a border.
+/// Flags the cancelling faces whose patch stands on other faces, along edges. If the mesh is closed, a common
+/// vertex is enough, because keeping one side would leave a boundary.
 std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const EdgeTable& edges, bool closed,
                                            const std::vector<std::uint8_t>& cancels) {
     const auto faces = corner_faces(mesh);
@@ -120,18 +119,18 @@ std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const EdgeTable& ed
     return stands;
 }
 
-/// Faces with the same vertices, and how many more run the way of the first than the other way.
+/// Faces with the same vertices. ways: faces oriented like the first minus the others.
 struct Doubles {
     std::vector<Index> faces;
     int ways = 0;
 };
 
-/// Whether all that is left of each set after cancelling stays, rather than one face: where the faces around
-/// are there as often and one alone would leave boundary edges. Decided for patches of such sets as a whole.
+/// Flags the sets that keep all faces left after cancelling, instead of one. They do if the faces around
+/// occur as often, so that a single one would leave boundary edges. Decided for connected patches of sets.
 std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, const std::vector<int>& balance,
                                     const std::vector<Doubles>& all) {
     DisjointSets patches(all.size());
-    std::map<Index, std::pair<std::size_t, int>> excess; // of an edge: a set there, what goes with one alone
+    std::map<Index, std::pair<std::size_t, int>> excess; // per edge: a set, and its excess balance
     for (std::size_t g = 0; g < all.size(); ++g) {
         if (std::abs(all[g].ways) < 2) continue;
         const int more = all[g].ways > 0 ? all[g].ways - 1 : all[g].ways + 1;
@@ -144,7 +143,7 @@ std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, co
             at->second.second += mesh.vertex(c) == edges.edges[e].low ? more : -more;
         }
     }
-    std::vector<int> better(all.size(), 0); // of patches: boundary edges with one alone, less those with all
+    std::vector<int> better(all.size(), 0); // [patches] boundary edges with one face, minus those with all
     for (const auto& [e, x] : excess)
         better[patches.find(static_cast<Index>(x.first))] += (balance[e] != x.second) - (balance[e] != 0);
     std::vector<std::uint8_t> many(all.size());
@@ -194,8 +193,7 @@ bool remove_duplicates(Work& work) {
     for (std::size_t g = 0; g < all.size(); ++g) {
         const Index first = all[g].faces[0];
         const bool sheet = cancels[first] && !stands[first];
-        int left[2]; // that stay of those that run the other way than the first, and of those that run its
-                     // way
+        int left[2]; // remaining faces opposite to the first, and like the first
         left[all[g].ways >= 0] = sheet || !cancels[first] ? (many[g] ? std::abs(all[g].ways) : 1) : 0;
         left[all[g].ways < 0] = sheet && beside ? 1 : 0;
         for (const Index f : all[g].faces) {
@@ -216,7 +214,7 @@ bool remove_duplicates(Work& work) {
 
 namespace {
 
-/// Components that go, with their faces, which are added to the counts.
+/// Removes components together with their faces, and adds both to the counts.
 template <class Goes>
 bool remove_where(Work& work, const Components& components, Goes&& goes, std::size_t& count,
                   std::size_t& faces) {
@@ -277,11 +275,11 @@ bool remove_isolated(Work& work) {
     return true;
 }
 
-// The step of clean that removes components hidden inside others.
+// The clean step that removes components hidden inside others.
 
 namespace {
 
-/// Whether each component is closed by itself: the directions of its faces cancel at every edge.
+/// Flags components that are closed: the directions of their faces cancel at every edge.
 std::vector<std::uint8_t> closed_components(const Mesh& mesh, const Components& components) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
@@ -300,7 +298,7 @@ bool remove_open_components(Work& work) {
     const Mesh& mesh = work.mesh;
     const Components components = face_components(mesh, false);
     const auto closed = closed_components(mesh, components);
-    if (std::count(closed.begin(), closed.end(), 1) == 0) return false; // none would be left
+    if (std::count(closed.begin(), closed.end(), 1) == 0) return false; // nothing would be left
     return remove_where(
         work, components, [&](Index p) { return !closed[p]; }, work.counts.open_components,
         work.counts.open_component_faces);
@@ -308,7 +306,7 @@ bool remove_open_components(Work& work) {
 
 bool remove_inner_components(Work& work) {
     const Mesh& mesh = work.mesh;
-    const Components components = face_components(mesh, false); // all faces of an edge are of one component
+    const Components components = face_components(mesh, false); // same component across all edges
     if (components.count < 2) return false;
     const auto closed = closed_components(mesh, components);
     std::set<std::pair<Index, Index>> touching;

@@ -1,4 +1,4 @@
-// The step of clean that fills holes.
+// The clean step that fills holes.
 #include "base/math/predicates.hpp"
 #include "base/text/words.hpp"
 #include "geometry/boolean/span_outline.hpp"
@@ -19,10 +19,10 @@ namespace facetmill {
 
 namespace {
 
-// The holes of a surface, by their outlines.
+// Holes of a surface, found by their outlines.
 
-/// A hole's outline the way its faces would run: corner i's wedge is at the start of the edge to corner i
-/// + 1.
+/// A hole's outline in the direction of the faces that would fill it. The wedge of corner i is at the start
+/// of the edge to corner i + 1.
 struct Outline {
     std::vector<Index> wedges;
     std::vector<Index> faces; ///< [i] across the edge from i to i + 1
@@ -33,9 +33,8 @@ class Outlines {
     explicit Outlines(const Mesh& mesh)
         : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)), done_(mesh.corner_count(), 0) {}
 
-    /// Calls body(outline) for each loop of boundary edges, and broken(corner) for those that do not come
-    /// round. A walk that comes to a vertex again goes around several holes that touch there: each is an
-    /// outline.
+    /// Calls body(outline) for each loop of boundary edges, and broken(corner) for paths that do not close. A
+    /// path that returns to a vertex surrounds several holes that touch there, and each becomes an outline.
     template <class Body, class Broken>
     void each(Body&& body, Broken&& broken) {
         for (Index c = 0; c < mesh_.corner_count(); ++c) {
@@ -52,7 +51,7 @@ class Outlines {
     template <class Body>
     void each_loop(const Outline& walked, Body&& body) {
         Outline path;
-        std::map<Index, std::size_t> place; // of the path's vertices on it
+        std::map<Index, std::size_t> place; // index of each vertex in the path
         for (std::size_t i = 0; i < walked.wedges.size(); ++i) {
             const Index v = mesh_.vertex_of_wedge(walked.wedges[i]);
             if (const auto again = place.find(v); again != place.end()) {
@@ -77,7 +76,7 @@ class Outlines {
     }
     Index next(Index c) const { return next_corner(mesh_, faces_[c], c); }
 
-    /// The boundary edge that follows c's around the vertex at c's end, or none.
+    /// The boundary edge after c's, around the vertex at its end; none if there is none.
     Index follow(Index c) const {
         Index at = next(c); // leaves the vertex
         for (std::size_t turns = 0; turns <= mesh_.corner_count(); ++turns) {
@@ -87,7 +86,7 @@ class Outlines {
             if (corners.size() == 1) return at;
             if (corners.size() > 2) return none;
             const Index other = corners[0] == at ? corners[1] : corners[0];
-            if (mesh_.vertex(other) == mesh_.vertex(at)) return none; // neighbours disagree
+            if (mesh_.vertex(other) == mesh_.vertex(at)) return none; // neighbours have opposite orientations
             at = next(other);
         }
         return none;
@@ -103,7 +102,7 @@ class Outlines {
             c = follow(c);
             if (c == none) return false;
         } while (c != start);
-        // Walked along the faces' edges; a face in the hole runs the other way.
+        // The walk follows the faces' edges; a face in the hole has the opposite direction.
         std::reverse(outline.wedges.begin(), outline.wedges.end());
         std::reverse(outline.faces.begin(), outline.faces.end());
         return true;
@@ -123,10 +122,10 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-// What a patch over a hole must not double.
+// Geometry that a patch must not duplicate.
 
-/// The edges and triangles that are there already, by place: vertices at one place count as one, so that a
-/// patch fits even after they are welded.
+/// Existing edges and triangles by position. Vertices at the same position count as equal, so that a patch
+/// stays valid after welding.
 class Occupied {
   public:
     explicit Occupied(const Mesh& mesh) : place_(lowest_at_place(mesh)) {
@@ -175,7 +174,7 @@ class Filler {
         : work_(work), mesh_(work.mesh), settings_(settings), other_than_(other_than), occupied_(work.mesh),
           corners_(corners_at_vertices(work.mesh)), face_of_(corner_faces(work.mesh)) {}
 
-    /// The outlines, by their order, whose patches run into faces.
+    /// The indices of outlines whose patches intersect faces.
     std::set<std::size_t> crossing() const {
         std::set<std::size_t> into;
         if (filled_ == 0) return into;
@@ -186,7 +185,7 @@ class Filler {
         const auto outline = [&](Index f) { return outline_of_face_[f - mesh_.face_count()]; };
         for (const auto& [low, high] : found.pairs)
             if (low < mesh_.face_count()) into.insert(outline(high));
-        for (const auto& [low, high] : found.pairs) // of two that run into each other the first may stay
+        for (const auto& [low, high] : found.pairs) // if two patches intersect each other, the first may stay
             if (low >= mesh_.face_count() && !into.contains(outline(low))) into.insert(outline(high));
         return into;
     }
@@ -215,7 +214,7 @@ class Filler {
   private:
     void refuse(std::string why, const Vec3& at) { work_.not_done.push_back({"holes", std::move(why), at}); }
 
-    /// Whether an edge of the outline is one that is to stay open.
+    /// True if an edge of the outline must stay open.
     bool is_excepted(const Outline& o) const {
         const auto n = static_cast<Index>(o.wedges.size());
         for (Index i = 0; other_than_ && i < n; ++i) {
@@ -299,7 +298,7 @@ class Filler {
         return around;
     }
 
-    /// The outline as a polygon, cut into triangles.
+    /// The outline as a polygon, triangulated.
     static HolePatch planar(const std::vector<Vec3>& ring, std::string& why) {
         Mesh polygon;
         polygon.positions = ring;
@@ -334,7 +333,7 @@ class Filler {
         return patch;
     }
 
-    /// But for the rounding of files with coordinates of 32 bits.
+    /// The rounding error of files with 32-bit coordinates.
     static double rounding(const Vec3& p) {
         return 0x1p-21 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
@@ -345,8 +344,8 @@ class Filler {
         return i < ring.size() ? ring[i] : patch.points[i - ring.size()];
     }
 
-    /// Whether a triangle of the patch lies in the plane of the face across an edge of the outline, on the
-    /// same side of the edge: the patch covers what it is to close from behind.
+    /// True if a triangle of the patch is coplanar with the face across an outline edge, and on the same side
+    /// of the edge. Such a patch would cover the face from behind.
     bool folds_back(const Outline& o, const std::vector<Vec3>& ring, const HolePatch& patch) const {
         const auto n = static_cast<Index>(ring.size());
         for (const auto& t : patch.triangles)
@@ -366,14 +365,14 @@ class Filler {
         return false;
     }
 
-    /// Whether a triangle of the patch has exactly zero area: it would be removed again.
+    /// True if a triangle of the patch has exactly zero area, because it would be removed again.
     static bool lacks_area(const std::vector<Vec3>& ring, const HolePatch& patch) {
         const auto at = [&](Index i) { return corner_of(ring, patch, i); };
         return std::any_of(patch.triangles.begin(), patch.triangles.end(),
                            [&](const auto& t) { return collinear(at(t[0]), at(t[1]), at(t[2])); });
     }
 
-    /// Whether an inner edge of the patch, or one of its triangles, is there already.
+    /// True if an inner edge or a triangle of the patch already exists.
     bool collides(const Outline& o, const HolePatch& patch) const {
         const auto n = static_cast<Index>(o.wedges.size());
         for (const auto& t : patch.triangles) {
@@ -411,7 +410,7 @@ class Filler {
         ++filled_;
     }
 
-    /// A new point's attributes come from the outline, the nearer the more.
+    /// A new point interpolates the outline's attributes; nearer vertices have larger weights.
     void add_point(const Outline& o, const std::vector<Vec3>& ring, const Vec3& p) {
         std::vector<double> weights;
         double sum = 0;
@@ -436,7 +435,7 @@ class Filler {
     VertexLists corners_;
     std::vector<Index> face_of_;
     Patches patches_;
-    std::vector<std::size_t> outline_of_face_; ///< of the patches
+    std::vector<std::size_t> outline_of_face_; ///< faces of the patches
     const std::set<std::size_t>* left_ = nullptr;
     std::size_t filled_ = 0, outline_ = 0;
 };

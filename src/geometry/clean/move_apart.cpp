@@ -1,4 +1,4 @@
-// The step of clean that moves vertices apart which are at one place and belong to different fans.
+// The clean step that moves vertices apart that have the same position but belong to different fans.
 #include "base/math/numbers.hpp"
 #include "base/math/predicates.hpp"
 #include "base/text/words.hpp"
@@ -20,11 +20,11 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// Two steps at least: so far apart, vertices differ also after they were scaled to another unit and rounded
-/// again, since between two powers of two the steps of float32 are a half to one of those of the longer.
+/// At least two steps, so that vertices stay distinct after scaling to another unit and rounding again.
+/// Relative to the value, the step varies by a factor of two between powers of two.
 constexpr int fewest_float_steps = 2, most_float_steps = 256;
 
-/// Between neighbouring float32 numbers at the farthest coordinate.
+/// The distance between adjacent float32 numbers at the farthest coordinate.
 double float_step_of(const Mesh& mesh) {
     Box box;
     for (const Vec3& p : mesh.positions)
@@ -40,14 +40,14 @@ Box grown(Box box, double by) {
 using FacePairs = std::vector<std::pair<Index, Index>>;
 
 struct Meetings {
-    FacePairs crossing, all; ///< pairs of faces, ascending; all: also those that only touch
+    FacePairs crossing, all; ///< ascending; all: also pairs that only touch
 };
 
-/// The faces near a vertex as a mesh of their own.
+/// The faces near a vertex as a separate mesh.
 struct Neighbourhood {
     Mesh mesh;
-    Index vertex = none;              ///< its number there
-    std::vector<std::uint8_t> around; ///< [faces] 1 for those at the vertex
+    Index vertex = none;              ///< its number in the mesh
+    std::vector<std::uint8_t> around; ///< [faces] 1 for faces at the vertex
 
     Meetings meetings() const {
         const SelfIntersections found =
@@ -59,7 +59,7 @@ struct Neighbourhood {
     }
 };
 
-/// Where corners of the faces at a vertex turn, seen along the axis that each face looks along most.
+/// The turning directions of corners at a vertex's faces, projected along the dominant axis of each face.
 class Turns {
   public:
     explicit Turns(const Neighbourhood& n) : n_(n) {
@@ -72,8 +72,8 @@ class Turns {
         before_ = now();
     }
 
-    /// Whether each corner turns as it did: then no face has turned over or lost its area. Corners that ran
-    /// straight on in a larger face may turn either way.
+    /// True if each corner turns as before: then no face was reversed or lost its area. Straight corners of
+    /// larger faces may turn either way.
     bool are_kept() const {
         const std::vector<int> after = now();
         for (std::size_t i = 0; i < after.size(); ++i)
@@ -111,7 +111,7 @@ class Separation {
         : work_(work), mesh_(work.mesh), step_(float_step_of(work.mesh)),
           corners_(corners_at_vertices(work.mesh)), faces_(corner_faces(work.mesh)), tree_(padded_boxes()) {}
 
-    /// lowest: of lowest_at_place.
+    /// lowest: result of lowest_at_place.
     bool run(const std::vector<Index>& lowest) {
         std::map<Index, std::vector<Index>> places;
         for (Index v = 0; v < lowest.size(); ++v)
@@ -121,7 +121,7 @@ class Separation {
         for (const auto& [_, vertices] : places) {
             if (vertices.size() == 1) continue;
             const Vec3 at = mesh_.positions[vertices[0]];
-            std::size_t there = vertices.size(); // the first stays, if the others can go
+            std::size_t there = vertices.size(); // the first stays, if the others can be moved
             const bool was_stuck = work_.stuck.contains({at.x, at.y, at.z});
             for (auto v = vertices.rbegin(); v != vertices.rend() && there > 1 && !was_stuck && !is_spent();
                  ++v)
@@ -149,7 +149,7 @@ class Separation {
         }
         return boxes;
     }
-    /// No vertex moves so far along an axis.
+    /// An upper bound of the movement along an axis.
     double reach() const { return (most_float_steps + 1) * step_; }
 
     Neighbourhood neighbourhood(Index v) const {
@@ -179,9 +179,9 @@ class Separation {
         return n;
     }
 
-    /// The 26 directions along and between the axes, and those to the neighbours of the vertex, to the
-    /// middles of its faces and along their mean normal, whose longest coordinate is 1; those towards the
-    /// neighbours first, since there its fan draws back from the others.
+    /// Directions to try: the 26 along and between the axes, and along the mean normal of the vertex's faces.
+    /// Others point to its neighbours and to the centres of its faces. Their longest coordinate is 1. Those
+    /// to the neighbours come first, because they pull the fan away from the others.
     std::vector<Vec3> directions(Index v) const {
         Vec3 towards, normal;
         std::vector<Vec3> all;
@@ -205,13 +205,13 @@ class Separation {
         });
         return all;
     }
-    /// Zero where it has no direction.
+    /// Zero for a vector without direction.
     static Vec3 unit(const Vec3& a) {
         const Vec3 n = normalised(a);
         return is_finite(n) ? n : Vec3{};
     }
 
-    /// Moves the vertex by as few steps as are sound, no farther than an eighth of its shortest edge.
+    /// Moves the vertex by the smallest valid number of steps, at most an eighth of its shortest edge.
     bool move(Index v) {
         Neighbourhood near = neighbourhood(v);
         const Meetings before = near.meetings();
@@ -243,8 +243,8 @@ class Separation {
         return least;
     }
 
-    /// Whether the vertex can be there: alone, no face turns over or loses its area, and none intersects or
-    /// touches another that it did not before.
+    /// True if the vertex may move to this position. No other vertex may be there, no face may be reversed or
+    /// lose its area, and no new pair of faces may intersect or touch.
     static bool is_sound(Neighbourhood& near, const Turns& turns, const Meetings& before, const Vec3& to) {
         if (!is_finite(to)) return false;
         const auto& all = near.mesh.positions;

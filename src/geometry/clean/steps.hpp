@@ -1,6 +1,6 @@
 #pragma once
-// The steps of clean, one function each. Each changes the mesh in place, adds to the counts and tells by its
-// return value whether it changed anything.
+// The steps of clean, one function each. Each changes the mesh in place, adds to the counts, and returns true
+// if it changed anything.
 
 #include "geometry/boolean/loose_edges.hpp"
 #include "geometry/clean/clean.hpp"
@@ -14,115 +14,116 @@
 
 namespace facetmill::clean_steps {
 
-/// The mesh being cleaned and what is told of it.
+/// The mesh being cleaned, and the reports about it.
 struct Work {
     Mesh mesh;
     CleanCounts counts;
     std::vector<NotDone> not_done;
-    AttributeChanges changes; ///< of the step that mixed attributes last
-    bool untangled = false;   ///< the mesh is known to have no crossings
-    /// What was told of the crossings when nothing could be done about them; while nothing changes, it holds.
+    AttributeChanges changes; ///< from the last step that mixed attributes
+    bool untangled = false;   ///< the mesh is known to have no intersections
+    /// The reports about intersections that could not be repaired; valid until the mesh changes.
     std::optional<std::vector<NotDone>> tangled = {};
     UntangleBudget budget = {};
-    std::set<std::array<double, 3>> stuck = {}; ///< where vertices could not be moved apart
-    bool short_of_memory = false;               ///< something was not tried for want of memory
-    bool cloud = false; ///< there was no face to begin with: the vertices are what it has
+    std::set<std::array<double, 3>> stuck = {}; ///< positions where vertices could not be moved apart
+    bool short_of_memory = false;               ///< a repair was skipped because of insufficient memory
+    bool cloud = false;                         ///< the input had no faces, so its vertices are kept
 
-    /// Whether so many intersecting pairs of faces may be processed.
+    /// True if this many intersecting pairs of faces may be processed.
     bool may_process(std::size_t pairs) const {
         return pairs <= mesh.face_count() || pairs <= budget.vain_pairs;
     }
     void processed_in_vain(std::size_t pairs) { budget.vain_pairs -= std::min(pairs, budget.vain_pairs); }
-    /// How many pairs of boxes may be looked at.
+    /// The number of pairs of boxes that may be examined.
     std::size_t max_box_pairs() const { return 32 * mesh.face_count() + budget.box_pairs; }
 };
 
-/// Positions become the nearest ones of 32-bit floats, as far as those are finite.
+/// Rounds positions to 32-bit floats, if the results are finite.
 bool round_to_single(Work& work);
-/// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
-/// again (non_manifold, see split_non_manifold), they are left as they are.
+/// Merges vertices at the same position into the lowest. comes_apart: non_manifold is on (see
+/// split_non_manifold). Then vertices stay unmerged where their faces would be separated again.
 bool weld_equal(Work& work, bool comes_apart);
-/// In index order each end of a boundary edge becomes the nearest one kept so far within tolerance. Vertices
-/// of one face are never merged, so that no face loses its area; vertices inside the surface are left alone.
+/// In index order, merges each end of a boundary edge into the nearest kept end within tolerance. Vertices of
+/// the same face are never merged, so that no face loses its area. Inner vertices stay unchanged.
 bool weld_near(Work& work, double tolerance);
-/// Boundary edges that run against each other and whose ends are within tolerance become one, the nearest
-/// pairs first; their ends become the lower vertices.
+/// Merges boundary edges with opposite directions whose ends are within tolerance, the nearest pairs first.
+/// Their ends merge into the lower vertices.
 bool stitch(Work& work, double tolerance);
-/// Corners that repeat the vertex before them go, then faces without area (exact). Where that opens the
-/// surface, the vertices on the line are put on the edges that face it, so that what was closed stays closed.
+/// Removes corners that repeat the vertex before them, then faces without area (exact). Inserts their
+/// vertices into the edges across, where removal opens the surface, so that a closed surface stays closed.
 bool remove_degenerate(Work& work);
-/// Of faces with the same vertices one stays, with the orientation that they have more often; as many as are
-/// left after cancelling where the faces around are there as often, so that what was closed stays closed.
-/// Faces that cancel (as often one way as the other) all go when they are a wall or a fin on other faces (of
-/// a closed surface also when they touch it with a corner), and one of each stays when they are a sheet of
-/// their own.
+/// Keeps one face of each set with the same vertices, in the majority's orientation. It keeps as many as are
+/// left after cancelling if the faces around occur as often, so that a closed surface stays closed.
+/// Cancelling faces (equal numbers in both orientations) are all removed if they form a wall or fin on other
+/// faces. In a closed surface, a common vertex is enough. If they form a separate sheet, one of each stays.
 bool remove_duplicates(Work& work);
-/// A vertex on (near: within tolerance of) a boundary edge of another face, with a boundary edge of its own
-/// along that one, is put on it.
+/// Inserts a vertex into a boundary edge of another face if it is on that edge (near: within tolerance). The
+/// vertex must have a boundary edge along it.
 bool resolve_t_junctions(Work& work, double tolerance);
-/// See part_fans and divide_crowded_edges. An edge whose middle cannot be put exactly on it stays as it is
-/// where faces would intersect others for that, or lose their area, and is told. `left` becomes the edges of
-/// the mesh afterwards, where they are known.
+/// See part_fans and divide_crowded_edges. If an edge's midpoint cannot be exactly on it, the edge stays
+/// where faces would intersect or lose their area, and is reported. `left`: receives the edges of the
+/// resulting mesh, if known.
 bool take_apart_non_manifold(Work& work, const EdgeDivision& how, std::optional<EdgeTable>* left = nullptr);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
-/// Fills the loops of boundary edges as the settings say; holes that touch at a vertex each for itself. Loops
-/// with an edge of other_than stay, and so do those whose patch would run into other faces, unless it may,
-/// or lie on the faces beside it (but for the rounding of 32 bits): where a flat sheet ends is no hole.
+/// Fills the loops of boundary edges according to the settings; holes that touch at a vertex are filled
+/// separately. Loops with an edge of other_than stay open. So do loops whose patch would intersect faces
+/// (unless may_cross), or would lie on adjacent faces within 32-bit rounding. The border of a flat sheet is
+/// not a hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
-/// Components with boundary edges go; none, unless a closed one is left.
+/// Removes components with boundary edges, if a closed one is left.
 bool remove_open_components(Work& work);
 bool remove_components(Work& work, const ComponentSettings& settings);
-/// Closed components that lie inside other closed components and touch none go.
+/// Removes closed components that are inside other closed components and touch none.
 bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
-/// Vertices at one place, of faces: all but one of them are moved away by the fewest steps of float32 (of the
-/// size that they have at the mesh's farthest coordinate; 2, 4 ... 256 along each axis, and an eighth of its
-/// shortest edge at most) for which, exactly, no face turns over or loses its area, and none intersects or
-/// touches another that it did not before. Those that no such move exists for stay and are told. Positions
-/// are those of 32-bit floats, and after weld_equal and take_apart_non_manifold vertices at one place are
-/// ones that belong apart. O(n log n), and for each of them what the faces around cost, within budget.apart
-/// in all.
+/// Moves vertices of faces that share a position apart; one of them stays. It uses the smallest movement for
+/// which, exactly, no face is reversed or loses its area, and no new pair of faces intersects or touches. The
+/// movement is 2, 4 ... 256 float32 steps along each axis (as large as at the farthest coordinate), and at
+/// most an eighth of its shortest edge. Vertices without such a movement stay and are reported.
+///
+/// Requires 32-bit positions. After weld_equal and take_apart_non_manifold, vertices that still coincide
+/// belong to separate fans. O(n log n), plus the cost of the faces around each vertex, limited by
+/// budget.apart.
 bool move_apart(Work& work);
-/// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
-/// faces which are separated only by an edge or vertex that was split (split_non_manifold) are none. At most
-/// max_pairs are listed; none when more than max_box_pairs would have to be looked at.
+/// The pairs of intersecting faces, for the two steps below. Vertices at the same position count as equal, so
+/// faces separated only by a split edge or vertex (split_non_manifold) do not intersect. Lists at most
+/// max_pairs, and none if more than max_box_pairs must be examined.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
                             std::size_t max_box_pairs = std::size_t(-1));
-/// place: of lowest_at_place. Whether no two vertices are at one place.
+/// place: result of lowest_at_place. True if all positions are distinct.
 bool are_distinct(const std::vector<Index>& place);
 struct CrossingsAndRings {
     SelfIntersections found;
-    Rings rings; ///< of a mesh of triangles, unless vertices are at one place
+    Rings rings; ///< of a triangle mesh, unless positions coincide
 };
-/// As many of them as are asked for, but for pairs with a face that is flagged as lost (lost_faces). place:
-/// of lowest_at_place.
+/// Up to `limit` pairs, without pairs that contain a lost face (lost_faces). place: result of
+/// lowest_at_place.
 CrossingsAndRings crossings_and_rings(const Mesh& mesh, const std::vector<Index>& place, std::size_t limit,
                                       const std::vector<std::uint8_t>& lost);
-/// The same pairs of faces that are flagged, for a few of many faces: only what is near them is looked at.
+/// The same for a few flagged faces of a large mesh: examines only their surroundings.
 SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
                                  std::size_t max_box_pairs = std::size_t(-1));
-/// The bare mesh of some of the faces, in that order, with the vertices that they use.
+/// A mesh of the listed faces in that order, with the vertices that they use; no attributes.
 Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces);
 inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
-/// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
-/// more than once: there solids overlap without any crossing, as grids do that pass through each other along
+/// Pairs of faces, lower first, ascending, that connect all faces at edges around which the surface winds
+/// more than once. Solids overlap at such edges without intersecting, for example grids that cross along
 /// their lines.
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
-/// Likewise; faster, given the rings and edges of the mesh.
+/// The same; faster, given the rings and edges of the mesh.
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
                                                        const LooseEdges& edges);
-/// Closed components that pass through each other, or through themselves, become one solid: the union, by
-/// winding numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is
-/// closed stays closed; what intersects does not any more, but with components that are not closed: those,
-/// and solids that cannot be united, are told and left exactly as they were. Faces that intersect nothing and
-/// lie outside of all other components are left alone.
+/// Replaces closed components that intersect each other or themselves by their union, by winding numbers (see
+/// unite). `found`: the intersections of the mesh; `overlaps`: the overlaps at edges. Closed surfaces stay
+/// closed. Intersections with components that are not closed stay. These, and solids that cannot be united,
+/// are reported and left unchanged. Faces without intersections and outside all other components are
+/// unchanged too.
 bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
                   const CleanSettings& settings);
-/// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
-/// fills what that opens. A place is left as it was when that would leave an intersection or a boundary edge
-/// that was not there, change the topology, take half of a component along, or use up the budget. Faces that
-/// touch only where vertices of theirs are at one place do not count.
+/// Repairs each place of intersection separately: removes the intersecting faces, if necessary with up to
+/// four rings around them, and fills the hole. A place stays unchanged if that would leave an intersection or
+/// a new boundary edge, or change the topology. It also does if that would remove half of a component, or
+/// exceed the budget. Faces that touch only at vertices with the same position do not count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
 
 } // namespace facetmill::clean_steps

@@ -1,4 +1,4 @@
-// The step of clean that takes apart edges and vertices where a surface is not a manifold.
+// The clean step that splits non-manifold edges and vertices.
 #include "geometry/clean/steps.hpp"
 #include "geometry/inspect/evidence.hpp"
 
@@ -9,16 +9,17 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// Edges are left out and the rest is tried again, so often; then all that have moved faces are left out.
+/// Failed edges are excluded and the rest is tried again this many times; then all edges that moved faces are
+/// excluded.
 constexpr int max_divisions = 4;
 
-/// Of the edges whose point lies beside them, those that it is wrong for.
+/// Finds divided edges whose off-edge midpoint causes intersections or faces without area.
 class SpoiltEdges {
   public:
     SpoiltEdges(const Work& work, const DividedEdges& divided)
         : before_(work.mesh), divided_(divided), after_(divided.mesh), most_(work.max_box_pairs()) {}
 
-    /// Into divided.edges.
+    /// Returns indices into divided.edges.
     std::set<Index> find() {
         std::vector<std::uint8_t> moved(after_.face_count(), 0), had(before_.face_count(), 0);
         for (Index f = 0; f < moved.size(); ++f) {
@@ -42,7 +43,7 @@ class SpoiltEdges {
     }
 
   private:
-    /// The edge that has the point of a corner beside it, or none.
+    /// The edge whose off-edge point is at the corner, or none.
     Index edge_of(Index corner) const {
         const Index v = after_.vertex(corner);
         if (v < before_.vertex_count()) return none;

@@ -1,4 +1,4 @@
-// Steps of clean that merge vertices.
+// The clean steps that merge vertices.
 #include "base/math/numbers.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
@@ -12,7 +12,7 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// Clears the merges of places whose faces would come apart again just as they are.
+/// Cancels merges at positions where the faces would be separated again into the same parts.
 void spare_disjoint(const Mesh& mesh, std::vector<Index>& target) {
     Mesh merged;
     merged.positions = mesh.positions;
@@ -20,7 +20,7 @@ void spare_disjoint(const Mesh& mesh, std::vector<Index>& target) {
     merged.corners.resize(mesh.corner_count());
     for (Index c = 0; c < mesh.corner_count(); ++c) merged.corners[c] = target[mesh.vertex(c)];
     const Fans fans = disjoint_fans(merged);
-    // The parts are the same when old and new vertices of the corners at a place match one to one.
+    // The parts are the same when old and new vertices of the corners at a position match one to one.
     std::vector<Index> new_of_old(mesh.vertex_count(), none),
         old_of_new(mesh.vertex_count() + fans.copies.size(), none);
     std::vector<std::uint8_t> differs(mesh.vertex_count(), 0);
@@ -42,7 +42,7 @@ bool merge(Work& work, const std::vector<Index>& target, std::size_t CleanCounts
     return merged > 0;
 }
 
-/// Vertices by lists of their faces' vertices: whether two are in one face.
+/// Decides whether two vertices share a face, from lists of their faces' vertices.
 class SharedFaces {
   public:
     explicit SharedFaces(const Mesh& mesh)
@@ -95,7 +95,7 @@ bool weld_equal(Work& work, bool comes_apart) {
 bool weld_near(Work& work, double tolerance) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
-    std::vector<Box> boxes(p.size()); // of the ends of boundary edges: others are sound
+    std::vector<Box> boxes(p.size()); // boxes of the ends of boundary edges; other vertices are sound
     for (const BoundaryEdge& e : boundary_edges(mesh)) {
         boxes[e.from].add(p[e.from]);
         boxes[e.to].add(p[e.to]);
@@ -110,12 +110,12 @@ bool weld_near(Work& work, double tolerance) {
         tree.visit(around(p[v], tolerance), [&](Index w) {
             const double d = squared(p[w] - p[v]);
             if (w >= v || target[w] != w || d > nearest || (d == nearest && w > target[v])) return;
-            if (!(d > 0) || faces.share(v, w)) return; // equal places are weld_equal's
+            if (!(d > 0) || faces.share(v, w)) return; // weld_equal handles equal positions
             nearest = d;
             target[v] = w;
         });
     }
-    // Two that share no face with a third may share one with each other: then the later stays.
+    // Two vertices that share no face with a third may share a face with each other: then the later stays.
     std::vector<std::vector<Index>> members(p.size());
     for (Index v = 0; v < p.size(); ++v) {
         if (target[v] == v) continue;

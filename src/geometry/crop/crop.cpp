@@ -55,7 +55,8 @@ class Cropper {
             },
             1024);
     }
-    /// Such vertices are on the outline, and known to be on the planes of its segments there.
+    /// Finds vertices near the outline. They count as on the outline, and as on the planes of its segments
+    /// there.
     void snap() {
         double scale = 0;
         for (const auto& row : settings_.to_world.m)
@@ -63,13 +64,13 @@ class Cropper {
         view_.snap = float32_rounding(mesh_) * std::sqrt(scale / 3);
         for (const auto& e : footprint_.tree().edges())
             if (length(e.b - e.a) <= 4 * view_.snap) {
-                view_.snap = 0; // finer than floats are
+                view_.snap = 0; // below float precision
                 return;
             }
-        const double rounding = std::ldexp(view_.snap, -27); // 4 units of the last place
+        const double rounding = std::ldexp(view_.snap, -27); // 4 units in the last place
         struct Found {
             std::size_t off = 0;
-            std::vector<std::pair<Index, Vec3>> points; ///< and the segments that they are on
+            std::vector<std::pair<Index, Vec3>> points; ///< with the segments that contain them
         };
         const auto look_at = [&](std::size_t v, Found& some) {
             if (!is_float32(mesh_.positions[v])) return;
@@ -100,7 +101,7 @@ class Cropper {
         result_.snapped += found.off;
         remember(found.points);
     }
-    /// Points, each with the segment whose plane it is on.
+    /// Stores points, each with the segment whose plane contains it.
     void remember(const std::vector<std::pair<Index, Vec3>>& points) {
         std::map<Index, std::vector<Vec3>> of_segment;
         for (const auto& [segment, point] : points) of_segment[segment].push_back(point);
@@ -122,7 +123,7 @@ class Cropper {
         return most;
     }
 
-    /// Of a cloud: those on the outline are inside, so that each is on one side.
+    /// For a point cloud: points on the outline count as inside, so that each point is on one side.
     void keep_points() {
         std::vector<std::uint8_t> goes(mesh_.vertex_count());
         for (std::size_t v = 0; v < goes.size(); ++v)
@@ -134,7 +135,7 @@ class Cropper {
         result_.changes = kept_changes(mesh_.attributes);
     }
 
-    // --- by whole faces
+    // --- by complete faces
 
     bool stays(Index f, std::vector<Vec2>& face) const {
         if (settings_.by == CropBy::centre) {
@@ -142,7 +143,7 @@ class Cropper {
             const PointLocation place = view_.place(mean_of_corners(face));
             return view_.kept(place == PointLocation::outside ? place : PointLocation::inside);
         }
-        bool any = false, all = true; // corners on the outline are on either side
+        bool any = false, all = true; // corners on the outline count for both sides
         for (const Index w : mesh_.face_wedges(f)) {
             const PointLocation place = places_[mesh_.vertex_of_wedge(w)];
             const bool on = place > PointLocation::inside;
@@ -169,7 +170,7 @@ class Cropper {
             if (stay[f]) faces.push_back(f);
         keep(faces);
     }
-    /// These faces and no others, as they are.
+    /// Keeps exactly these faces, unchanged.
     void keep(const std::vector<Index>& faces) {
         result_.kept_faces = faces.size();
         result_.changed = faces.size() < mesh_.face_count();
@@ -209,7 +210,7 @@ class Cropper {
         untrace(result_.mesh);
         forget_change(result_.changes, trace_attribute);
     }
-    /// Of a face that no segment enters: any corner off the outline tells.
+    /// For a face that no segment enters: any corner off the outline decides.
     bool stays_whole(Index f) const {
         for (const Index w : mesh_.face_wedges(f)) {
             const PointLocation place = places_[mesh_.vertex_of_wedge(w)];
@@ -257,7 +258,7 @@ Vec2 seen_along(std::size_t axis, const Vec3& p) { return {axis == 0 ? p.y : p.x
 
 namespace {
 
-/// Once for each side, all with snap or all without.
+/// Crops once for each side; all with snap, or all without.
 std::vector<CropResult> crop_sides(const Mesh& mesh, const Footprint& footprint, CropSettings settings,
                                    std::span<const polygon::Keep> sides) {
     const auto run = [&] {

@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-/// For each segment the faces that it enters, ascending.
+/// The faces that each segment enters, ascending.
 std::vector<std::vector<Index>> faces_by_segment(const Mesh& mesh, const CropView& view) {
     using Entries = std::vector<std::pair<Index, Index>>; // segment, face
     const Entries entries = parallel_reduce(
@@ -38,17 +38,17 @@ std::vector<std::vector<Index>> faces_by_segment(const Mesh& mesh, const CropVie
     return lists;
 }
 
-/// Faces that cuts may reach one after the other, as a mesh of their own, all in their order.
+/// Faces that successive cuts may reach, as a separate mesh in the same order.
 struct CutRegion {
     std::vector<Index> faces, vertices, wedges; ///< of the whole mesh; wedges: empty without seams
     EnteredFaces entered;
     Mesh mesh;
     CutFaces cut;
-    std::vector<Index> new_vertices, new_wedges; ///< [new ones] their numbers in the whole
+    std::vector<Index> new_vertices, new_wedges; ///< [new ones] numbers in the whole mesh
 };
 
-/// Faces that are entered and those beside them, in regions that have no vertex in common: what is cut in one
-/// does not touch another.
+/// Entered faces and their neighbours, in regions without common vertices, so that cuts in different regions
+/// are independent.
 class CutRegions {
   public:
     explicit CutRegions(const Mesh& mesh) : mesh_(mesh), region_of_(mesh.face_count(), none) {}
@@ -70,11 +70,11 @@ class CutRegions {
             regions.size(), [&](std::size_t r) { make_mesh(regions[r], vertex_place, wedge_place); }, 1);
         return regions;
     }
-    /// [faces] none for those in no region.
+    /// [faces] the region; none for faces in no region.
     const std::vector<Index>& region_of() const { return region_of_; }
 
   private:
-    /// Marks the faces with 0, and joins their vertices.
+    /// Marks the faces with 0, and merges the sets of their vertices.
     void join_faces(const std::vector<std::vector<Index>>& lists) {
         const EdgeTable edges = build_edges(mesh_);
         const auto corner_face = corner_faces(mesh_);
@@ -98,7 +98,7 @@ class CutRegions {
     }
     std::size_t number_regions() {
         std::size_t count = 0;
-        std::vector<Index> number(mesh_.vertex_count(), none); // of sets
+        std::vector<Index> number(mesh_.vertex_count(), none); // by set
         for (Index f = 0; f < region_of_.size(); ++f) {
             if (region_of_[f] == none) continue;
             Index& n = number[sets_.find(mesh_.vertex(mesh_.face_begin(f)))];
@@ -107,7 +107,7 @@ class CutRegions {
         }
         return count;
     }
-    /// place: back from its numbers, which no other region has.
+    /// vertex_place, wedge_place: map to the region's numbers; no other region uses the same entries.
     void make_mesh(CutRegion& region, std::vector<Index>& vertex_place,
                    std::vector<Index>& wedge_place) const {
         const auto numbered = [](std::vector<Index>& all, std::vector<Index>& place) {
@@ -146,9 +146,8 @@ struct MadeInRegion {
     Index region, number;
 };
 
-/// Gives what is new in all regions its numbers in the whole, from `first`: by segments, and those of a
-/// segment by the edges that they are on, as if all regions had been cut together. Returns the edges, in that
-/// order.
+/// Numbers the new elements of all regions in the whole mesh, starting at `first`. The order is by segment,
+/// then by edge, as if all regions had been cut together. Returns the edges in that order.
 template <class Segments, class Edges, class Old, class Numbers>
 std::vector<Provenance::Edge> number_made(std::vector<CutRegion>& regions, std::size_t segments, Index first,
                                           const Segments& segments_of, const Edges& edges_of, const Old& old,
@@ -310,7 +309,7 @@ class OutlineCutter {
         }
     }
 
-    /// Which pieces stay.
+    /// Decides which pieces stay.
     void decide() {
         std::vector<std::uint8_t> convex(mesh_.face_count());
         parallel_chunks(
@@ -337,11 +336,11 @@ class OutlineCutter {
     const CropView& view_;
     CutMemory& memory_;
     SegmentPlanes segments_;
-    std::vector<std::vector<std::uint32_t>> known_; ///< [vertices] entries of the memory; or empty
+    std::vector<std::vector<std::uint32_t>> known_; ///< [vertices] entries of the memory; may be empty
     std::vector<CutRegion> regions_;
     std::vector<Provenance::Edge> vertices_, wedges_; ///< the new ones
     OutlineCut result_;
-    std::vector<Index> origin_; ///< [faces of the result]
+    std::vector<Index> origin_; ///< [faces of the result] source
 };
 
 } // namespace

@@ -107,14 +107,14 @@ Index Walls::nearest(const Vec2& p, const Vec2& q) const {
         double least = HUGE_VAL;
         footprint_.tree().query(around(middle, middle, margin), [&](Index wall) {
             double far = distance(wall, p, q);
-            if (far <= 3 * rounding_) far = 0; // walls that hardly differ are one: the first
+            if (far <= 3 * rounding_) far = 0; // nearly identical walls tie: the first wins
             if (far < least) {
                 least = far;
                 best = wall;
             }
             return true;
         });
-        // The middle of what is not in the box is farther than the margin.
+        // Unvisited walls are farther than the margin.
         if (best != none && (least <= margin || !std::isfinite(margin))) return best;
         if (!std::isfinite(margin)) return 0;
     }

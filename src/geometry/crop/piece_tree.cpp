@@ -30,7 +30,7 @@ void PieceTree::add_face(std::vector<Index> wedges, const Bounds& box) {
     roots_.push_back(new_leaf(numbers() - 1, box));
 }
 
-/// Makes a node the root of a balanced tree over these leaves; of one leaf it takes the place.
+/// Makes a node the root of a balanced tree over these leaves; a single leaf replaces the node.
 void PieceTree::build(Index node, std::span<const Index> leaves) {
     nodes_[node].first = nodes_[node].second = nodes_[node].piece = none;
     nodes_[node].leaves = static_cast<Index>(leaves.size());
@@ -78,7 +78,8 @@ void PieceTree::widen(Index node, const Bounds& box) {
     }
 }
 
-/// The lowest node above a leaf that is too deep of which one side has more than two thirds; or none.
+/// The lowest unbalanced node above a leaf that is too deep: one side has more than two thirds of the leaves.
+/// none if there is none.
 Index PieceTree::unbalanced_above(Index leaf) const {
     std::size_t depth = 0;
     Index root = leaf;

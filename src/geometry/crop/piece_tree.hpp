@@ -1,32 +1,31 @@
 #pragma once
-// The pieces of faces that are cut again and again, by where they are. For crop only.
+// The pieces of repeatedly cut faces, searchable by position. Only crop uses it.
 
 #include "geometry/polygon/ring_tree.hpp"
 
 namespace facetmill {
 
-/// For each face a tree of boxes whose leaves are its pieces, in the order in which cutting leaves them: what
-/// a piece is cut into takes its place. Kept balanced as by I. Galperin and R. L. Rivest, "Scapegoat trees"
-/// (1993).
+/// For each face, a tree of boxes with its pieces as leaves, in the order of cutting: parts replace their
+/// piece. Balanced like I. Galperin and R. L. Rivest, "Scapegoat trees" (1993).
 class PieceTree {
   public:
     using Bounds = polygon::RingTree::Bounds;
     struct Piece {
         Index face = none;
         std::vector<Index> wedges; ///< in order
-        Index node = none;         ///< none: there is no such piece any more
+        Index node = none;         ///< none: the piece no longer exists
     };
 
-    /// Adds a face in one piece; faces are numbered in the order in which they come.
+    /// Adds a face as a single piece; faces are numbered in order of insertion.
     void add_face(std::vector<Index> wedges, const Bounds& box);
-    /// Puts pieces, which are moved from, in the place of one. The first of those with most wedges takes its
-    /// number, the others get the next ones.
+    /// Replaces a piece by parts, which are moved from. The first part with the most wedges keeps its number;
+    /// the others get new numbers.
     void replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes);
-    /// Gives a piece other wedges, for points on its edges.
+    /// Changes the wedges of a piece, for points on its edges.
     void reshape(Index piece, std::vector<Index> wedges, const Bounds& box);
 
     std::size_t face_count() const { return roots_.size(); }
-    /// Pieces have lower numbers than this.
+    /// Upper bound of the piece numbers.
     Index numbers() const { return static_cast<Index>(pieces_.size()); }
     const Piece& operator[](Index piece) const { return pieces_[piece]; }
     /// Calls visit(piece) for the pieces of a face whose boxes meet the box, in order.
@@ -45,14 +44,14 @@ class PieceTree {
     struct Node {
         Bounds box;
         Index parent = none, first = none, second = none; ///< nodes
-        Index piece = none;                               ///< of a leaf
+        Index piece = none;                               ///< if it is a leaf
         Index leaves = 1;
     };
 
     template <class Enters, class Visit>
     void visit_leaves(Index root, Enters&& enters, Visit&& visit) const {
         std::vector<Index>& open = open_;
-        const std::size_t bottom = open.size(); // visits may begin visits
+        const std::size_t bottom = open.size(); // visits may be nested
         open.push_back(root);
         while (open.size() > bottom) {
             const Node& n = nodes_[open.back()];
@@ -74,7 +73,7 @@ class PieceTree {
     std::vector<Node> nodes_;
     std::vector<Index> roots_;  ///< [faces]
     std::vector<Index> free_;   ///< nodes
-    std::vector<Index> leaves_; ///< of the piece that is replaced
+    std::vector<Index> leaves_; ///< of the replaced piece
     mutable std::vector<Index> open_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which pieces of faces have an edge. For crop only.
+// Finds the pieces of faces at an edge. Only crop uses it.
 
 #include "mesh/mesh.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// Knows which pieces were added for an edge; not which of them are there still.
+/// The pieces that were added for each edge. It does not know whether they still exist.
 class PiecesAtEdges {
   public:
     PiecesAtEdges() : last_(64, none) {}
@@ -19,7 +19,7 @@ class PiecesAtEdges {
         items_.push_back({std::min(u, v), std::max(u, v), piece, last});
         last = static_cast<Index>(items_.size() - 1);
     }
-    /// Calls visit(piece) for those of the edge, the last first.
+    /// Calls visit(piece) for the pieces of the edge, the last first.
     template <class Visit>
     void visit(Index u, Index v, Visit&& visit) const {
         if (u > v) std::swap(u, v);
@@ -31,7 +31,8 @@ class PiecesAtEdges {
     struct Item {
         Index low, high, piece, next;
     };
-    /// Multiplied by odd numbers near 2^64 over the golden ratio, of which the upper bits are mixed best.
+    /// A multiplicative hash with odd numbers near 2^64 divided by the golden ratio; the upper bits are mixed
+    /// best.
     std::size_t place(Index u, Index v) const {
         const std::uint64_t key = std::uint64_t{std::min(u, v)} << 32 | std::max(u, v);
         return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u ^ key >> 32) * 0x9E3779B97F4A7C15u >>
@@ -45,7 +46,7 @@ class PiecesAtEdges {
         }
     }
 
-    std::vector<Index> last_; ///< [a power of two] by place, into items_
+    std::vector<Index> last_; ///< [a power of two] by hash, into items_
     std::vector<Item> items_;
 };
 

@@ -13,22 +13,22 @@ namespace facetmill {
 
 namespace {
 
-/// 16 units in the last place of the largest of these.
+/// 16 units in the last place of the largest value.
 double rounding_of(std::initializer_list<double> sizes) {
     return 16 * 2.220446049250313e-16 * std::max(sizes);
 }
 
-/// What is asked of a piece, as it is seen, by one segment after the other.
+/// Cached shape of a piece, reused for successive segments.
 struct PieceShape {
-    double square = -1; ///< of its corner farthest from the origin; negative: nothing is known but parting
+    double square = -1; ///< squared distance of the farthest corner; negative: unknown
     double way = 1;     ///< 1 for an anticlockwise piece, else -1
-    Index parting = 0;  ///< the edge, modulo their number, that last parted it from a segment
-    double low = 0, high = -1; ///< how far its corners reach behind and in front of that edge, times its
-                               ///< length; high negative: not known
+    Index parting = 0;  ///< edge, modulo their number, that last separated it from a segment
+    double low = 0,
+           high = -1; ///< extent behind and in front of that edge, times its length; high < 0: unknown
 };
 
-/// A frame in which the pieces of a face have narrow boxes: its first axis is along the longest of the
-/// segments that enter the face, of which most run alike.
+/// A frame in which the pieces of a face have narrow boxes. Its first axis follows the longest segment that
+/// enters the face, because most of these segments are roughly parallel.
 class Frame {
   public:
     Frame() = default;
@@ -42,8 +42,8 @@ class Frame {
     Vec2 along_{1, 0};
 };
 
-/// Cuts segment by segment, in their order. A cut touches the pieces that its segment enters and those that
-/// share a cut edge with them, and looks at no others.
+/// Cuts one segment after the other. A cut visits only the pieces that its segment enters, and pieces that
+/// share a cut edge with them.
 class SegmentCutter {
   public:
     SegmentCutter(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
@@ -76,7 +76,7 @@ class SegmentCutter {
         for (const Index w : wedges) box.add(frames_[face](seen_[vertex_of(w)]));
         return box;
     }
-    /// Likewise, and by what rounding moves points wider.
+    /// The same, enlarged by the rounding of points.
     Bounds bounds(Index face, const polygon::RingTree::Edge& e) const {
         Bounds box;
         for (const Vec2& p : {e.a, e.b}) box.add(frames_[face](p));
@@ -85,8 +85,8 @@ class SegmentCutter {
         if (!std::isfinite(wider)) return {-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL};
         return {box.x0 - wider, box.y0 - wider, box.x1 + wider, box.y1 + wider};
     }
-    /// Faces of which meeting is not exact, concave ones and those seen edge-on, have none of their own: what
-    /// their pieces are cut into would depend on which segment is the longest.
+    /// Chooses the frames. Concave and edge-on faces keep the default frame, because their intersection tests
+    /// are not exact. With a frame, their pieces would depend on which segment is the longest.
     void find_frames(const EnteredFaces& entered) {
         for (const Vec2& p : seen_) size_ = std::max(size_, length(p));
         frames_.resize(mesh_.face_count());
@@ -115,8 +115,8 @@ class SegmentCutter {
         signed_for_.resize(points_.size(), none);
     }
 
-    /// Where several cuts are along one plane, points that an earlier one or another makes between vertices
-    /// on that plane are to count as on it, too.
+    /// If several cuts share a plane, records the vertices on it. Then new points between such vertices also
+    /// count as on the plane.
     void remember_shared(const EnteredFaces& entered) {
         for (std::size_t i = 0; i < entered.segments.size(); ++i) {
             const Index s = entered.segments[i];
@@ -174,16 +174,16 @@ class SegmentCutter {
                 touched_.push_back(piece);
             });
     }
-    /// As face_.
+    /// Fills face_.
     void gather(Index piece) {
         face_.clear();
         for (const Index w : pieces_[piece].wedges) face_.push_back(seen_[vertex_of(w)]);
     }
 
-    /// Whether the line along an edge parts a piece from a segment, but for the rounding of points: as it
-    /// does from the next segment behind the last cut, which by its rounded corners may seem to enter. Not
-    /// said of pieces that are all on that line, such as faces seen edge-on. Most often it is the edge that
-    /// parted the piece from the last segment.
+    /// True if the line along an edge separates a piece from a segment, within the rounding of points. This
+    /// is usual after the last cut for the next segment, which may seem to enter because of rounded corners.
+    /// Pieces entirely on that line, such as edge-on faces, are not separated. The edge that separated the
+    /// piece from the previous segment is tested first.
     bool is_parted(Index piece, const polygon::RingTree::Edge& e) {
         PieceShape& shape = shape_of(piece);
         const double rounding =
@@ -193,7 +193,7 @@ class SegmentCutter {
             if (parts(piece, shape, (shape.parting + i) % n, rounding, e)) return true;
         return false;
     }
-    /// Whether this edge does. That it does is noted.
+    /// True if this edge separates them; records it.
     bool parts(Index piece, PieceShape& shape, std::size_t edge, double rounding,
                const polygon::RingTree::Edge& e) {
         const auto& wedges = pieces_[piece].wedges;
@@ -224,19 +224,19 @@ class SegmentCutter {
         shape.way = polygon::signed_area(face_) > 0 ? 1 : -1;
         return shape;
     }
-    /// When a piece has other corners; the edge that parted it may still be there.
+    /// Call it when a piece gets other corners. The separating edge may still exist.
     void forget_shape(Index piece) {
         if (piece < shapes_.size()) shapes_[piece].square = shapes_[piece].high = -1;
     }
 
-    /// Adds to what is touched the pieces that share an edge with this one at which that is cut: faces around
-    /// that are whole still, and what has been cut before.
+    /// Adds the neighbours at cut edges to the touched pieces: faces around that are still whole, and pieces
+    /// of earlier cuts.
     void find_neighbours(Index s, Index piece) {
         look_around(pieces_[piece].face);
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             const Index u = vertex_of(a), v = vertex_of(b);
             if (sign_at(s, u) * sign_at(s, v) >= 0) return;
-            // A whole face is the piece of its number; that has not been added for its own edges.
+            // A whole face is the piece with its own number; at_edges_ does not contain it.
             if (std::max(u, v) < mesh_.vertex_count())
                 for (const Index f : around_) touch(f, s, u, v);
             at_edges_.visit(u, v, [&](Index other) {
@@ -245,7 +245,7 @@ class SegmentCutter {
             });
         });
     }
-    /// A face and those that share an edge with it, once each.
+    /// Collects a face and the faces that share an edge with it, once each.
     void look_around(Index face) {
         if (!around_.empty() && around_[0] == face) return;
         around_.assign(1, face);
@@ -255,7 +255,7 @@ class SegmentCutter {
                     if (std::find(around_.begin(), around_.end(), corner_face_[other]) == around_.end())
                         around_.push_back(corner_face_[other]);
     }
-    /// Of a piece; with first_new only those with an end from that vertex on.
+    /// Records the edges of a piece; with first_new, only edges with an end from that vertex on.
     void note_edges(Index piece, Index first_new = 0) {
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             const Index u = vertex_of(a), v = vertex_of(b);
@@ -274,9 +274,9 @@ class SegmentCutter {
         }
     }
 
-    // --- a cut of which each piece falls in two, between vertices: nearly all are such
+    // --- a cut that divides each piece in two, between vertices: nearly all cuts
 
-    /// An edge that is cut: its vertices, or its wedges, that at the lower vertex first.
+    /// A cut edge by its vertices or wedges; the end at the lower vertex comes first.
     struct Ends {
         Index low, high;
         auto operator<=>(const Ends&) const = default;
@@ -293,7 +293,7 @@ class SegmentCutter {
         std::sort(all.begin(), all.end());
         all.erase(std::unique(all.begin(), all.end()), all.end());
     }
-    /// visit(wedge, next wedge) for the edges of a piece with ends on both sides.
+    /// Calls visit(wedge, next wedge) for the edges of a piece with ends on both sides.
     template <class Visit>
     void for_crossed(Index s, Index piece, Visit&& visit) {
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
@@ -311,7 +311,7 @@ class SegmentCutter {
                                                     [&](Index w) { return sign_at(s, vertex_of(w)) == 0; });
             });
     }
-    /// As cut.
+    /// Like cut, for such a cut.
     void cut_plain(Index s, std::size_t to_cut) {
         const auto first_vertex = static_cast<Index>(points_.size()),
                    first_made = static_cast<Index>(wedge_count());
@@ -319,7 +319,7 @@ class SegmentCutter {
         make_points(s);
         for (std::size_t i = 0; i < to_cut; ++i) {
             halve(s, touched_[i], first_made);
-            note_edges(touched_[i], first_vertex); // the larger part, which has its number
+            note_edges(touched_[i], first_vertex); // the larger part, which keeps the number
         }
         for (std::size_t i = to_cut; i < touched_.size(); ++i)
             reshape(touched_[i], with_points(s, touched_[i], first_made), first_vertex);
@@ -370,7 +370,7 @@ class SegmentCutter {
         const auto& wedges = pieces_[piece].wedges;
         const std::size_t n = wedges.size();
         const auto sign = [&](std::size_t i) { return sign_at(s, vertex_of(wedges[i % n])); };
-        std::size_t begin = 0; // the first in front
+        std::size_t begin = 0; // the first corner in front
         while (!(sign(begin) > 0 && sign(begin + n - 1) < 0)) ++begin;
         std::array<std::vector<Index>, 2> parts; // in front and behind
         std::array<Bounds, 2> boxes;
@@ -388,7 +388,7 @@ class SegmentCutter {
         }
         replace(piece, parts, boxes);
     }
-    /// Notes the edges of the parts that have new numbers.
+    /// Replaces a piece, and records the edges of parts with new numbers.
     void replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes) {
         const Index first = pieces_.numbers();
         pieces_.replace(piece, parts, boxes);
@@ -397,7 +397,7 @@ class SegmentCutter {
     }
     std::vector<Index> with_points(Index s, Index piece, Index first_made) {
         std::vector<Index> wedges;
-        wedges.reserve(pieces_[piece].wedges.size() + 1); // most often one point
+        wedges.reserve(pieces_[piece].wedges.size() + 1); // usually one more point
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             wedges.push_back(a);
             if (sign_at(s, vertex_of(a)) * sign_at(s, vertex_of(b)) < 0 &&
@@ -413,9 +413,9 @@ class SegmentCutter {
         note_edges(piece, first_new);
     }
 
-    // --- any cut
+    // --- any other cut
 
-    /// Cuts the first of what is touched; the others get the points on their edges.
+    /// Cuts the first to_cut touched pieces; the others get the points on their edges.
     void cut(Index s, std::size_t to_cut) {
         make_local();
         std::vector<std::int8_t> signs;
@@ -456,7 +456,7 @@ class SegmentCutter {
         }
         remember_corners(s, first_vertex);
     }
-    /// What is touched as a mesh of its own, vertices and wedges in their order.
+    /// Builds a mesh of the touched pieces; vertices and wedges keep their order.
     void make_local() {
         const auto numbered = [&](std::vector<Index>& all) {
             std::sort(all.begin(), all.end());
@@ -503,7 +503,8 @@ class SegmentCutter {
             put_on_planes(s, static_cast<Index>(first + i), vertices_[cut.vertices[i].a],
                           vertices_[cut.vertices[i].b]);
     }
-    /// A point made on an edge from a to b is on the segment's plane and on all that both ends are on.
+    /// A point made on an edge from a to b is on the segment's plane, and on all planes that contain both
+    /// ends.
     void put_on_planes(Index s, Index v, Index a, Index b) {
         on_.add(v, segments_.numbers[s]);
         on_.for_planes(a, [&](Index plane) {
@@ -512,8 +513,8 @@ class SegmentCutter {
         for (const Index plane : shared_) on_.add(v, plane);
         shared_.clear();
     }
-    /// New points at a corner of the outline, but for rounding, are on the next segment's plane, too: else an
-    /// edge that passes the corner would be cut twice there.
+    /// Treats new points within rounding of a corner of the outline as on the next segment's plane too.
+    /// Otherwise an edge that passes the corner would be cut twice.
     void remember_corners(Index s, Index first_vertex) {
         const auto& e = segment(s);
         for (Index v = first_vertex; v < points_.size(); ++v) {
@@ -524,7 +525,7 @@ class SegmentCutter {
         }
     }
 
-    /// What has been made of all faces.
+    /// The pieces of all faces.
     CutFaces finished() {
         const auto old_vertices = static_cast<Index>(mesh_.vertex_count());
         for (Index f = 0; f < mesh_.face_count(); ++f)
@@ -546,25 +547,25 @@ class SegmentCutter {
     OnPlanes on_;
     EdgeTable edges_;
     std::vector<Index> corner_face_;
-    double size_ = 0;                   ///< of the farthest vertex of the mesh, as seen
+    double size_ = 0;                   ///< distance of the farthest projected vertex
     std::vector<Frame> frames_;         ///< [faces]
     PieceTree pieces_;                  ///< boxes in the frames
-    PiecesAtEdges at_edges_;            ///< without faces that nothing has happened to
-    std::vector<Vec3> points_;          ///< [vertices] those of the mesh, and new ones
+    PiecesAtEdges at_edges_;            ///< without untouched faces
+    std::vector<Vec3> points_;          ///< [vertices] old and new
     std::vector<Index> wedge_vertex_;   ///< [wedges] empty without seams
     std::vector<Vec2> seen_;            ///< [vertices]
-    std::vector<std::int8_t> signs_;    ///< [vertices] by the segment that
-    std::vector<double> sides_;         ///< [vertices] likewise, as side() has it
-    std::vector<Index> signed_for_;     ///< [vertices] this says
+    std::vector<std::int8_t> signs_;    ///< [vertices] sign relative to signed_for_
+    std::vector<double> sides_;         ///< [vertices] value of side() for signed_for_
+    std::vector<Index> signed_for_;     ///< [vertices] the segment
     std::vector<std::uint8_t> was_cut_; ///< [faces]
-    std::vector<PieceShape> shapes_;    ///< [pieces, as far as asked for]
-    std::vector<Index> touched_for_;    ///< [pieces, as far as needed] the last segment that touched it
+    std::vector<PieceShape> shapes_;    ///< [pieces, filled on demand]
+    std::vector<Index> touched_for_;    ///< [pieces, filled on demand] the last segment that touched it
     CutFaces made_;
-    // Of the cut that is being made:
-    std::vector<Index> touched_; ///< pieces: those to be cut, then those that share a cut edge
+    // State of the current cut:
+    std::vector<Index> touched_; ///< pieces: those to cut, then pieces that share a cut edge
     Mesh part_;
     std::vector<Index> vertices_, wedges_; ///< [vertices and wedges of part_] wedges: empty without seams
-    std::vector<Index> local_;             ///< back from these
+    std::vector<Index> local_;             ///< inverse of these
     std::vector<Ends> cut_edges_,
         cut_wedges_; ///< ascending; edges: their vertices; wedges: empty without seams
     std::vector<Index> around_, shared_;

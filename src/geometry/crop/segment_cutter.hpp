@@ -1,21 +1,21 @@
 #pragma once
-// Cuts faces along the segments of an outline, one after the other. For crop only.
+// Cuts faces along the segments of an outline, one after the other. Only crop uses it.
 
 #include "geometry/crop/segment_planes.hpp"
 #include "geometry/cut/cut.hpp"
 
 namespace facetmill {
 
-/// Which faces of a mesh segments enter.
+/// The faces of a mesh that each segment enters.
 struct EnteredFaces {
-    std::vector<Index> segments;   ///< those that enter any, ascending
+    std::vector<Index> segments;   ///< segments that enter faces, ascending
     std::vector<Index> offsets{0}; ///< [segments + 1] into faces
     std::vector<Index> faces;      ///< of each, ascending
 
     std::span<const Index> of(std::size_t i) const {
         return {faces.data() + offsets[i], faces.data() + offsets[i + 1]};
     }
-    /// Segments and the faces of each come in order.
+    /// Call it in ascending order of segments and faces.
     void add(Index segment, Index face) {
         if (segments.empty() || segments.back() != segment) {
             segments.push_back(segment);
@@ -26,21 +26,21 @@ struct EnteredFaces {
     }
 };
 
-/// What becomes of the faces. New vertices and wedges are numbered behind those of the mesh, by the segments
-/// that made them, and those of a segment by the edges that they are on (low vertex first).
+/// The result of the cuts. New vertices and wedges follow the mesh's own. They are numbered by the segments
+/// that made them, then by their edges (low vertex first).
 struct CutFaces {
     Pieces pieces;                                      ///< of all faces, in order
     std::vector<Vec3> points;                           ///< [new vertices]
-    std::vector<Provenance::Edge> vertices, wedges;     ///< the new ones; without seams wedges is empty
+    std::vector<Provenance::Edge> vertices, wedges;     ///< new ones; without seams wedges is empty
     std::vector<Index> wedge_vertex;                    ///< [new wedges]
     std::vector<Index> vertex_segments, wedge_segments; ///< [new ones]
-    std::vector<std::pair<Index, Index>> on; ///< a new vertex, ascending, and a plane that it is on
+    std::vector<std::pair<Index, Index>> on; ///< a new vertex, ascending, and a plane that contains it
     std::vector<Index> met;                  ///< planes whose segments entered a piece
     std::size_t cut_faces = 0;
 };
 
-/// Every face that a segment enters, by more than rounding, is cut along the segment's line, all across the
-/// piece; its neighbours get the points. on: what is known of the vertices.
+/// Each segment cuts every face that it enters by more than rounding, along its line across the whole piece;
+/// neighbours get the points. on: the known planes of the vertices.
 CutFaces cut_along_segments(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
                             const SegmentPlanes& segments, OnPlanes on);
 

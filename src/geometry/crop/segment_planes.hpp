@@ -1,22 +1,21 @@
 #pragma once
-// The planes of an outline's segments, and which vertices count as on which planes. For crop only.
+// The planes of an outline's segments, and the vertices that count as on each plane. Only crop uses it.
 
 #include "geometry/crop/view.hpp"
 
 namespace facetmill {
 
-/// The planes of the outline's segments, numbered behind those of a memory; those that are one have one
-/// number.
+/// The planes of the outline's segments, numbered after the planes of a memory. Equal planes share a number.
 struct SegmentPlanes {
     std::vector<Plane> planes;  ///< [segments]
     std::vector<Index> numbers; ///< [segments]
-    std::vector<Index> first;   ///< [numbers, beyond those of the memory] the segment whose plane it is
-    std::vector<Index> sharing; ///< [numbers] segments and entries of the memory
+    std::vector<Index> first;   ///< [numbers, beyond the memory's] the first segment with the plane
+    std::vector<Index> sharing; ///< [numbers] count of segments and entries of the memory
 
     SegmentPlanes(const CropView& view, const CutMemory& memory);
 };
 
-/// Which vertices count as on which planes.
+/// The planes on which each vertex counts.
 class OnPlanes {
   public:
     void grow(std::size_t vertices) { last_.resize(vertices, none); }

@@ -22,7 +22,7 @@ Inside::Inside(const Footprint& footprint, InsideBy by)
 }
 
 PointLocation Inside::operator()(const Vec2& p) const {
-    const PointLocation place = footprint_.locate(p); // on the outline, all rules would depend on rounding
+    const PointLocation place = footprint_.locate(p); // on the outline, every rule would depend on rounding
     if (by_ == InsideBy::crossings || place > PointLocation::inside) return place;
     if (by_ == InsideBy::half_planes) return polygon::locate_convex(p, spans_[0]);
     const bool inside = by_ == InsideBy::angles ? polygon::inside_by_angles(p, spans_)
@@ -57,7 +57,7 @@ PointLocation CropView::middle(const Mesh& mesh, Index f, bool convex) const {
     return settle(is_on_outline(mesh, f, mean, face) ? PointLocation::on_edge : inside_(mean), mesh, f);
 }
 
-/// Exactly, all of it, and seen edge-on.
+/// True if the face is exactly on a segment, edge-on.
 bool CropView::is_on_segment(const std::vector<Vec2>& face) const {
     for (std::size_t i = 2; i < face.size(); ++i)
         if (polygon::turn(face[0], face[i - 1], face[i]) != 0) return false;
@@ -74,8 +74,8 @@ bool CropView::is_on_segment(const std::vector<Vec2>& face) const {
     return found;
 }
 
-/// But for the rounding of floats, of corners that are floats; a face that only reaches from segment to
-/// segment is not.
+/// True if the face is on the outline, with float rounding allowed for float corners. A face that connects
+/// different segments is not.
 bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
                              const std::vector<Vec2>& face) const {
     if (is_on_segment(face)) return true;
@@ -89,7 +89,7 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
         return found;
     };
     if (!on(mean, snap)) return false;
-    // Points of the cut, and what stands in doubles: 64 units in their last place.
+    // The tolerance of cut points and double positions: 64 units in their last place.
     const double rounding = std::ldexp(snap, -23);
     const auto corners = mesh.face_wedges(f);
     double widest = rounding;
@@ -99,7 +99,7 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
         if (rounded) widest = snap;
     }
     return on(mean,
-              widest); // a corner of the outline in a face has three points on it and a mean that is not
+              widest); // all corners may be on the outline, but not the mean
 }
 
 PointLocation CropView::settle(PointLocation place, const Mesh& mesh, Index f) const {
@@ -109,7 +109,7 @@ PointLocation CropView::settle(PointLocation place, const Mesh& mesh, Index f) c
         corners.push_back(settings_.to_world.point(mesh.positions[mesh.vertex_of_wedge(w)]));
     const Vec3 n = polygon::area_vector(corners);
     const Vec2 out = seen_along(settings_.axis, n), at = seen_along(settings_.axis, corners[0]);
-    // Of the segments that it may be on, the one that it runs along.
+    // Of the segments that may contain the face, the one most parallel to it.
     double least = HUGE_VAL;
     bool inside = true;
     const double size = std::max({std::fabs(at.x), std::fabs(at.y), 1e-300});

@@ -1,14 +1,14 @@
 #pragma once
-// A mesh as a footprint sees it. For crop only.
+// A mesh projected for a footprint. Only crop uses it.
 
 #include "geometry/crop/crop.hpp"
 
 namespace facetmill {
 
-/// Says where points are, by the rule asked for.
+/// Locates points by the requested rule.
 class Inside {
   public:
-    /// Throws usage (E-FOOTPRINT) when the rule needs one convex ring and there is none such.
+    /// Throws usage (E-FOOTPRINT) when the rule needs a single convex ring and the footprint is not one.
     Inside(const Footprint& footprint, InsideBy by);
     polygon::PointLocation operator()(const Vec2& p) const;
 
@@ -19,7 +19,7 @@ class Inside {
     std::vector<Vec3> flat_;
 };
 
-/// Of the corners of a face.
+/// The mean of a face's corners.
 inline Vec2 mean_of_corners(const std::vector<Vec2>& face) {
     Vec2 sum;
     for (const Vec2& p : face) sum = sum + (p - face[0]);
@@ -31,7 +31,7 @@ class CropView {
     CropView(const Footprint& footprint, const CropSettings& settings)
         : footprint_(footprint), settings_(settings), inside_(footprint, settings.inside_by) {}
 
-    /// Points so far from the outline that snap takes them as on it.
+    /// Points within this distance of the outline count as on it, with snap.
     double snap = 0;
 
     const Footprint& footprint() const { return footprint_; }
@@ -42,11 +42,11 @@ class CropView {
         return (place == polygon::PointLocation::inside) == (settings_.keep == polygon::Keep::inside);
     }
 
-    /// The corners of a face.
+    /// Projects the corners of a face.
     void gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const;
-    /// The place of a point in the middle of a face: of a concave one in its largest triangle. A face along
-    /// the outline, seen edge-on, bounds the side that it looks away from.
-    /// convex: it is known to be, but for rounding.
+    /// The location of a point in the middle of a face, in the largest triangle if the face is concave. An
+    /// edge-on face along the outline bounds the side that it faces away from. convex: the face is known to
+    /// be convex within rounding.
     polygon::PointLocation middle(const Mesh& mesh, Index f, bool convex = false) const;
     /// Calls visit(segment, meeting) for the segments near a face until it returns false.
     template <class Visit>

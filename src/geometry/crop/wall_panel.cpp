@@ -73,8 +73,8 @@ bool WallPanel::complete(const PostView& view) {
     return check_upright();
 }
 
-/// What leaves the wall at a post comes back to it at another height: the edges between carry the sum of what
-/// is below.
+/// A boundary that leaves the wall at a post returns at another height. The edges between carry the sum of
+/// the balances below.
 void WallPanel::add_upright(const PostView& view, Index post) {
     int carried = 0;
     Index before = none;
@@ -94,8 +94,7 @@ void WallPanel::add_upright(const PostView& view, Index post) {
     balanced_ &= carried == 0;
 }
 
-/// Points and edges in an order that depends on their places alone, so that the other side of a crop gets the
-/// same triangles.
+/// Orders points and edges by position only, so that the other side of a crop gets the same triangles.
 void WallPanel::make_contours(const PostView& view) {
     contours_ = {};
     points_.clear();
@@ -123,7 +122,7 @@ void WallPanel::make_contours(const PostView& view) {
         Run& turned = ordered[{std::min(a, b), std::max(a, b)}] = run;
         if (b < a) turned.count = -run.count;
     }
-    for (const auto& [ends, run] : ordered) { // the wall has the boundary for its own, the other way round
+    for (const auto& [ends, run] : ordered) { // the wall traverses the boundary in the opposite direction
         contours_.edges.push_back({ends.first, ends.second, -run.count});
         run_of_.push_back(run);
     }
@@ -151,7 +150,7 @@ double WallPanel::parameter(const Contours::Edge& e, Index point) const {
 }
 
 std::vector<WallPanel::OnEdge> WallPanel::on_edges() const {
-    constexpr double gap = 0x1p-40; // so that 1 - t keeps their order, too
+    constexpr double gap = 0x1p-40; // so that 1 - t keeps the order too
     std::vector<OnEdge> all;
     for (std::size_t e = 0; e < run_of_.size(); ++e) {
         if (run_of_[e].own == none) continue;

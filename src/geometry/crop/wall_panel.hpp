@@ -1,6 +1,6 @@
 #pragma once
-// One wall of a crop: the boundary of the kept faces at a segment of the outline, completed and filled. For
-// crop only.
+// One wall of a crop: the boundary of the kept faces at a segment of the outline, completed and filled. Only
+// crop uses it.
 
 #include "geometry/crop/outline_walls.hpp"
 #include "geometry/cut/fill_disjoint.hpp"
@@ -14,24 +14,24 @@ namespace facetmill {
 struct WallEdge {
     Index low, high; ///< vertices
     Index edge;      ///< in the edge table
-    int count;       ///< faces that run from low to high minus those that run back; never 0
-    Index wall;      ///< the segment of the outline that it is at
+    int count;       ///< faces from low to high minus faces in the other direction; never 0
+    Index wall;      ///< the nearest segment of the outline
 };
 
-/// The vertices of a mesh as the outline sees them, and those at its posts.
+/// The projected vertices of a mesh, and the vertices at posts of the outline.
 struct PostView {
     const Walls& walls;
     std::vector<Vec2> seen;         ///< [vertices]
     std::vector<double> heights;    ///< [vertices] along the axis
-    std::map<Index, Index> post_of; ///< the one post at which a vertex may leave or join walls
-    /// The vertices that upright edges run through: those of the post, and others that lie between them.
+    std::map<Index, Index> post_of; ///< the only post at which a vertex may leave or join walls
+    /// The vertices that upright edges pass through: at the post, and others between them.
     std::map<Index, std::set<Index>> at_post;
 
-    /// Puts a vertex at a post, unless it is at a nearer one.
+    /// Assigns a vertex to a post, unless it already has a nearer one.
     void stand(Index vertex, Index post);
-    /// Where on the wall a vertex is: at a post when it is one of the post's or within rounding.
+    /// The position of a vertex along the wall: at a post if it is assigned to the post or within rounding.
     double along(Index wall, Index vertex) const;
-    /// The vertices of a post, from the lowest up.
+    /// The vertices of a post, in ascending height.
     std::vector<Index> ascending(Index post) const;
 };
 
@@ -40,29 +40,29 @@ class WallPanel {
     WallPanel(Index wall, std::span<const WallEdge> edges);
 
     Index wall() const { return wall_; }
-    /// Vertices where not as many edges arrive as leave, and leaving minus arriving.
+    /// Vertices with different numbers of arriving and leaving edges: leaving minus arriving.
     const std::map<Index, int>& balance() const { return balance_; }
 
-    /// Adds to the view the vertices that must be known at the posts of this wall.
+    /// Adds the vertices that the view needs at the posts of this wall.
     void stand_at_posts(PostView& view) const;
-    /// Closes the boundary by upright edges at the posts and fills it. False when a post's vertices do not
-    /// balance, or the filling needs new points on an upright edge.
+    /// Closes the boundary with upright edges at the posts and fills it. Returns false when a post's vertices
+    /// do not balance, or the filling needs new points on an upright edge.
     bool complete(const PostView& view);
-    /// Vertices that lie on upright edges, with the post: in at_post, complete would use them.
+    /// Vertices on upright edges, with the post; complete uses them if they are in at_post.
     const std::vector<std::pair<Index, Index>>& missed() const { return missed_; }
-    /// The upright edges, as how often each is run from its lower vertex to the other.
+    /// The upright edges, with the number of times each is traversed from its lower vertex to the other.
     const std::map<std::pair<Index, Index>, int>& upright() const { return upright_; }
 
     /// A point on an edge of the boundary.
     struct OnEdge {
-        Index edge;  ///< of the boundary edges that were given
-        Index from;  ///< the end of it that t counts from: a choice by place
+        Index edge;  ///< index of the given boundary edge
+        Index from;  ///< its end where t is 0; chosen by position
         double t;    ///< above 0 and below 1
-        Index point; ///< below points().size(): that vertex; else an added one
+        Index point; ///< a vertex if below points().size(), else an added point
     };
     const Filling& filling() const { return filling_; }
-    const std::vector<Index>& points() const { return points_; } ///< of the filling: vertices
-    /// By edge, then from its from on.
+    const std::vector<Index>& points() const { return points_; } ///< vertices of the filling
+    /// By edge, then along the edge.
     std::vector<OnEdge> on_edges() const;
 
   private:
@@ -72,11 +72,11 @@ class WallPanel {
     double parameter(const Contours::Edge& e, Index point) const;
     Vec2 place(Index point) const;
 
-    /// What runs between two vertices.
+    /// The boundary or upright edges between two vertices.
     struct Run {
         int count = 0;
         Index own = none;  ///< the boundary edge
-        Index post = none; ///< the post of an upright one
+        Index post = none; ///< if it is an upright edge
     };
 
     Index wall_;

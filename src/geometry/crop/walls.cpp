@@ -16,13 +16,13 @@ namespace facetmill {
 
 namespace {
 
-// The faces of the walls of a crop, and their attributes.
+// The faces of a crop's walls, and their attributes.
 
 struct WallFaces {
     std::span<const WallPanel> panels; ///< filled; their points are vertices of the mesh
     const Walls& walls;
     const WallSettings& settings;
-    Index first_added = 0; ///< the vertex of the first point that the panels added; the others follow
+    Index first_added = 0; ///< first vertex that the panels added
 };
 
 class Appender {
@@ -33,7 +33,7 @@ class Appender {
     Mesh run(AttributeChanges& changes) {
         start();
         for (const WallPanel& panel : faces_.panels) add(panel);
-        provenance_.faces.resize(out_.face_count()); // walls copy the first face's and are painted
+        provenance_.faces.resize(out_.face_count()); // walls copy the first face, then get their own values
         for (Index f = 0; f < from_.face_count(); ++f) provenance_.faces[f] = f;
         changes = inherit_attributes(out_, from_, provenance_);
         for (std::size_t i = 0; i < ranges_.size(); ++i) paint(i);
@@ -69,7 +69,8 @@ class Appender {
         added_ += static_cast<Index>(panel.filling().added.size());
         ranges_.push_back({first, out_.face_count()});
     }
-    /// With normals or coordinates of its own a wall has wedges of its own, made of the lowest there.
+    /// Creates a wedge if the wall needs its own normals or coordinates; it copies the lowest wedge at the
+    /// vertex.
     Index wedge(const WallPanel& panel, Index point) {
         const auto points = static_cast<Index>(panel.points().size());
         const Index v = point < points ? panel.points()[point] : added_ + point - points;
@@ -127,7 +128,7 @@ AttributeChanges append_walls(Mesh& mesh, const WallFaces& faces) {
                         "crop without cap, or move the outline a little");
 }
 
-/// The walls of the boundary's edges at each vertex.
+/// The walls of the boundary edges at each vertex.
 class WallsAtVertices {
   public:
     WallsAtVertices(std::span<const WallEdge> edges, std::size_t vertices) : begins_(vertices + 1) {
@@ -185,7 +186,7 @@ class Closer {
         });
     }
 
-    /// The edges at which the directions of the kept faces do not cancel, by wall.
+    /// The boundary by wall: edges at which the directions of the kept faces do not cancel.
     void find_boundary() {
         look();
         edges_.clear();
@@ -203,8 +204,8 @@ class Closer {
                          [](const WallEdge& a, const WallEdge& b) { return a.wall < b.wall; });
     }
 
-    /// Puts a vertex on edges that pass a corner of the outline: where it runs straight on, or almost, faces
-    /// were cut along it once. Whether there were any.
+    /// Inserts vertices into edges that pass a corner of the outline. Where the outline is straight or almost
+    /// straight, faces were cut only once. Returns true if any were inserted.
     bool split_at_posts() {
         std::vector<Insertion> insertions;
         std::vector<Provenance::Edge> added;
@@ -228,9 +229,9 @@ class Closer {
         insert_all(std::move(insertions), added);
         return true;
     }
-    /// Whether the boundary passes to the wall's neighbour at a vertex, which is beyond the corner by no more
-    /// than rounding may have put it: it is the corner then. Another point there would be that of a sliver,
-    /// of which the wall might take the other face.
+    /// True if a vertex counts as the corner, because the boundary passes to the wall's neighbour there. It
+    /// is past the corner by no more than rounding. Another point at the corner would create a sliver, and
+    /// the wall might use the sliver's wrong side.
     bool is_corner(const WallsAtVertices& around, Index wall, const Walls::Stand& stand, Index vertex,
                    double at) const {
         const auto& e = walls_.edges()[wall];
@@ -239,7 +240,7 @@ class Closer {
         return std::fabs(at - stand.at) <= walls_.spread_of_corner(ends ? wall : e.previous) &&
                around.has(vertex, ends ? e.next : e.previous);
     }
-    /// Puts a vertex on an edge of the boundary, at the place that at tells.
+    /// Inserts a vertex into an edge of the boundary, at the position `at`.
     void insert(std::vector<Insertion>& insertions, const WallEdge& e, const Provenance::Edge& at,
                 Index vertex) const {
         for (const Index c : table_.corners_of(e.edge))
@@ -254,7 +255,7 @@ class Closer {
         merge_changes(result_.changes, changes);
     }
 
-    /// Of a mesh that was open: contours that do not close, and what is on a post that they leave unbalanced.
+    /// For an open input mesh: drops contours that do not close, and the unbalanced parts at posts.
     void drop_open() {
         DisjointSets contours(mesh_.vertex_count());
         for (const WallEdge& e : edges_) contours.join(e.low, e.high);
@@ -308,8 +309,8 @@ class Closer {
         return panels;
     }
 
-    /// Panels whose upright edges meet: a vertex that turns out to lie on one is put at its post, and all is
-    /// done again.
+    /// Builds panels whose upright edges match. If a vertex is found on an upright edge, it is assigned to
+    /// the post, and all panels are built again.
     void make_panels() {
         panels_ = panels_of_wall();
         for (const WallPanel& panel : panels_) panel.stand_at_posts(view_);
@@ -332,8 +333,8 @@ class Closer {
             if (count != 0) refuse(walls_, walls_.nearest(view_.seen[ends.first], view_.seen[ends.second]));
     }
 
-    /// Gives the kept faces the points that the walls have on their edges. New ones are numbered from
-    /// first_added_ on, panel by panel.
+    /// Inserts the walls' edge points into the kept faces. New points are numbered from first_added_, panel
+    /// by panel.
     void insert_points() {
         first_added_ = static_cast<Index>(mesh_.vertex_count());
         std::vector<Insertion> insertions;
@@ -351,7 +352,7 @@ class Closer {
                     continue;
                 }
                 const std::size_t i = first + on.point - points;
-                if (added[i].a == added[i].b) added[i] = at; // the first edge through it places it
+                if (added[i].a == added[i].b) added[i] = at; // the first edge through it sets its position
                 insert(insertions, e, at, static_cast<Index>(first_added_ + i));
             }
             for (std::size_t i = first; i < added.size(); ++i) made(panel.wall(), added[i]);

@@ -1,5 +1,5 @@
 #pragma once
-// Walls that close what a crop cuts open. For crop only.
+// Walls that close the cuts of a crop. Only crop uses it.
 
 #include "base/error.hpp"
 #include "geometry/clip/clip.hpp"
@@ -15,12 +15,12 @@ struct UnclosedWalls : Error {
 struct WallSettings {
     std::size_t axis = 2; ///< as CropSettings::axis
     Transform to_world;
-    std::optional<Primitive> primitive; ///< of the walls
-    /// Numbers in the face attributes cut_id and group that are taken; walls get the next ones, by segment
-    /// and by ring. None: these attributes are not made.
+    std::optional<Primitive> primitive; ///< for the walls
+    /// The last used numbers in the face attributes cut_id and group; walls get the next numbers, by segment
+    /// and by ring. Empty: these attributes are not made.
     std::optional<Index> last_cut, last_group;
-    double reach = 0; ///< the largest coordinate across the axis of the mesh before it was cut, in the world
-    bool closed = true; ///< the mesh was before it was cut: then all its boundary is to be closed
+    double reach = 0;   ///< the largest world coordinate across the axis before the cut
+    bool closed = true; ///< the mesh was closed before the cut: its whole boundary must be closed
 };
 
 struct WalledCrop {
@@ -28,21 +28,21 @@ struct WalledCrop {
     AttributeChanges changes;
     std::size_t wall_faces = 0;
     std::vector<OpenContour> open; ///< plane: the segment
-    /// Points that were made for the walls, and the segment of each.
+    /// Points that were made for the walls, with the segment of each.
     std::vector<std::pair<Index, Vec3>> made;
 };
 
-/// Closes the kept faces of a mesh that was cut along the footprint. Each edge of their boundary goes to the
-/// segment that it is nearest to; where the boundary passes from one segment to another, upright edges at the
-/// corner of the outline complete both, so that the boundary on every segment is closed. It is filled there
-/// as clip fills its caps (fill_disjoint), so whatever covers a place twice has its wall twice. So the result
-/// is closed, by counting edges and not by their places. Points that the filling needs on edges are put into
-/// the kept faces too, so a triangle may become several. The same edges the other way round give the same
-/// triangles, turned, but for those without area between points at one place.
+/// Closes the kept faces of a mesh that was cut along the footprint. Each edge of their boundary is assigned
+/// to the nearest segment. Where the boundary changes segments, upright edges at the corner of the outline
+/// complete both, so that the boundary on every segment is closed. Each wall is filled as clip fills its caps
+/// (fill_disjoint), so an area covered twice gets two walls. So the result is closed, by edge counts and not
+/// by positions. Points that the filling needs on edges are inserted into the kept faces too, so a triangle
+/// may become several. Reversed edges give the same triangles in opposite orientation, except triangles
+/// without area between points at the same position.
 ///
-/// Attributes: walls have their own as caps of clip have. Of a mesh that was open, only edges on the outline
-/// count, and contours that do not close are left and reported. Throws UnclosedWalls (stage, E-CROP-CAP) for
-/// a closed mesh when the walls cannot be completed.
+/// Attributes: walls have their own, like caps of clip. In a mesh that was open, only edges on the outline
+/// count; contours that do not close are left open and reported. Throws UnclosedWalls (stage, E-CROP-CAP) if
+/// a closed mesh's walls cannot be completed.
 WalledCrop close_crop(Mesh kept, const Footprint& footprint, const WallSettings& settings);
 
 } // namespace facetmill

@@ -1,7 +1,7 @@
-// In the error: over a face each number of an attribute is g.p + d. With the value s at a vertex, the faces
-// that it stands for are off by the sum of area * (g.p + d - s)^2; the best s is the mean, and what is left
-// then is a quadric in p again. After H. Hoppe, 'New quadric metric for simplifying meshes with appearance
-// attributes' (1999).
+// Attributes in the error: over a face, each number of an attribute is the linear function g.p + d. Let s be
+// the value at a vertex. The faces that the vertex represents then differ from it by the sum of area * (g.p +
+// d - s)^2. The mean is the best s, and the remaining error is again a quadric in p. After H. Hoppe, 'New
+// quadric metric for simplifying meshes with appearance attributes' (1999).
 
 #include "geometry/simplify/attributes.hpp"
 
@@ -13,13 +13,13 @@ namespace facetmill::simplification {
 
 namespace {
 
-// Faces with less height than this share of their longest edge say nothing about gradients.
+// Faces with less height than this share of their longest edge do not contribute gradients.
 constexpr double least_height_share = 1e-3;
 constexpr std::size_t max_sets = 2;        // of UVs
 constexpr std::size_t skin_channels = 4;   // of the projection of skin weights
-constexpr double share_of_diagonal = 0.01; // that a difference of 1 counts as, but for UVs
+constexpr double share_of_diagonal = 0.01; // that a difference of 1 counts as, except for UVs
 
-/// Numbers of an attribute, or of a projection, that enter the error.
+/// The numbers of an attribute, or of its projection, that contribute to the error.
 struct Channels {
     const Attribute* of = nullptr;
     const Attribute* joints = nullptr; ///< of skin weights
@@ -31,7 +31,7 @@ Index element_of(const Mesh& mesh, const Attribute& a, Index corner) {
     return a.domain == Domain::wedge ? mesh.corners[corner] : mesh.vertex(corner);
 }
 
-/// How long a unit of texture is on the surface, on average: 0 when the texture has no area.
+/// The average surface length of a unit of texture; 0 when the texture has no area.
 double length_of_uv(const Mesh& mesh, const Attribute& uv, double scale) {
     struct Areas {
         double surface = 0, texture = 0;
@@ -105,9 +105,9 @@ class Values {
         count_ += c.count;
     }
 
-    /// Every joint has a place in four dimensions, in [-1, 1] each; differences of weights keep their size on
-    /// average (W. Johnson and J. Lindenstrauss, 'Extensions of Lipschitz mappings into a Hilbert space',
-    /// 1984).
+    /// Projects skin weights: every joint has a fixed random point in [-1, 1]^4. Differences of weights keep
+    /// their size on average (W. Johnson and J. Lindenstrauss, 'Extensions of Lipschitz mappings into a
+    /// Hilbert space', 1984).
     static void project(const Channels& c, Index e, double* out) {
         for (std::size_t k = 0; k < skin_channels; ++k) out[k] = 0;
         for (int i = 0; i < c.of->components; ++i) {
@@ -123,10 +123,10 @@ class Values {
     std::size_t count_ = 0;
 };
 
-/// The vertex or wedge whose error a corner adds to.
+/// The vertex or wedge that collects the error of a corner.
 Index element(const State& s, Index corner) { return s.has_seams() ? s.wedge[corner] : s.tri[corner]; }
 
-/// What a face says: area times the squares, and area times each gradient.
+/// Adds a face's terms: area times the squares, and area times each gradient.
 class FaceGradients {
   public:
     FaceGradients(const State& s, const Values& values)
@@ -170,9 +170,9 @@ class FaceGradients {
     std::vector<double> sums;
 };
 
-// What becomes of attributes: from the shape back to a mesh, and from the log to the attributes.
+// Attributes of the result: from the shape back to a mesh, and from the log to the attributes.
 
-/// A point as a mix of up to three elements; weight 0 for those not needed.
+/// A point as a mix of up to three elements; unused elements have weight 0.
 struct Mix {
     std::array<Index, 3> of{none, none, none};
     std::array<double, 3> weight{1, 0, 0};
@@ -210,12 +210,11 @@ std::array<double, 3> nearest_on_triangle(const Vec3& p, const std::array<Vec3, 
     return best;
 }
 
-/// Follows the elements of one domain (vertices or wedges) from the mesh that came in to the one that goes
-/// out.
+/// Maps the elements of a domain (vertices or wedges) from the input mesh to the result.
 class Followed {
   public:
-    /// survivors: the old element of each new one; vertex_of: the new vertex of each; element: the old one at
-    /// a corner.
+    /// survivors: the old element of each new element; vertex_of: the new vertex of each; element: the old
+    /// element at a corner.
     template <class Element>
     Followed(const Shape& s, const Mesh& from, const Log& log, std::size_t old_count,
              const std::vector<Index>& survivors, const std::vector<Index>& vertex_of,
@@ -249,14 +248,14 @@ class Followed {
   private:
     bool moved(Index e) const { return s_.moved[vertex_of_[e]] != 0; }
 
-    /// The new element that each old one became part of, from the last merge to the first.
+    /// Finds the new element that each old one merged into, going from the last merge to the first.
     void find_owners(std::size_t old_count, const std::vector<Merge>& merges) {
         owner_.assign(old_count, none);
         for (std::size_t e = 0; e < survivors_.size(); ++e) owner_[survivors_[e]] = static_cast<Index>(e);
         for (auto m = merges.rbegin(); m != merges.rend(); ++m) owner_[m->b] = owner_[m->a];
     }
 
-    /// Calls body(new element) for each moved one that a face had part in, each once.
+    /// Calls body(new element) once for each moved element that contains a corner of the face.
     template <class Body>
     void owners_of(Index f, Body&& body) const {
         const auto owner = [&](Index k) { return owner_[corner_element_[3 * f + k]]; };
@@ -300,8 +299,8 @@ class Followed {
         best.weight = w;
     }
 
-    /// The feature edges of a face that lead from an element of e; from the lower vertex, so that both sides
-    /// of a seam get the same numbers.
+    /// Tries the feature edges of a face that start at an element of e. They run from the lower vertex, so
+    /// that both sides of a seam get the same numbers.
     void try_lines(Index e, Index f, const Vec3& p, Mix& best) const {
         for (Index k = 0; k < 3; ++k) {
             Index a = 3 * f + k, b = 3 * f + (k + 1) % 3;
@@ -315,7 +314,7 @@ class Followed {
         }
     }
 
-    /// The heaviest first: what cannot be mixed comes from it.
+    /// Puts the element with the largest weight first: attributes that cannot be mixed come from it.
     static void order(Mix& m) {
         for (const std::size_t k : {1u, 2u}) {
             if (!(m.weight[k] > m.weight[0])) continue;
@@ -329,11 +328,10 @@ class Followed {
     const std::vector<std::uint8_t>& features_; ///< see Log::features
     const std::vector<Index>&survivors_, &vertex_of_;
     std::vector<Index> owner_, corner_element_; ///< old elements -> new ones; corners -> old elements
-    std::vector<Index> begin_, faces_;          ///< of each new element: faces that had part in it
+    std::vector<Index> begin_, faces_;          ///< of each new element: the faces that contributed to it
 };
 
-/// Fills corners and wedge_vertex; returns the wedges of the input that survive, in the order of the new
-/// ones.
+/// Fills corners and wedge_vertex; returns the surviving wedges of the input, in the order of the new wedges.
 std::vector<Index> number_wedges(Mesh& to, const Shape& s, std::size_t old_wedges) {
     if (!s.has_seams()) {
         to.corners = s.tri;
@@ -359,14 +357,14 @@ Provenance copies(std::vector<Index> old) {
     return element_provenance;
 }
 
-/// The same number for each: vertex v is vertex v.
+/// Maps each number to itself.
 std::vector<Index> identity(std::size_t n) {
     std::vector<Index> list(n);
     parallel_for(n, [&](std::size_t i) { list[i] = static_cast<Index>(i); });
     return list;
 }
 
-/// Where the vertices of the shape are from.
+/// The sources of the shape's vertices.
 Provenance vertex_provenance(const Shape& s, const Mesh& from, const Log& log) {
     std::vector<Merge> merges;
     merges.reserve(log.steps.size());
@@ -376,7 +374,7 @@ Provenance vertex_provenance(const Shape& s, const Mesh& from, const Log& log) {
         .element_provenance();
 }
 
-/// Where its wedges are from: of wedge_vertex, and old ones.
+/// The sources of the shape's wedges, given wedge_vertex and the old wedges.
 Provenance wedge_provenance(const Shape& s, const Mesh& from, const Log& log,
                             const std::vector<Index>& wedges, const std::vector<Index>& wedge_vertex) {
     return Followed(s, from, log, from.wedge_count(), wedges, wedge_vertex, log.wedges,
@@ -396,7 +394,7 @@ std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
     const std::size_t size = 4 * error.channels;
     error.squares.resize(elements);
     error.sums.resize(size * elements);
-    // Each vertex looks at its own faces, so that no two workers meet at an element.
+    // Each vertex visits its own faces, so no two workers touch the same element.
     parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
         FaceGradients face(s, values);
         for (std::size_t v = begin; v < end; ++v)

@@ -1,34 +1,35 @@
 #pragma once
-// Attributes: what they weigh in the error, and what becomes of them.
+// Attributes: their weight in the error, and their values in the result.
 
 #include "geometry/simplify/state.hpp"
 
 namespace facetmill::simplification {
 
-/// What the attributes of the mesh add to the error; none when nothing is weighed. normals: whether its
-/// normals mean anything.
+/// The attributes' part of the error; empty when no attribute is weighed. normals: false when the normals of
+/// the mesh carry no information.
 std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
                                               const AttributeWeights& weights, bool normals);
-/// What elements a and b would pay together at p, as a quadric of p. Its weight is not the planes'.
+/// The attribute error of merging elements a and b at p, as a quadric of p. Its weight does not include the
+/// weight of the planes.
 Quadric residual(const AttributeError& error, Index a, Index b);
-/// a takes over what b has.
+/// Adds the error sums of b to a.
 void join(AttributeError& error, Index a, Index b);
 
-/// Whether anything but positions and faces must be followed.
+/// True if the mesh has attributes besides positions and faces.
 bool carries_attributes(const Mesh& mesh);
 
 struct Finished {
     Mesh mesh;
     AttributeChanges changes;
-    std::vector<Index> wedges; ///< of the input that are left, in the mesh's order; empty without seams
+    std::vector<Index> wedges; ///< surviving wedges of the input, in the mesh's order; empty without seams
 };
-/// The mesh that a shape stands for, with its attributes. log: how the shape came about; none when `from`
-/// carries no attributes.
+/// Builds the mesh of a shape, with its attributes. log: the collapses that led to the shape; null when
+/// `from` carries no attributes.
 ///
-/// The attributes of a vertex that moved are those of the surface that came in at the nearest point of the
-/// faces around all the vertices that went into it; of a vertex on a feature line, at the nearest point of
-/// that line. So a texture cannot slide farther than the surface moves, both sides of a seam are taken at the
-/// same place, and nothing is blurred by mixing mixtures. (Mixing the two ends at every collapse drifted.)
+/// A moved vertex gets the attributes of the input surface, at the nearest point of the faces around all
+/// vertices merged into it. On a feature line it uses the nearest point of that line. So a texture cannot
+/// slide farther than the surface moves, and both sides of a seam are sampled at the same point. Repeated
+/// mixing does not blur the values either. (Mixing the two ends at every collapse drifted.)
 Finished finish(const Shape& shape, const Mesh& from, const Log* log);
 
 } // namespace facetmill::simplification

@@ -1,9 +1,9 @@
-// Bounds on what simplification does to the surface: max_error while collapsing and afterwards, and the
-// limits that keep it from running into itself.
+// Bounds on the surface error of simplification: max_error during and after the collapses, and the limits
+// that avoid self-intersections.
 //
-// While collapsing, points of the surface that came in are followed from face to face. All collapses are
-// logged; if the deviation that is measured in the end is above the bound, the log is cut by bisection. Every
-// beginning of it is a mesh, so nothing is run again.
+// During the collapses, points of the input surface are followed from face to face. All collapses are logged.
+// If the final deviation exceeds the bound, the log is cut by bisection. Every prefix of the log is a mesh,
+// so nothing is run again.
 
 #include "geometry/simplify/methods.hpp"
 
@@ -22,18 +22,18 @@ namespace facetmill::simplification {
 
 namespace {
 
-// Of the bound, for what is guarded while collapsing: the vertices as they came. Between them, and seen from
-// the new surface, the deviation is a little larger.
+// The share of the bound that the collapses may use, because only the input vertices are checked. Between
+// them, and measured from the new surface, the deviation is a little larger.
 constexpr double guarded_share = 0.9;
-// A face as near to a point as this share of the bound (squared) is not compared with others.
+// If a face is closer to a point than this share of the bound (squared), other faces are not compared.
 constexpr double near_enough = 0.01;
-// Of a face that takes more points, the centres are dropped: where a face stands for so many, the centres are
-// as near to it as the vertices around them.
+// A face that takes more points drops the centres. It replaces so many faces that their centres are as close
+// to it as the vertices around them.
 constexpr Index many_points = 256;
-constexpr float share_left = 1.0f / 4; // of a squared error where faces cross: half the distance
+constexpr float share_left = 1.0f / 4; // for a squared error where faces intersect: half the distance
 
 /// The vertices of the surface and the centres of its faces, each with one of its faces. input: the tree of
-/// the mesh that the state was laid out of, whose faces are numbered as in that.
+/// the mesh that the state was built from; the faces keep that mesh's numbers.
 FollowedPoints follow_points(const State& s, const Mesh& from, const FaceTree& input) {
     const std::size_t vertices = s.vertex_slots(), faces = s.face_slots();
     FollowedPoints f{.input = &input, .vertices = vertices};
@@ -63,7 +63,7 @@ void for_faces(const Around& r, Body&& body) {
         if (!k.has(r.a)) body(k);
 }
 
-/// Lays out the faces that stay, with the new vertex.
+/// Prepares the surviving faces, with the new vertex.
 void lay_fan(const State& s, Around& r, const Vec3& to) {
     const FollowedPoints& followed = *s.bounds.followed;
     for_faces(r, [&](const RingCorner& k) { fetch_soon(followed.first[k.corner / 3]); });
@@ -87,11 +87,11 @@ void lay_fan(const State& s, Around& r, const Vec3& to) {
             fetch_soon(followed.points[first]);
     });
     const double farthest = std::sqrt(followed.farthest);
-    r.bounds.begin(to, reach + farthest, farthest); // points are as near to the faces as they were
+    r.bounds.begin(to, reach + farthest, farthest); // points are at most as far from the faces as before
     for (const RingCorner& k : r.staying) r.bounds.add(s.at[k.next], s.at[k.before]);
 }
 
-/// The nearest of the faces that stay, or one that is near enough; none when all are too far.
+/// The nearest of the surviving faces, or any that is near enough; none when all are too far.
 Index taker_of(const State& s, const Around& r, const Vec3& to, const Vec3& p, std::size_t lane) {
     const double farthest = s.bounds.followed->farthest;
     const auto first = static_cast<Index>(r.bounds.nearest(lane));
@@ -112,7 +112,8 @@ Index taker_of(const State& s, const Around& r, const Vec3& to, const Vec3& p, s
     return least <= farthest ? taker : none;
 }
 
-/// Finds who takes the next points, up to four; false when nobody takes one, which is the next then.
+/// Finds the faces that take the next points, up to four. Returns false if no face takes a point; that point
+/// is then the next in the list.
 bool take_points(const State& s, Around& r, const Vec3& to) {
     std::array<Vec3, 4> at;
     const std::size_t begin = r.taken_by.size();
@@ -128,8 +129,8 @@ bool take_points(const State& s, Around& r, const Vec3& to) {
     return true;
 }
 
-/// Makes points[lost] the first of its face. firsts: how many of the points are the first of one; those of
-/// each list follow one another behind them.
+/// Makes points[lost] the first of its face's list. firsts: how many of the points are first in a list. The
+/// rest of each list follows them in one run.
 void move_to_front(FollowedPoints& followed, const Around& r, std::size_t firsts, std::size_t lost) {
     if (lost < firsts) return;
     const auto next = [&](std::size_t i) -> Index& { return followed.points[r.points[i]].next; };
@@ -144,8 +145,8 @@ void move_to_front(FollowedPoints& followed, const Around& r, std::size_t firsts
     });
 }
 
-/// Whether all points of the faces around are taken. The one that is not becomes the first of its face, and
-/// the first ones are asked first: so the next attempt nearby soon finds it.
+/// True if all points of the faces around are taken. A point that is not taken becomes the first of its face.
+/// First points are tested first, so the next attempt nearby soon fails at it.
 bool keeps_points(State& s, Around& r, const Vec3& to) {
     FollowedPoints& followed = *s.bounds.followed;
     r.points.clear();
@@ -176,7 +177,7 @@ bool keeps_points(State& s, Around& r, const Vec3& to) {
     return kept;
 }
 
-/// Of the centres among the points, the triangle of the nearest, in the order of the tree; none without one.
+/// The triangle of the nearest centre among the points, in the tree's order; none if there is no centre.
 Index triangle_near(const FollowedPoints& followed, std::span<const Index> points, const Vec3& place) {
     double least = HUGE_VAL;
     Index nearest = none;
@@ -190,8 +191,8 @@ Index triangle_near(const FollowedPoints& followed, std::span<const Index> point
     return nearest == none ? none : followed.triangles[nearest - followed.vertices];
 }
 
-/// Whether the new vertex and places on the faces at it are near the surface that came in: near a point of it
-/// that the face took, or else near any place.
+/// True if the new vertex and sample points on its faces are near the input surface. It tries the input
+/// points that the face took first, then the whole surface.
 bool is_near(const State& s, const Around& r, const Vec3& to) {
     constexpr unsigned at_vertex = 3u << FanBounds::places;
     const FollowedPoints& followed = *s.bounds.followed;
@@ -214,7 +215,7 @@ bool is_near(const State& s, const Around& r, const Vec3& to) {
     return (any & at_vertex) != 0 || reaches(to);
 }
 
-/// Whether one of the points is farther than `bound` from a surface; neighbours are looked at together.
+/// True if one of the points is farther than `bound` from a surface; tests neighbouring points together.
 bool any_beyond(std::span<const Vec3> points, GroupDistances& together, const FaceTree& tree, double bound,
                 Index& hint) {
     if (together.all_within(points, bound, hint)) return false;
@@ -227,7 +228,8 @@ bool any_beyond(std::span<const Vec3> points, GroupDistances& together, const Fa
     return false;
 }
 
-/// Whether a point of one surface (of those that the deviation samples) is farther than `bound` from another.
+/// True if a sample point of the first surface (as the deviation samples it) is farther than `bound` from the
+/// second.
 bool any_beyond(const Surface& surface, const FaceTree& tree, double bound,
                 const DeviationSettings& settings) {
     const auto samples = sample_area(surface, settings.samples, settings.seed);
@@ -251,18 +253,18 @@ bool any_beyond(const Surface& surface, const FaceTree& tree, double bound,
     return found;
 }
 
-/// The positions and faces alone, without vertices that no face uses.
+/// Positions and faces only, without unused vertices.
 Mesh bare_used(const Mesh& from) {
     Mesh out = bare(from);
     drop_unused(out);
     return out;
 }
 
-/// Where the vertices of an origin went by some beginning of a log.
+/// The movement of an origin's vertices through a prefix of a log.
 struct Moves {
-    std::vector<Index> root;         ///< of each vertex of the origin
-    std::vector<Vec3> at;            ///< of roots
-    std::vector<std::uint8_t> moved; ///< of roots
+    std::vector<Index> root;         ///< [vertices of the origin]
+    std::vector<Vec3> at;            ///< [roots]
+    std::vector<std::uint8_t> moved; ///< [roots]
 };
 
 Moves moves_after(const Origin& o, const Log& log, std::size_t steps) {
@@ -275,19 +277,19 @@ Moves moves_after(const Origin& o, const Log& log, std::size_t steps) {
         m.moved[a] |= !(m.at[a] == step.to);
         m.at[a] = step.to;
     }
-    for (std::size_t i = steps; i-- > 0;) // from the last, so that what a became is known
+    for (std::size_t i = steps; i-- > 0;) // backwards, so that the target of a is already known
         m.root[o.number[log.steps[i].b]] = m.root[o.number[log.steps[i].a]];
     return m;
 }
 
-/// Whether a face is still there: one that was flat from the start stays.
+/// True if a face survives; faces that were flat in the origin also do.
 bool stands(const Origin& o, const Moves& m, std::size_t f) {
     const Index a = o.shape.tri[3 * f], b = o.shape.tri[3 * f + 1], c = o.shape.tri[3 * f + 2];
     const Index x = m.root[a], y = m.root[b], z = m.root[c];
     return (x != y && y != z && z != x) || a == b || b == c || c == a;
 }
 
-/// The positions and faces after the first so many steps of the log.
+/// Positions and faces after the first `steps` steps of the log.
 Mesh bare_after(const Origin& o, const Mesh& from, const Log& log, std::size_t steps) {
     const Moves m = moves_after(o, log, steps);
     Mesh mesh;
@@ -302,7 +304,7 @@ Mesh bare_after(const Origin& o, const Mesh& from, const Log& log, std::size_t s
     return mesh;
 }
 
-/// The wedge that each of the input became by the first so many merges; empty without seams.
+/// The wedge that each input wedge became through the first `merges` merges; empty without seams.
 std::vector<Index> wedge_roots(const Shape& shape, const Log& log, std::size_t merges) {
     if (!shape.has_seams()) return {};
     std::vector<Index> root(*std::max_element(shape.wedge.begin(), shape.wedge.end()) + std::size_t{1});
@@ -311,15 +313,14 @@ std::vector<Index> wedge_roots(const Shape& shape, const Log& log, std::size_t m
     return root;
 }
 
-/// The longest beginning of the log, shorter than all of it, that was found good; to one percent of what is
-/// left.
+/// The longest proper prefix of the log that is within the bound, to one percent of the remaining vertices.
 std::size_t longest_good(const Origin& origin, const Mesh& from, const Log& log, const Judge& judge,
                          std::size_t& measurements) {
     const std::size_t vertices = origin.shape.vertex_slots();
     std::size_t good = 0, bad = log.steps.size();
     ProgressRounds rounds;
     while (bad - good > std::max<std::size_t>(1, (vertices - good) / 100)) {
-        // What is wrong is most likely near the end: there the errors are the largest.
+        // The cause is most likely near the end, where the errors are the largest.
         const std::size_t back =
             std::min((bad - good + 1) / 2, std::max<std::size_t>(1, (vertices - bad) / 4));
         const std::size_t middle = good == 0 ? bad - back : good + (bad - good) / 2;
@@ -330,7 +331,7 @@ std::size_t longest_good(const Origin& origin, const Mesh& from, const Log& log,
     return good;
 }
 
-/// Of each vertex of the input, the largest squared error of the steps that went into it.
+/// [vertices of the input] the largest squared error of the steps that merged it.
 std::vector<float> largest_errors(const Log& log, std::size_t vertices) {
     std::vector<float> largest(vertices, 0);
     for (const Step& step : log.steps)
@@ -349,7 +350,7 @@ void hand_over_points(State& s, const Around& around) {
     for_faces(around, [&](const RingCorner& k) { followed.first[k.corner / 3] = none; });
     std::array<Index, 2 * Ring::max_size> taken{};
     for (const Index taker : around.taken_by) ++taken[taker];
-    for (std::size_t i = around.points.size(); i-- > 0;) { // so that the first ones stay the first
+    for (std::size_t i = around.points.size(); i-- > 0;) { // backwards, so that first points stay first
         const Index taker = around.taken_by[i], face = around.staying[taker].corner / 3,
                     point = around.points[i];
         if (point >= followed.vertices && taken[taker] > many_points) continue;
@@ -452,7 +453,8 @@ std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& f
                 const Index v = shape.source[shape.tri[3 * face + k]];
                 wanted[v] = to_zero ? 0 : largest[v] * share_left;
             }
-    // What went into a vertex has its limit; from the last step, so that the change of a is known.
+    // Lowers the limit of every vertex that merged into the new one. Backwards, so that the change of a is
+    // known.
     for (auto step = log.steps.rbegin(); step != log.steps.rend(); ++step)
         wanted[step->b] = std::min(wanted[step->b], wanted[step->a]);
     for (std::size_t v = 0; v < limits.size(); ++v) limits[v] = std::min(limits[v], wanted[v]);

@@ -1,4 +1,5 @@
-// The method cluster: the vertices in each cell of a grid become one, placed where their planes meet best.
+// The method cluster: merges the vertices in each cell of a grid, and places the result where their planes
+// meet best.
 
 #include "geometry/simplify/methods.hpp"
 
@@ -11,14 +12,15 @@ namespace facetmill::simplification {
 namespace {
 
 constexpr std::uint32_t finest = 1u << 20; // cells along an axis
-// How strongly a representative is drawn to the mean of its vertices: enough that a flat cell's stays there.
+// How strongly a representative is pulled to the mean of its vertices: enough to keep it there in a flat
+// cell.
 constexpr double pull_to_mean = 1e-3;
 
-/// A grid's effect.
+/// The vertices and faces that a grid produces.
 struct Clusters {
-    std::vector<Index> root;  ///< of each vertex of the work: the first one in its cell
-    std::vector<Vec3> at;     ///< of roots
-    std::vector<Index> faces; ///< that stay, in order
+    std::vector<Index> root;  ///< [vertices of the work] the first vertex in the same cell
+    std::vector<Vec3> at;     ///< [roots]
+    std::vector<Index> faces; ///< the faces that stay, in order
     std::size_t vertices = 0; ///< cells
     double largest = 0;       ///< squared distance to the planes, the mean over a cell
 };
@@ -47,14 +49,14 @@ class Grid {
 
   private:
     std::uint64_t cell(double x) const {
-        const double at = (x + 1) / 2 * n_; // what is no number is in the first cell
+        const double at = (x + 1) / 2 * n_; // NaN is in the first cell
         return at > 0 ? std::min(static_cast<std::uint64_t>(std::min(at, 4e9)), std::uint64_t{n_} - 1) : 0;
     }
     std::uint32_t n_;
     int bits_;
 };
 
-/// Faces with three vertices in three cells; some of them may coincide.
+/// Counts faces with their vertices in three cells; some faces may coincide.
 std::size_t count_faces(const State& s, const Grid& grid) {
     std::vector<std::uint64_t> keys(s.vertex_slots());
     parallel_for(keys.size(), [&](std::size_t v) { keys[v] = grid.key(s.at[v]); });
@@ -71,7 +73,7 @@ std::size_t count_faces(const State& s, const Grid& grid) {
         [](std::size_t a, std::size_t b) { return a + b; });
 }
 
-/// The vertices by cell, and the cells.
+/// Sorts the vertices by cell, and finds the cells.
 std::vector<Cell> sort_cells(const State& s, const Grid& grid, std::vector<CellKey>& order) {
     order.resize(s.vertex_slots());
     parallel_for(order.size(), [&](std::size_t v) { order[v] = {grid.key(s.at[v]), static_cast<Index>(v)}; });
@@ -86,7 +88,7 @@ std::vector<Cell> sort_cells(const State& s, const Grid& grid, std::vector<CellK
     return cells;
 }
 
-/// Where the vertices of a cell meet. Returns the error, squared.
+/// Finds the position of a cell's vertex. Returns the error, squared.
 double place_cell(const State& s, const Grid& grid, std::span<const CellKey> members, Vec3& at) {
     const Index root = members.front().vertex;
     at = s.at[root];
@@ -106,7 +108,7 @@ double place_cell(const State& s, const Grid& grid, std::span<const CellKey> mem
     return q.weight > 0 ? q(at - from) / q.weight : 0;
 }
 
-/// A face by its three roots, from the lowest on; turned: against the order of the other two.
+/// A face by its three roots, starting at the lowest; turned: the other two are in descending order.
 struct Triple {
     Index low, middle, high;
     bool turned;
@@ -121,8 +123,8 @@ Triple triple_of(const State& s, const Clusters& c, Index f) {
     return {v[0], std::min(v[1], v[2]), std::max(v[1], v[2]), turned, f};
 }
 
-/// Of faces in one place the first that looks to the side of the majority; one to each side when there is
-/// none.
+/// Of several faces with the same vertices, keeps the first that faces to the majority's side. Without a
+/// majority it keeps one face for each side.
 void keep_some(std::span<const Triple> same, std::vector<Index>& faces) {
     const auto turned = std::count_if(same.begin(), same.end(), [](const Triple& t) { return t.turned; });
     const auto other = static_cast<std::ptrdiff_t>(same.size()) - turned;
@@ -134,7 +136,7 @@ void keep_some(std::span<const Triple> same, std::vector<Index>& faces) {
     if (other >= turned) first(false);
 }
 
-/// Sets the faces that stay: those with three roots, of several in one place at most one to each side.
+/// Finds the faces that stay: they have three roots. Among coincident faces, at most one for each side stays.
 void keep_faces(const State& s, Clusters& c) {
     std::vector<Triple> triples;
     for (Index f = 0; f < s.face_slots(); ++f) {
@@ -142,7 +144,7 @@ void keep_faces(const State& s, Clusters& c) {
         if (x != y && y != z && z != x) triples.push_back(triple_of(s, c, f));
     }
     const int bits = std::bit_width(s.vertex_slots());
-    radix_sort( // stable: faces stay in order where all three agree
+    radix_sort( // stable: faces with equal roots stay in order
         triples, [](const Triple& t) { return t.high; }, bits);
     radix_sort(
         triples, [](const Triple& t) { return (std::uint64_t{t.low} << 32) | t.middle; }, 32 + bits);
@@ -177,13 +179,13 @@ Clusters cluster(const State& s, const Grid& grid) {
     return c;
 }
 
-/// Follows an element of a forest to its root, and shortens the way.
+/// Finds an element's root in a forest, and shortens the path.
 Index find(std::vector<Index>& parent, Index e) {
     while (parent[e] != e) e = parent[e] = parent[parent[e]];
     return e;
 }
 
-/// Wedges that faces join within a cell become one: an island of a texture stays apart from the others.
+/// Merges wedges that faces connect within a cell; different islands of a texture stay separate.
 std::vector<Index> join_wedges(const State& s, const Clusters& c) {
     std::vector<Index> parent(
         s.has_seams() ? *std::max_element(s.wedge.begin(), s.wedge.end()) + std::size_t{1} : 0);
@@ -198,7 +200,7 @@ std::vector<Index> join_wedges(const State& s, const Clusters& c) {
     return parent;
 }
 
-/// The clusters as a shape; `log` gets what went into what.
+/// The clusters as a shape; adds the merges to `log`.
 Shape shape_of(const State& s, const Clusters& c, std::optional<Log>& log) {
     const std::vector<Index> wedges = join_wedges(s, c);
     Shape shape{.frame = s.frame, .at = s.at, .source = s.source, .moved = s.moved};
@@ -235,8 +237,8 @@ Mesh bare_mesh(const State& s, const Clusters& c) {
     return mesh;
 }
 
-/// The finest grid found whose count is at most so much. Counts grow with the square of the cells along an
-/// axis, which tells where to look.
+/// The finest grid found whose count does not exceed a limit. Counts grow with the square of the cells along
+/// an axis, which guides the search.
 template <class Count>
 std::uint32_t finest_within(const State& s, std::size_t most, Count&& count) {
     if (most == 0) return 1;
@@ -254,7 +256,7 @@ std::uint32_t finest_within(const State& s, std::size_t most, Count&& count) {
     return good;
 }
 
-/// As fine as the goal, one or the other part of it, allows.
+/// The finest grid that meets either the face or the vertex goal.
 std::uint32_t finest_within(const State& s, const Goal& goal) {
     std::vector<CellKey> order;
     return std::max(
@@ -262,7 +264,7 @@ std::uint32_t finest_within(const State& s, const Goal& goal) {
         finest_within(s, goal.vertices, [&](const Grid& grid) { return sort_cells(s, grid, order).size(); }));
 }
 
-/// No clusters: every vertex by itself.
+/// No clusters: every vertex is its own root.
 Clusters unclustered(const State& s) {
     Clusters c;
     c.at = s.at;
@@ -272,7 +274,7 @@ Clusters unclustered(const State& s) {
     return c;
 }
 
-/// The coarsest grid found, of steps by a third, whose shape is within the bound; 0 when none is.
+/// The coarsest grid whose shape is within the bound, in steps of a third; 0 when none is.
 std::uint32_t coarsest_within(const State& s, const Judge& judge, double bound, Ended& end) {
     const auto good = [&](std::uint32_t n) {
         const Clusters c = cluster(s, Grid(n));

@@ -10,10 +10,11 @@ namespace facetmill::simplification {
 
 namespace {
 
-constexpr double least_cosine = 0.5;              // no face turns by more than 60 degrees
-constexpr std::uint8_t outside = 64, later = 128; // of the territory, or not yet: no reasons that are kept
+constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
+constexpr std::uint8_t outside = 64,
+                       later = 128; // outside the territory, or postponed: these reasons are not stored
 
-/// The live faces at a vertex; false when there are too many.
+/// Collects the live faces at a vertex; false when there are too many.
 bool gather(const State& s, Index v, Ring& ring) {
     std::size_t size = 0;
     for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c]) {
@@ -26,7 +27,7 @@ bool gather(const State& s, Index v, Ring& ring) {
     return true;
 }
 
-/// A set of vertices that says most of the time at once that one is not in it.
+/// A set of vertices with a fast negative answer for most lookups.
 class Vertices {
   public:
     explicit Vertices(const Ring& ring) : ring_(ring) {
@@ -43,15 +44,15 @@ class Vertices {
     std::uint64_t hints_ = 0;
 };
 
-// Where topology may change: faces that lie back to back go, holes close, components vanish.
+// Topology changes: back-to-back faces are removed, holes close, components vanish.
 
-/// Takes a face out, with the costs of its edges.
+/// Removes a face and the costs of its edges.
 void kill_face(State& s, Index f) {
     s.tri[3 * f] = none;
     for (Index c = 3 * f; c < 3 * f + 3; ++c) s.edges.cost[c] = never;
 }
 
-/// Whether a vertex that stays might lose its last face.
+/// True if a vertex that must stay would lose its last face.
 bool loses_corner(const State& s, const Around& r) {
     const auto stays = [&](Index v) { return s.features->kind[v] >= Kind::corner; };
     for (int i = 0; i < r.sides; ++i)
@@ -63,11 +64,11 @@ bool loses_corner(const State& s, const Around& r) {
     return false;
 }
 
-/// A vertex without faces loses its list, and is counted once.
+/// Clears the lists of vertices that lost all faces, and counts each once.
 class Bare {
   public:
     Bare(State& s, Index a) : s_(s), a_(a) {}
-    std::size_t vertices = 1; ///< that went: the one that was collapsed, and those that were bare
+    std::size_t vertices = 1; ///< removed: the collapsed vertex, and vertices without faces
 
     void look(Index v) {
         if (s_.rings.first[v] == none) {
@@ -91,7 +92,7 @@ class Bare {
     bool a_counted_ = false;
 };
 
-/// A vertex of a feature line that is gone moves freely.
+/// A vertex moves freely once its feature line is gone.
 void free_if_bare(State& s, Index v) {
     if (s.features->kind[v] != Kind::curve) return;
     for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c])
@@ -99,7 +100,7 @@ void free_if_bare(State& s, Index v) {
     s.features->kind[v] = Kind::smooth;
 }
 
-/// The edge from a to x is no boundary when two faces run along it either way.
+/// Clears the boundary flag of the edge from a to x if faces run along it in both directions.
 void unflag_closed(State& s, Index a, Index x) {
     Index out = none, in = none;
     for (Index c = s.rings.first[a]; c != none; c = s.rings.next[c]) {
@@ -113,8 +114,8 @@ void unflag_closed(State& s, Index a, Index x) {
     for (const Index v : {a, x}) free_if_bare(s, v);
 }
 
-/// Finds the faces that would lie back to back, which go both; false when the collapse would double a face,
-/// take a corner's last one, or leave points with nowhere to go.
+/// Finds pairs of faces that would lie back to back, to remove both. Returns false if the collapse would
+/// double a face, remove a corner's last face, or leave points without a face.
 bool find_cancelled(const State& s, Around& r) {
     r.cancellations = 0;
     for (const RingCorner& k : r.at_b) {
@@ -130,14 +131,14 @@ bool find_cancelled(const State& s, Around& r) {
     return !loses_corner(s, r);
 }
 
-/// Whether no face at either end would be left.
+/// True if neither end would have a face left.
 bool vanishes(const State& s, const Around& r) {
     const auto going = static_cast<std::size_t>(r.sides + r.cancellations);
     return !s.bounds.followed && r.at_a.size == going && r.at_b.size == going;
 }
 
-/// After the edit: takes away the faces that lie back to back, tells closed holes and vertices that have no
-/// face any more. faces: that went already. Returns all faces and vertices that went.
+/// Updates the topology after the collapse: removes back-to-back faces, updates closed holes, and handles
+/// vertices without faces. faces: removed before. Returns the total numbers of removed faces and vertices.
 std::pair<std::size_t, std::size_t> settle_topology(State& s, const Around& r, std::size_t faces) {
     const auto pairs = std::span(r.cancelled).first(static_cast<std::size_t>(r.cancellations));
     const auto sides = std::span(r.side).first(static_cast<std::size_t>(r.sides));
@@ -160,12 +161,12 @@ std::pair<std::size_t, std::size_t> settle_topology(State& s, const Around& r, s
     return {faces + 2 * pairs.size(), bare.vertices};
 }
 
-/// An edge about to go: r.b into r.a.
+/// An edge to collapse: r.b merges into r.a.
 class Collapse {
   public:
     Collapse(State& s, Around& r) : s_(s), r_(r) {}
 
-    /// 0, or why the collapse to `to` is not allowed.
+    /// 0, or the reason why the collapse to `to` is not allowed.
     std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary) {
         if (!gather(s_, r_.a, r_.at_a) || !gather(s_, r_.b, r_.at_b)) return blocked_topology;
         if (!is_inside()) return outside;
@@ -184,7 +185,7 @@ class Collapse {
         return !s_.bounds.followed || points_stay_near(s_, r_, to) ? 0 : blocked_error;
     }
 
-    /// Makes it. Returns the faces and vertices that went.
+    /// Performs the collapse. Returns the numbers of removed faces and vertices.
     std::pair<std::size_t, std::size_t> make(const Vec3& to, double error, Collapses& log) {
         if (s_.bounds.followed) hand_over_points(s_, r_);
         if (s_.has_seams()) hand_over_wedges(log);
@@ -200,9 +201,9 @@ class Collapse {
         return r_.changes_topology ? settle_topology(s_, r_, faces) : std::pair{faces, std::size_t{1}};
     }
 
-    /// Prices the edges at a, where b is now too, and tells the vertices around.
+    /// Updates the costs of the edges at a, which now include b's, and marks the vertices around as dirty.
     void price(Pricer& pricer) {
-        if (r_.changes_topology) { // more went than the faces on the edge
+        if (r_.changes_topology) { // more faces were removed than the faces on the edge
             if (!gather(s_, r_.a, r_.at_a)) return;
             r_.at_b.size = 0;
         }
@@ -243,7 +244,7 @@ class Collapse {
         }
     }
 
-    /// How many vertices both ends have as neighbours; 8 for more.
+    /// The number of common neighbours of both ends; at most 8.
     int common_neighbours() const {
         const Vertices near_a(r_.at_a);
         std::array<Index, 8> seen;
@@ -259,9 +260,9 @@ class Collapse {
         return static_cast<int>(count);
     }
 
-    /// The ends' links meet in nothing but the opposite vertices (T. Dey, H. Edelsbrunner, S. Guha and
-    /// D. Nekhayev, 'Topology preserving edge contraction', 1999); the outside of a boundary, and both sides
-    /// of a feature line, count as one more vertex.
+    /// The links of the ends meet only in the opposite vertices (T. Dey, H. Edelsbrunner, S. Guha and D.
+    /// Nekhayev, 'Topology preserving edge contraction', 1999). The outside of a boundary, and both sides of
+    /// a feature line, count as an additional vertex.
     bool link_condition(bool along) {
         r_.changes_topology = common_neighbours() != r_.sides || r_.sides > 2 ||
                               (r_.sides == 2 && joined(r_.at_a) && joined(r_.at_b)); // the last tetrahedron
@@ -270,12 +271,12 @@ class Collapse {
                 const auto both = edge_flags(side.at_a, side.opposite) & edge_flags(side.at_b, side.opposite);
                 if (!(both & feature_edge)) continue;
                 r_.changes_topology = true;
-                if (!(both & boundary_edge)) return false; // of a seam or border, not a lone triangle
+                if (!(both & boundary_edge)) return false; // part of a seam or border, not a lone triangle
             }
         return s_.rules.changes_topology || (!r_.changes_topology && keeps_non_manifold_edges());
     }
 
-    /// Whether a held vertex would get an edge to another.
+    /// True if a vertex marked in `apart` would get a new edge to another marked vertex.
     bool joins_held() const {
         const auto held = [this](Index v) { return (*s_.rules.apart)[s_.source[v]] != 0; };
         if (!held(r_.a)) return false;
@@ -286,8 +287,8 @@ class Collapse {
         });
     }
 
-    /// The two edges to an opposite vertex become one, between the faces of both that stay: an edge of more
-    /// than two faces must keep their number.
+    /// The two edges to an opposite vertex merge into an edge with the remaining faces of both. An edge of
+    /// more than two faces must keep their number.
     bool keeps_non_manifold_edges() const {
         const std::vector<Kind>& kind = s_.features->kind;
         if (kind[r_.a] != Kind::pinned && kind[r_.b] != Kind::pinned) return true;
@@ -301,7 +302,7 @@ class Collapse {
         });
     }
 
-    /// Whether a face of the ring has both opposite vertices.
+    /// True if a face of the ring contains both opposite vertices.
     bool joined(const Ring& ring) const {
         const Index x = r_.side[0].opposite, y = r_.side[1].opposite;
         return std::any_of(ring.begin(), ring.end(), [&](const RingCorner& k) {
@@ -309,12 +310,12 @@ class Collapse {
         });
     }
 
-    /// Flags of the edge of c's face between c's vertex and v.
+    /// The flags of the edge between c's vertex and v in the face of c.
     std::uint8_t edge_flags(Index c, Index v) const {
         return s_.edges.flags[s_.tri[after(c)] == v ? c : before(c)];
     }
 
-    /// Finds for each wedge at b the one at a that takes its faces.
+    /// Finds the wedge at a that takes the faces of each wedge at b.
     bool pair_wedges(bool a_stays) {
         pairs_ = 0;
         for (const Side& side : sides()) {
@@ -324,7 +325,7 @@ class Collapse {
                 if (to != known) return false;
                 continue;
             }
-            // Two wedges may end in one only when that one keeps its own attributes.
+            // Two wedges may merge into the same wedge only if that wedge keeps its own attributes.
             if (!a_stays)
                 for (int k = 0; k < pairs_; ++k)
                     if (pair_[k][0] == to) return false;
@@ -347,7 +348,7 @@ class Collapse {
         return none;
     }
 
-    /// Whether the faces of the ring that stay keep their side when v moves.
+    /// True if the remaining faces of the ring keep their orientation when v moves.
     bool keeps_facing(Index v, const Ring& ring, Index other, const Vec3& to) const {
         const Vec3& from = s_.at[v];
         for (const RingCorner& k : ring) {
@@ -372,14 +373,14 @@ class Collapse {
         return least_height * std::max({dot(x - z, x - z), dot(y - z, y - z), dot(y - x, y - x)});
     }
 
-    /// Whether two normals are near enough.
+    /// True if the angle between two normals is small enough.
     static bool is_near(const Vec3& old, const Vec3& now) {
         const double turn = dot(old, now);
         return turn > 0 && turn * turn >= least_cosine * least_cosine * dot(old, old) * dot(now, now);
     }
 
-    /// A face that was flat has no side to keep: when it gets an area, it is to face as its neighbour across
-    /// the edge that does not move, if that one has a side.
+    /// A flat face has no orientation to keep. When it gets an area, it must face like its neighbour across
+    /// the unmoved edge, if that neighbour has an orientation.
     bool faces_as_across(const RingCorner& k, const Vec3& now) const {
         for (Index c = s_.rings.first[k.before]; c != none; c = s_.rings.next[c]) {
             if (!s_.live(c / 3) || s_.tri[after(c)] != k.next) continue;
@@ -401,7 +402,7 @@ class Collapse {
         for (const RingCorner& k : r_.at_b) s_.wedge[k.corner] = taker(s_.wedge[k.corner]);
     }
 
-    /// a's list becomes the corners that stay, b's becomes empty.
+    /// Moves the surviving corners into a's list, and clears b's list.
     void join_lists() {
         Index* link = &s_.rings.first[r_.a];
         const auto add = [&](Index c) {
@@ -419,7 +420,7 @@ class Collapse {
         s_.rings.first[r_.b] = none;
     }
 
-    /// The edges from a and b to the opposite vertex become one: a feature if either was.
+    /// The edges from a and b to the opposite vertex merge: the result is a feature if either was.
     void pass_on_features(const Side& side) {
         const auto either = static_cast<std::uint8_t>(
             (edge_flags(side.at_a, side.opposite) | edge_flags(side.at_b, side.opposite)) &

@@ -1,10 +1,10 @@
-// The vertices are cut into stretches of the Morton curve. Edges whose surroundings lie within one stretch
-// are collapsed by one worker per stretch; then those that reach into one other, by one worker per pair of
-// stretches, pairs without a stretch in common at a time; then the few others by one worker. No two workers
-// ever touch the same vertex or face, and the result does not depend on how many there are: a worker asks
-// about the surroundings of vertices of its stretches only, and changes nothing unless all of them are there.
-// Where an edge of the surroundings leads from one stretch to another, only the worker of both ever changes
-// its ends and their faces.
+// The vertices are cut into chunks of the Morton curve, and the edges are collapsed in three rounds. First,
+// one worker per chunk handles the edges whose surroundings lie within the chunk. Then one worker per pair of
+// chunks handles the edges that reach into one other chunk; concurrent pairs have no chunk in common. Finally
+// one worker handles the few other edges. No two workers ever touch the same vertex or face, and the result
+// does not depend on the number of workers. A worker reads the surroundings of vertices in its own chunks
+// only, and changes nothing unless they are complete. If an edge of the surroundings connects two chunks,
+// only the worker of both chunks changes its ends and their faces.
 
 #include "geometry/simplify/collapse_chunks.hpp"
 
@@ -16,7 +16,7 @@ namespace facetmill::simplification {
 
 namespace {
 
-constexpr int stretches_bits = 4;                   // of a small surface: 8 to 16 stretches
+constexpr int stretches_bits = 4;                   // for a small surface: 8 to 16 chunks
 constexpr int least_stretch = 11, max_stretch = 13; // bits: 2048 to 8192 vertices
 
 /// A bijection of 32 bits.
@@ -26,26 +26,27 @@ std::uint32_t scattered(std::uint32_t x) {
     return x ^ (x >> 16);
 }
 
-/// A candidate that reaches into two stretches.
+/// A candidate that reaches into two chunks.
 struct Crossing {
-    Index low, high; ///< the stretches
+    Index low, high; ///< the chunks
     Candidate edge;
     bool operator<(const Crossing& o) const {
         return low != o.low ? low < o.low : high != o.high ? high < o.high : edge < o.edge;
     }
 };
 
-/// The edges that one worker looks at, and what came of it.
+/// The edges of one worker, and the results.
 struct Share {
     Territory territory;
     std::vector<Candidate> edges{};
-    std::vector<Crossing> crossing{}; ///< reach from the only stretch of the territory into one other
-    std::vector<Candidate> rest{};    ///< reach farther
+    std::vector<Crossing> crossing{}; ///< reach from the only chunk of the territory into one other
+    std::vector<Candidate> rest{};    ///< reach into more chunks
     std::vector<Candidate> later{};   ///< change the topology
     Tally tally{};
 };
 
-/// Notes an edge that reaches beyond the territory of the share, as far as the surroundings say.
+/// Classifies an edge that reaches beyond the share's territory, by the part of its surroundings that is
+/// known.
 void hand_on(Share& share, const Candidate& edge, const Around& around) {
     const Territory& mine = share.territory;
     const auto stretch = [&](Index v) { return v / mine.size; };
@@ -65,7 +66,7 @@ void hand_on(Share& share, const Candidate& edge, const Around& around) {
         share.crossing.push_back({std::min(home, other), std::max(home, other), edge});
 }
 
-/// Collapses the edges of a share in order of cost, at most so many, none at a vertex that the pass touched.
+/// Collapses the edges of a share in order of cost: at most `most`, and at most once per vertex in a pass.
 void collapse_share(State& s, Share& share, std::size_t most) {
     if (share.edges.empty()) return;
     std::sort(share.edges.begin(), share.edges.end());
@@ -80,8 +81,8 @@ void collapse_share(State& s, Share& share, std::size_t most) {
         const Attempt attempt = collapse(s, k.corner, *around, pricer, share.tally);
         if (attempt == Attempt::outside) hand_on(share, k, *around);
         if (attempt == Attempt::later) share.later.push_back(k);
-        // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
-        // again.
+        // A collapse normally removes two faces and one vertex. At a boundary it removes one face, so another
+        // pass may be needed.
         if (share.tally.collapses >= most) break;
     }
 }
@@ -99,7 +100,7 @@ class Stretches {
                     crossing_.push_back(crossing(k));
     }
 
-    /// Each stretch by itself, then pairs of them, then the rest.
+    /// Handles each chunk, then pairs of chunks, then the rest.
     PassTotals run(const std::function<std::size_t()>& most) {
         work_all(shares_);
         std::sort(crossing_.begin(), crossing_.end());
@@ -137,11 +138,10 @@ class Stretches {
         totals_.later.insert(totals_.later.end(), share.later.begin(), share.later.end());
     }
 
-    /// Groups the crossing edges by pairs of stretches, and those into turns in which no stretch occurs
-    /// twice.
+    /// Groups the crossing edges by pairs of chunks, and the pairs into turns in which no chunk occurs twice.
     std::vector<std::vector<Share>> in_turns() {
         std::vector<std::vector<Share>> turns;
-        std::vector<std::uint64_t> busy(shares_.size()); // in which turns
+        std::vector<std::uint64_t> busy(shares_.size()); // bit mask of the turns that use the chunk
         for (std::size_t i = 0; i < crossing_.size();) {
             const auto [low, high, _] = crossing_[i];
             const auto turn = static_cast<std::size_t>(std::countr_one(busy[low] | busy[high]));
@@ -159,8 +159,8 @@ class Stretches {
 
     State& s_;
     int bits_;
-    std::vector<Share> shares_;      // per stretch
-    std::vector<Crossing> crossing_; // between two
+    std::vector<Share> shares_;      // per chunk
+    std::vector<Crossing> crossing_; // between two chunks
     Share rest_;
     PassTotals totals_;
 };

@@ -1,5 +1,5 @@
-// The method constrained: OpenMesh's decimater chooses the collapses, which are replayed into the log, so
-// that attributes follow as for the other methods.
+// The method constrained: OpenMesh's decimater chooses the collapses. They are replayed into the log, so that
+// attributes follow as for the other methods.
 
 #include "geometry/openmesh/decimate.hpp"
 #include "geometry/simplify/methods.hpp"
@@ -8,7 +8,8 @@ namespace facetmill::simplification {
 
 namespace {
 
-/// What each vertex may take part in: only smooth ones go, and limits leave no collapse at all.
+/// The role of each vertex. Only smooth vertices may be removed; pinned and limited vertices take part in no
+/// collapse.
 std::vector<DecimatedVertex> roles_of(const State& s) {
     std::vector<DecimatedVertex> roles(s.vertex_slots(), DecimatedVertex::free);
     for (std::size_t v = 0; v < roles.size(); ++v) {
@@ -19,7 +20,7 @@ std::vector<DecimatedVertex> roles_of(const State& s) {
     return roles;
 }
 
-/// Follows the faces and wedges of a state through collapses, and logs them.
+/// Follows the faces and wedges of a state through collapses, and logs the collapses.
 class Replay {
   public:
     Replay(State& s) : s_(s), last_(s.vertex_slots()) {

@@ -9,32 +9,34 @@ namespace facetmill::simplification {
 
 namespace {
 
-// How strongly the new vertex is drawn to the middle of the edge, relative to the quadric's weight: decides
-// only where the planes leave the vertex free, as in flat and straight regions. Above what rounding leaves of
-// the quadrics; the cost is worked out in single precision too, the place is not. Of fine quadrics: planes
-// that float32 coordinates turn by some 1e-5 radians are one.
+// How strongly the new vertex is pulled to the middle of the edge, relative to the quadric's weight. It
+// matters only where the planes leave the vertex free, as in flat and straight regions. It exceeds the
+// rounding error of the quadrics. The cost is also computed in single precision, the position is not. With
+// fine quadrics it is smaller, but planes that float32 coordinates turn by about 1e-5 radians still count as
+// coplanar.
 constexpr double pull = 2e-7, fine_pull = 1e-10;
 constexpr float pull_of_cost = 1e-6f;
-// Short edges go first where errors are equal: as if each vertex were displaced by a thousandth of the edge,
-// or, with fine quadrics, by 1e-5 of it: what is left of a plane in float32 coordinates.
+// Short edges go first where errors are equal, as if each vertex were displaced by a thousandth of the edge.
+// With fine quadrics the displacement is 1e-5 of the edge, the flatness error of a plane in float32
+// coordinates.
 constexpr float shortness = 1e-6f, fine_shortness = 1e-10f;
-// A best place farther off the edge's middle than so many times half its length (squared) is not trusted.
+// An optimum is rejected if its squared distance from the edge's middle exceeds this multiple of the squared
+// half length.
 constexpr float max_off = 16;
-// The order is that of the sum of squared distances over the area^(3/8): between the sum, which lets small
-// parts go far off, and the mean, which spends faces on them and lets narrow strips of long edges, as fillets
-// and bores are, go far off. The area counts as far as the edge reaches, up to so many times its squared
-// length (5 in an even mesh): large flat faces beside a rim would else make it cheap, as their corners chance
-// to lie.
+// Edges are ordered by the sum of squared distances over area^(3/8), a compromise. The plain sum allows large
+// errors on small parts. The mean spends faces on small parts, and allows large errors on narrow strips of
+// long edges, such as fillets and bores. The area is capped at this multiple of the edge's squared length (5
+// in an even mesh). Otherwise large flat faces next to a boundary would make it cheap, depending on where
+// their corners happen to be.
 constexpr float reach = 12;
 
-/// Chooses where two ends that are both free to move should meet, as seen from the middle; half: from there
-/// to the second end.
+/// Chooses where two free ends should meet, relative to the middle. half: from the middle to the second end.
 Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, const State& s) {
     const bool endpoints = s.rules.endpoints;
     if (!endpoints) {
         const Vec3 best =
             q.weight > 0 ? q.least({}, (s.quadrics->fine ? fine_pull : pull) * q.weight) : Vec3{};
-        // Far off the edge the system was near singular: its ends and middle are safer.
+        // Far from the edge, the system was nearly singular: the ends and the middle are safer.
         if (dot(best, best) <= max_off * dot(half, half)) return best;
     }
     const double at_a = q(-half), at_b = q(half), at_middle = q({});
@@ -43,14 +45,14 @@ Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, const State&
     return at_a <= at_b ? -half : half;
 }
 
-/// Adds a quadric that is no sum of planes: the weight stays.
+/// Adds a quadric that is not a sum of planes, so the weight does not change.
 void add_keeping_weight(Quadric& q, const Quadric& other) {
     const double weight = q.weight;
     q += other;
     q.weight = weight;
 }
 
-/// The corner that runs the other way along the edge, or none.
+/// The corner of the same edge in the opposite direction, or none.
 Index opposite(const State& s, Index corner) {
     const Index from = s.tri[after(corner)], to = s.tri[corner];
     for (Index c = s.rings.first[from]; c != none; c = s.rings.next[c])
@@ -58,7 +60,7 @@ Index opposite(const State& s, Index corner) {
     return none;
 }
 
-/// What the attributes at both ends pay, as seen from `from`; on a seam, those of both sides.
+/// Adds the attribute errors of both ends, relative to `from`; on a seam, of both sides.
 void add_attributes(Quadric& q, const State& s, Index corner, bool along, const Vec3& from) {
     const auto add = [&](Index a, Index b) {
         add_keeping_weight(q, seen_from(residual(*s.quadrics->attributes, a, b), from));
@@ -72,7 +74,7 @@ void add_attributes(Quadric& q, const State& s, Index corner, bool along, const 
     if (x != a || y != b) add(x, y);
 }
 
-/// The planes of both ends of an edge and the attributes there, as seen from its middle.
+/// The quadrics of both ends of an edge with their attributes, relative to the edge's middle.
 struct Meeting {
     Index u, v;
     Vec3 half; ///< from the middle to v
@@ -88,7 +90,7 @@ struct Meeting {
         if (attributes) add_attributes(all, s, corner, flags & feature_edge, s.at[u] + half);
     }
 
-    /// Sets which end stays, and returns the place.
+    /// Chooses the position, and sets which end stays.
     Vec3 choose(const State& s, Placement& p) const {
         const Kind ku = s.features->kind[u], kv = s.features->kind[v];
         p.keep_first = ku > kv;
@@ -99,7 +101,7 @@ struct Meeting {
     }
 };
 
-// Costs four at a time: what cost_of says, in single precision.
+// Computes four costs at a time: like cost_of, in single precision.
 
 using Four = float __attribute__((vector_size(16)));
 using Mask = std::int32_t __attribute__((vector_size(16)));
@@ -110,7 +112,7 @@ Four load(const float* at) {
     return x;
 }
 
-/// Four rows of four become four columns.
+/// Transposes a 4x4 matrix.
 void transpose(Four& a, Four& b, Four& c, Four& d) {
     const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
     const Four xy = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw = __builtin_shufflevector(c, d, 2, 6, 3, 7);
@@ -170,7 +172,8 @@ Quadrics quadrics_of(const std::vector<NearQuadric>& quadrics, Index p, Index q,
     return all;
 }
 
-/// The sum of both ends' quadrics as seen from the middles of the edges; half: from there to the second ends.
+/// The sum of both ends' quadrics, relative to the middles of the edges. half: from the middles to the second
+/// ends.
 Quadrics joined(const Quadrics& p, const Quadrics& q, const Vec3s& half) {
     const Quadrics less{q.xx - p.xx, q.xy - p.xy, q.xz - p.xz, q.yy - p.yy, q.yz - p.yz, q.zz - p.zz, {}, {}};
     Quadrics sum{p.xx + q.xx, p.xy + q.xy, p.xz + q.xz, p.yy + q.yy, p.yz + q.yz, p.zz + q.zz, {}, {}};
@@ -183,7 +186,7 @@ Quadrics joined(const Quadrics& p, const Quadrics& q, const Vec3s& half) {
     return sum;
 }
 
-/// Scaled so that A's trace is 1; returns what it was.
+/// Scales the quadrics so that A's trace is 1; returns the old trace.
 Four normalise(Quadrics& q) {
     const Four weight = q.xx + q.yy + q.zz;
     const Four share = weight > 0 ? 1 / weight : Four{};
@@ -199,7 +202,7 @@ Four root(Four x) {
 Four larger(Four x, Four y) { return x > y ? x : y; }
 Four smaller(Four x, Four y) { return x < y ? x : y; }
 
-/// The costs of four edges; and which of them are below what single precision can tell.
+/// The costs of four edges. unsure: the costs too small for single precision.
 Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
     Vec3s half;
     Mask held;

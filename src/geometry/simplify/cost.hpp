@@ -1,57 +1,58 @@
 #pragma once
-// What a collapse costs and where its vertex goes: Garland and Heckbert's quadrics, or the length of the
-// edge.
+// The cost of a collapse and the position of its vertex: Garland and Heckbert's quadrics, or the length of
+// the edge.
 
 #include "geometry/simplify/state.hpp"
 
 namespace facetmill::simplification {
 
-/// A face whose height is below this share of its longest edge counts as flat: far above what rounding can
-/// do, far below what anyone wants.
+/// A face whose height is below this share of its longest edge counts as flat. The limit is far above
+/// rounding errors and far below any useful height.
 inline constexpr double least_height = 1e-5;
 
 /// Squared errors below this share of an edge's squared length are too small for single precision, by a
 /// factor of ten or more.
 inline constexpr double doubtful = 4e-6;
 
-/// Of every vertex, from the faces' planes and from the planes that hold feature edges and sharp folds.
+/// The quadrics of all vertices: the sum over their faces' planes and the planes that hold feature edges and
+/// sharp folds.
 std::vector<NearQuadric> vertex_quadrics(const State& s);
-/// The quadrics and, where much of the surface is flat or nearly so, the fine ones.
+/// Sets the quadrics; also the fine quadrics if much of the surface is flat or nearly flat.
 void set_quadrics(State& s);
 
-/// Whether an edge between vertices of these kinds may be collapsed.
+/// True if an edge between vertices of these kinds may be collapsed.
 inline bool may_go(Kind u, Kind v, std::uint8_t flags) {
     if (u >= Kind::corner && v >= Kind::corner) return false;
     return u == Kind::smooth || v == Kind::smooth || (flags & feature_edge); // not across a feature
 }
 
-/// What to do with an edge that may go.
+/// Where the vertex of a collapse goes, for an edge that may_go allows.
 struct Placement {
     Vec3 at;
-    double error = 0; ///< squared distance, as far as the quadric or the edge's length tells
-    bool keep_first = false, keep_second = false; ///< the new vertex is this end as it is
-    Quadric joined{};                             ///< of the planes of both ends, about `at`
+    double error = 0; ///< squared distance, as estimated by the quadric or the edge's length
+    bool keep_first = false, keep_second = false; ///< the new vertex is exactly this end
+    Quadric joined{};                             ///< sum of the quadrics of both ends, about `at`
 };
-/// Where the ends of the edge of a corner should meet. flags: the corner's.
+/// Finds the point where the ends of a corner's edge should meet. flags: the corner's.
 Placement place(const State& s, Index corner, std::uint8_t flags);
-/// What it costs to collapse the edge of a corner that may go.
+/// The cost of collapsing a corner's edge. The edge must be allowed by may_go.
 float cost_of(const State& s, Index corner, std::uint8_t flags);
 
-/// An edge that is to be priced.
+/// An edge whose cost is to be computed.
 struct PricedEdge {
-    enum class Held : std::int32_t { no = 0, first = 1, second = 2 }; ///< the end that stays where it is
+    enum class Held : std::int32_t { no = 0, first = 1, second = 2 }; ///< the end that keeps its position
     Index corner, u, v;
     Held held;
 };
 
-/// Sets the costs of edges, and takes their blocks away. Collects them, and prices four whenever they are
-/// there; nothing at them may change before `finish`.
+/// Sets the costs of edges, and clears their blocked flags. It collects edges and computes the costs of four
+/// at a time. Nothing at these edges may change before `finish`.
 class Pricer {
   public:
     explicit Pricer(State& s) : s_(s), by_fours_(s.quadrics && !s.quadrics->attributes) {}
 
-    /// The edge of a corner, from u to v, as seen from its face. The cost is kept at one corner of the edge:
-    /// the one that runs to the higher vertex, or the only one.
+    /// Adds the edge of a corner, from u to v in the direction of its face. The cost is stored at one corner
+    /// of the edge: the corner that runs to the higher vertex, or the only corner.
     void operator()(Index corner, Index u, Index v) {
         const std::uint8_t flags = s_.edges.flags[corner] & static_cast<std::uint8_t>(~blocked);
         s_.edges.flags[corner] = flags;
@@ -74,7 +75,7 @@ class Pricer {
   private:
     void set(Index corner, float cost) {
         if (cost < never)
-            s_.edges.cost[corner] = cost; // false for what is no number too
+            s_.edges.cost[corner] = cost; // false for NaN too
         else
             s_.edges.flags[corner] |= blocked_border;
     }

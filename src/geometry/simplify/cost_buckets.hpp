@@ -1,5 +1,5 @@
 #pragma once
-// Costs of edges by their leading bits, from which a pass takes its threshold.
+// A histogram of edge costs by their leading bits; each pass takes its threshold from it.
 
 #include "base/math/vec.hpp"
 
@@ -14,12 +14,12 @@ namespace facetmill::simplification {
 inline constexpr int bucket_shift = 19; ///< of a cost's bits: 16 buckets per power of two
 inline constexpr std::size_t buckets = 0x7f800000u >> bucket_shift; ///< of finite costs
 
-/// Costs that agree in their leading bits, and how many edges have them.
+/// The number of edges whose costs have the same leading bits.
 struct Bucket {
     std::size_t number, edges;
 };
 
-/// In ascending order, each number once.
+/// Sorts the buckets and merges equal numbers.
 inline std::vector<Bucket> gathered(std::vector<Bucket> filled) {
     std::sort(filled.begin(), filled.end(),
               [](const Bucket& a, const Bucket& b) { return a.number < b.number; });
@@ -33,8 +33,8 @@ inline std::vector<Bucket> gathered(std::vector<Bucket> filled) {
     return filled;
 }
 
-/// The bits of a cost below which there are so many edges at most, or those of the first bucket, and none in
-/// a bucket beyond `last`. filled: ascending, none of them empty.
+/// The bits of a cost limit. At most `wanted` edges are below it, except that the first bucket is always
+/// included; no bucket after `last` is. filled: ascending, without empty buckets.
 inline std::uint32_t cost_limit(std::span<const Bucket> filled, std::size_t wanted, std::size_t last) {
     std::size_t below = 0;
     for (const Bucket& b : filled) {

@@ -1,6 +1,7 @@
 #pragma once
-// How far points are from the triangles around a vertex, and places on the triangles from the points: bounds
-// in float32, four at a time, so that most pairs need no more.
+// Bounds on the distances between points and the triangles around a vertex. They go both ways: from the
+// points to the triangles, and from sample points on the triangles. They are computed in float32, four at a
+// time, so that most pairs need no exact test.
 
 #include "base/math/simd.hpp"
 #include "base/math/vec.hpp"
@@ -14,13 +15,13 @@ namespace facetmill::simplification {
 
 class FanBounds {
   public:
-    /// Places on a triangle, by the weights of b and c; the last is the shared vertex, twice.
+    /// Sample points on a triangle, by the weights of b and c; the last is the shared vertex, listed twice.
     static constexpr std::size_t places = 6;
     static constexpr std::array<double, 8> weight_b{1.0 / 3, 0.5, 0.5, 1.0 / 6, 2.0 / 3, 1.0 / 6, 0, 0};
     static constexpr std::array<double, 8> weight_c{1.0 / 3, 0, 0.5, 1.0 / 6, 1.0 / 6, 2.0 / 3, 0, 0};
 
-    /// The vertex that the triangles share. reach: no coordinate of a point or of a triangle is farther from
-    /// it. near: the distance that places and points are to be within.
+    /// centre: the vertex that the triangles share. reach: the largest coordinate distance of any point or
+    /// triangle from it. near: the distance allowed between sample points and points.
     void begin(const Vec3& centre, double reach, double near) {
         centre_ = centre;
         triangles_.clear();
@@ -49,7 +50,7 @@ class FanBounds {
         t.reach = static_cast<float>(dot(out[1], ab));
     }
 
-    /// The one to four points that the next answers are about.
+    /// Sets the one to four points that the following queries refer to.
     void look(std::span<const Vec3> points) {
         squares_.resize(triangles_.size());
         for (std::size_t axis = 0; axis < 3; ++axis) at_[axis] = Float4{};
@@ -61,17 +62,17 @@ class FanBounds {
         for (std::size_t k = 0; k < triangles_.size(); ++k) compare(triangles_[k], static_cast<int>(k));
     }
 
-    /// The squared distance of a point to a triangle is not below this; 0 for slivers.
+    /// A lower bound of the squared distance from a point to a triangle; 0 for slivers.
     double square(std::size_t triangle, std::size_t point) const {
         return double{squares_[triangle][point]} * unit_ * unit_;
     }
-    /// The triangle for which that is least; -1 when there is none, or the point is not finite.
+    /// The triangle with the least lower bound; -1 if there is no triangle or the point is not finite.
     std::int32_t nearest(std::size_t point) const { return nearest_[point]; }
-    /// The squared distance to the nearest triangle is not above this; infinite when the nearest place on it
-    /// may be at its edge.
+    /// An upper bound of the squared distance to the nearest triangle. It is infinite when the nearest point
+    /// of the triangle may be on its edge.
     double most(std::size_t point) const { return double{over_[point]} * unit_ * unit_; }
 
-    /// Notes which places on a triangle are near one of the points.
+    /// Marks the sample points of a triangle that are near a point.
     void note_near(std::size_t triangle, std::size_t point) {
         Triangle& t = triangles_[triangle];
         if (t.near == 255) return;
@@ -84,11 +85,11 @@ class FanBounds {
             t.near |= bits_of(square <= all(near_square_)) << 4 * half;
         }
     }
-    /// The places that are: a bit each.
+    /// The marked sample points, as a bit mask.
     unsigned near(std::size_t triangle) const { return triangles_[triangle].near; }
 
   private:
-    /// More than the rounding of a few float32 numbers of which those that count are below 2.
+    /// Exceeds the rounding error of a few float32 operations whose relevant operands are below 2.
     static constexpr float error = 0x1p-20F;
 
     struct Triangle {
@@ -123,10 +124,10 @@ class FanBounds {
     }
 
     Vec3 centre_;
-    double unit_ = 0; ///< of the frame in which float32 is enough; 0: there is none
+    double unit_ = 0; ///< scale of the frame in which float32 is precise enough; 0 if there is none
     float near_square_ = -1;
     std::vector<Triangle> triangles_;
-    std::vector<Float4> squares_; ///< [triangles] of the points
+    std::vector<Float4> squares_; ///< [triangles] squared distances of the points
     std::array<Float4, 3> at_{};  ///< the points, by axis
     Float4 least_{}, over_{};
     Int4 nearest_{};

@@ -12,13 +12,13 @@ namespace facetmill::simplification {
 
 namespace {
 
-/// A face of the one-ring of a vertex: it runs from the neighbour `in` through the vertex, at `corner`, to
+/// A face of the one-ring of a vertex. It runs from the neighbour `in` through the vertex, at `corner`, to
 /// the neighbour `out`, so the edge of the corner leads to `out`.
 struct RingFace {
     Index out, in, corner;
 };
 
-/// A number per face, in the work's order; empty when there is only one.
+/// A label per face, in the work's order; empty when all labels are equal.
 using Labels = std::vector<Index>;
 
 Labels labels_of(const State& s, const Mesh& mesh, std::string_view name) {
@@ -33,14 +33,15 @@ Labels labels_of(const State& s, const Mesh& mesh, std::string_view name) {
     return several ? list : Labels{};
 }
 
-/// What separates the faces of a mesh.
+/// Everything that separates the faces of a mesh.
 struct Borders {
     Labels primitives, groups;
 };
 
 class Classifier {
   public:
-    /// corner_cosine: of the angle by which a boundary turns at a corner; none: it has no corners.
+    /// corner_cosine: the cosine of the turning angle that makes a boundary vertex a corner; empty: no
+    /// corners.
     Classifier(State& s, const Borders& borders, const SimplifyLocks& lock,
                std::optional<double> corner_cosine)
         : s_(s), borders_(borders), lock_(lock), corner_cosine_(corner_cosine) {}
@@ -55,8 +56,8 @@ class Classifier {
   private:
     static constexpr std::size_t few = 16;
 
-    /// Whether a few faces close around the vertex with no feature between them, as at most vertices: told
-    /// without sorting.
+    /// True if a few faces close around the vertex without a feature between them, as at most vertices. Needs
+    /// no sorting.
     bool is_plain(Index v) {
         std::array<RingFace, few> ring;
         std::size_t size = 0;
@@ -71,7 +72,7 @@ class Classifier {
             for (std::size_t j = 0; j < size; ++j) then[i] = ring[j].out == ring[i].in ? j : then[i];
             if (then[i] == few || differ(ring[i], ring[then[i]])) return false;
         }
-        std::size_t steps = 1; // of a round that meets all of them: then no neighbour is met twice
+        std::size_t steps = 1; // length of the cycle: `size` if it visits every face
         for (std::size_t i = then[0]; i != 0 && steps <= size; i = then[i]) ++steps;
         return steps == size;
     }
@@ -94,8 +95,8 @@ class Classifier {
         return walk();
     }
 
-    /// Flags the edges that lead out of a pinned vertex as a walk around it would, those between two faces
-    /// that agree: its neighbours' edges are such, and may be collapsed into it.
+    /// Flags the edges that leave a pinned vertex like `walk` does, but only between two faces that agree.
+    /// Features of its neighbours end at such edges, and may be collapsed into it.
     void flag_around_pinned(Index v) {
         ring_.clear();
         for (Index c = s_.rings.first[v]; c != none; c = s_.rings.next[c])
@@ -115,13 +116,13 @@ class Classifier {
         }
     }
 
-    /// Whether several faces run from the vertex to this one.
+    /// True if several faces lead from the vertex to `out`.
     bool leads_twice(Index out) const {
         const RingFace* first = leading_to(out);
         return first + 1 != ring_.data() + ring_.size() && first[1].out == out;
     }
 
-    /// Goes around the fan; flags the edges that lead out of the vertex.
+    /// Goes around the fan, and flags the edges that leave the vertex.
     Kind walk() {
         const RingFace* start = nullptr;
         for (const RingFace& face : ring_) {
@@ -138,7 +139,7 @@ class Classifier {
         for (std::size_t steps = 1;; ++steps) {
             const RingFace* then = leading_to(now->in);
             if (!then || (then == start && !open)) {
-                if (steps != ring_.size()) return Kind::pinned; // a fan and more
+                if (steps != ring_.size()) return Kind::pinned; // more than one fan
                 if (then && differ(*now, *then)) features_.push_back(then->corner);
                 break;
             }
@@ -155,7 +156,7 @@ class Classifier {
         return features == 2 && !locked_ ? Kind::curve : Kind::corner;
     }
 
-    /// Whether the boundary has a corner at v.
+    /// True if the boundary has a corner at v.
     bool turns_between(Index before, Index v, Index after) const {
         if (!corner_cosine_) return false;
         const Vec3 in = normalised(s_.at[v] - s_.at[before]), out = normalised(s_.at[after] - s_.at[v]);
@@ -168,7 +169,7 @@ class Classifier {
         return at != ring_.end() && at->out == other ? &*at : nullptr;
     }
 
-    /// Whether the edge between two neighbouring faces of the fan is a seam or a border.
+    /// True if the edge between two neighbouring faces of the fan is a seam or a border.
     bool differ(const RingFace& now, const RingFace& then) {
         const Index f = now.corner / 3, g = then.corner / 3;
         const bool group = !borders_.groups.empty() && borders_.groups[f] != borders_.groups[g];
@@ -184,19 +185,19 @@ class Classifier {
     const Borders& borders_;
     const SimplifyLocks& lock_;
     std::optional<double> corner_cosine_;
-    bool locked_ = false; ///< the vertex looked at
+    bool locked_ = false; ///< the current vertex
     std::vector<RingFace> ring_;
     std::vector<Index> ins_, features_;
 };
 
-/// A boundary edge by the places of its ends, the lower first.
+/// A boundary edge by the position numbers of its ends, the lower first.
 struct OpenEdge {
-    Index low, high; ///< places, numbered
-    Index from, to;  ///< the vertices there
+    Index low, high; ///< position numbers
+    Index from, to;  ///< the vertices at these positions
     bool along(const OpenEdge& o) const { return low == o.low && high == o.high; }
 };
 
-/// The vertices of the mesh at both ends of every boundary edge of finite length.
+/// The vertices of the mesh at the ends of every boundary edge of finite length.
 std::vector<std::array<Index, 2>> open_edges(const State& s, const Mesh& mesh) {
     std::vector<std::array<Index, 2>> ends;
     for (Index c = 0; c < s.edges.flags.size(); ++c) {
@@ -207,7 +208,7 @@ std::vector<std::array<Index, 2>> open_edges(const State& s, const Mesh& mesh) {
     return ends;
 }
 
-/// Boundary edges by place; what lies in one place is side by side.
+/// Boundary edges sorted by position, so that coincident edges are adjacent.
 std::vector<OpenEdge> by_place(const State& s, const Mesh& mesh) {
     const auto ends = open_edges(s, mesh);
     const auto less = [&](Index a, Index b) {
@@ -238,7 +239,7 @@ std::vector<OpenEdge> by_place(const State& s, const Mesh& mesh) {
     return edges;
 }
 
-/// Calls body for each two edges in one place.
+/// Calls body for each pair of coincident edges.
 template <class Body>
 void for_pairs(const std::vector<OpenEdge>& edges, Body&& body) {
     for (std::size_t i = 1; i < edges.size(); ++i)
@@ -315,7 +316,7 @@ CoincidentBorders::CoincidentBorders(Mesh& mesh, const std::vector<Index>& targe
 void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes,
                                  std::vector<Index>& sources) const {
     std::vector<Index> first(mesh.vertex_count(), none);
-    std::vector<Index> wedge_of(mesh.vertex_count(), none); // one at each vertex
+    std::vector<Index> wedge_of(mesh.vertex_count(), none); // one per vertex
     std::map<std::pair<Index, Index>, Index> others;        // by vertex and side
     for (Index w = 0; w < wedges.size(); ++w) {
         Index& v = mesh.wedge_vertex[w];
@@ -335,7 +336,7 @@ void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, A
         sources.resize(wedge_of.size());
         for (std::size_t v = 0; v < wedge_of.size(); ++v) sources[v] = sides_[wedges[wedge_of[v]]];
     }
-    if (!had_seams_) { // every wedge is a vertex again
+    if (!had_seams_) { // every wedge becomes a vertex again
         std::vector<Vec3> positions(wedges.size());
         for (std::size_t w = 0; w < wedges.size(); ++w) positions[w] = mesh.positions[mesh.wedge_vertex[w]];
         mesh.positions = std::move(positions);

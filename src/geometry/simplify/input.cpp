@@ -12,7 +12,8 @@ namespace {
 using Stop = SimplifyResult::Stop;
 using Method = SimplifySettings::Method;
 
-/// The locks of a mesh whose unused vertices go, if single ones are locked: numbers stay right then.
+/// Removes the unused vertices, and renumbers the vertex locks. Changes nothing if no single vertex is
+/// locked.
 SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
     if (lock.vertices.empty()) return lock;
     std::vector<std::uint8_t> used(mesh.vertex_count()), locked;
@@ -24,7 +25,7 @@ SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
     return lock;
 }
 
-/// Gives a flat-shaded mesh its normals back, and says what became of normals.
+/// Restores the normals of a flat-shaded mesh, and records the changes to normals.
 void settle_normals(Mesh& mesh, const NormalSeams& seams, AttributeChanges& changes) {
     using Shading = NormalSeams::Shading;
     if (seams.shading == Shading::as_given) return;
@@ -42,7 +43,6 @@ void settle_normals(Mesh& mesh, const NormalSeams& seams, AttributeChanges& chan
     }
 }
 
-/// Turns a triangle round.
 void turn_round(Mesh& mesh, std::size_t f) { std::swap(mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]); }
 
 } // namespace
@@ -66,7 +66,8 @@ State SimplifyInput::state(bool rollback, const std::vector<float>* limits) {
         s.quadrics->attributes =
             attribute_error(s, mesh(), settings_.weights, seams_.shading != NormalSeams::Shading::faceted);
     }
-    resize_large(s.edges.cost, s.tri.size(), never); // now, since quadrics take more while they are made
+    resize_large(s.edges.cost, s.tri.size(),
+                 never); // allocated now, because the quadrics temporarily need more memory
     s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
                .changes_topology = settings_.topology == SimplifySettings::Topology::allow,
                .apart = lock_.apart && !lock_.vertices.empty() ? &lock_.vertices : nullptr};
@@ -139,8 +140,8 @@ State SimplifyInput::laid_out() {
 }
 
 State SimplifyInput::classified() const {
-    // The length of an edge says nothing about the outline, which other methods have in their quadrics.
-    // Where the topology may change, holes may close and small components vanish, corners and all.
+    // The length of an edge ignores the outline, which other methods have in their quadrics. Where topology
+    // may change, holes may close and small components vanish with their corners.
     const bool corners =
         settings_.method == Method::shortest_edge && settings_.topology == SimplifySettings::Topology::keep;
     State s = lay_out(mesh(), used_);

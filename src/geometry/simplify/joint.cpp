@@ -11,12 +11,12 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::string_view member_attribute = "simplify_member"; // of the faces of the joined mesh
+constexpr std::string_view member_attribute = "simplify_member"; // on the faces of the joined mesh
 
-/// A boundary edge by its ends in the world, the lower first.
+/// A boundary edge by the world positions of its ends, the lower first.
 struct PlacedEdge {
     Vec3 low, high;
-    Index from, to; ///< the vertices there
+    Index from, to; ///< the vertices at these positions
     std::size_t mesh;
 };
 
@@ -39,7 +39,7 @@ void add_open_edges(const PlacedMesh& placed, std::size_t number, std::vector<Pl
     }
 }
 
-/// The boundary edges of all meshes that may touch another.
+/// The boundary edges of all meshes that may touch another mesh.
 std::vector<PlacedEdge> open_edges(std::span<const PlacedMesh> meshes) {
     std::vector<Box> boxes(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i)

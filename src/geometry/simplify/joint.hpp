@@ -1,35 +1,36 @@
 #pragma once
-// Several meshes as one.
+// Several meshes simplified as a single mesh.
 
 #include "geometry/simplify/simplify.hpp"
 
 namespace facetmill {
 
-// Meshes whose open borders run along each other: tiles, separated components, the parts of one body.
+// Meshes with coincident open borders: tiles, separated components, or the parts of a body.
 
-/// A mesh and where it stands.
+/// A mesh and its transform to the world.
 struct PlacedMesh {
     const Mesh* mesh;
     Transform to_world;
 };
 
-/// Boundary edges of different meshes whose ends are at exactly the same places in the world.
+/// Boundary edges of different meshes whose ends have exactly the same world positions.
 struct Contacts {
-    /// Sets of meshes that hang together by such edges, two or more each; ascending, by the first.
+    /// Sets of two or more meshes connected by such edges; ascending, by the first mesh.
     std::vector<std::vector<std::size_t>> sets;
-    /// [meshes][vertices] 1 for the ends of such edges; empty for a mesh that touches none.
+    /// [meshes][vertices] 1 for the ends of such edges; empty for a mesh without contacts.
     std::vector<std::vector<std::uint8_t>> shared;
 };
-/// O(n log n) for meshes whose boxes meet another's, else nothing.
+/// O(n log n) in the meshes whose bounding boxes overlap; other meshes cost nothing.
 Contacts find_contacts(std::span<const PlacedMesh> meshes);
 
-/// Whether meshes of one space can be simplified as one: the same attributes, and shading of one kind.
+/// True if meshes of the same space can be merged for simplification: same attributes, and the same kind of
+/// shading.
 bool can_simplify_jointly(std::span<const Mesh* const> meshes, const SimplifySettings& settings);
 
-/// As simplify, or simplify_levels when settings has levels, of meshes for which can_simplify_jointly holds:
-/// they are worked on as one, so that borders where they touch collapse on both sides alike.
-/// [levels][meshes]; without levels there is one. Targets are those of all together; a mesh has its own
-/// counts and the errors, reasons and changes of all.
+/// Like simplify, or simplify_levels when settings has levels, for meshes that satisfy can_simplify_jointly.
+/// The meshes are merged during the work, so that borders where they touch collapse identically on both
+/// sides. Returns [levels][meshes]; without levels, one entry. Targets apply to the total. Counts are per
+/// mesh; errors, reasons and changes are shared.
 std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* const> meshes,
                                                           const SimplifySettings& settings);
 
@@ -37,9 +38,9 @@ std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* 
 
 namespace facetmill::simplification {
 
-/// All in one, the faces numbered by where they are from. Primitives stay numbers.
+/// Merges the meshes and numbers the faces by the mesh that they belong to. Primitives stay numbers.
 Mesh joined(std::span<const Mesh* const> meshes);
-/// What became of each mesh, from what became of all.
+/// Splits the result of the merged mesh into one result per mesh.
 std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* const> meshes);
 
 } // namespace facetmill::simplification

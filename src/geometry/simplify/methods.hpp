@@ -1,6 +1,6 @@
 #pragma once
-// What brings a state to its goal: passes of collapses, passes within a bound on the deviation, OpenMesh's
-// decimater, and clusters.
+// The algorithms that bring a state to its goal: passes of collapses, passes within a bound on the deviation,
+// OpenMesh's decimater, and clustering.
 
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/simplify/collapse.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill::simplification {
 
-/// At most so many faces, or so many vertices, whichever comes first.
+/// At most this many faces, or this many vertices, whichever comes first.
 struct Goal {
     std::size_t faces = 0, vertices = 0;
 
@@ -23,42 +23,43 @@ struct Goal {
 struct Outcome {
     std::size_t passes = 0, collapses = 0;
     double largest = 0; ///< largest error squared, in the frame
-    bool stuck = false; ///< no collapse was left, and the goal is not met
+    bool stuck = false; ///< no collapse was left, and the goal was not met
 };
 
-/// Collapses edges in the order of their costs until the goal is met or none can go.
+/// Collapses edges in order of cost until the goal is met or no edge may be collapsed.
 Outcome run_passes(State& s, const Goal& goal);
 
-/// One of several states that go to a goal together.
+/// One of several states that are simplified together.
 struct Member {
     State* state;
-    double unit = 1;      ///< of the state's frame, as a length that all members share
-    std::size_t uses = 1; ///< how often its faces, its vertices and what its collapses take away count
+    double unit = 1;      ///< length of the state's frame unit, in a length unit that all members share
+    std::size_t uses = 1; ///< weight of its faces, vertices and collapses: the number of uses
     Outcome done{};       ///< of all work on it
 };
-/// As run_passes, of all members in one order of cost, for a goal of all together; what is used several times
-/// may go beyond it by one collapse of each use.
+/// Like run_passes, but for all members in a single order of cost, with a goal for the total. If a member has
+/// several uses, the total may fall below the goal by one collapse per use.
 void run_passes(std::span<Member> members, const Goal& goal);
-/// The edges that the last pass left, by reason; means something once the work is stuck.
+/// Counts the edges that the last pass left, by reason. Meaningful only when the work is stuck.
 SimplifyResult::Blocked count_blocked(const State& s);
 
-/// What a method that ends the work came to.
+/// The outcome of a method that runs to its end.
 struct Ended {
     Shape shape;
-    std::optional<Log> log; ///< as the state's
+    std::optional<Log> log; ///< the log of the state
     Outcome outcome;
-    bool by_error = false;             ///< the bound stopped it
-    std::optional<double> measured{};  ///< the deviation of what is left, with max_error; in the mesh's units
-    SimplifyResult::Blocked blocked{}; ///< when stuck, or stopped by the bound
+    bool by_error = false;             ///< stopped by the error bound
+    std::optional<double> measured{};  ///< the deviation of the result, with max_error; in the mesh's units
+    SimplifyResult::Blocked blocked{}; ///< when stuck, or when the bound stopped the work
     std::size_t rolled_back = 0, measurements = 0;
-    std::optional<double> cell{}; ///< of clusters, in the mesh's units
+    std::optional<double> cell{}; ///< cell size of clustering, in the mesh's units
 };
 
-/// Passes as far as the goal and the measured deviation, in the units of `from`, allow. from: what the state
-/// was laid out of. The state must have a log.
+/// Runs passes until the goal or the measured deviation (in the units of `from`) stops them. from: the mesh
+/// that the state was built from. The state must have a log.
 Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, std::size_t samples);
 
-/// The method constrained. vertices: of the mesh that the state was laid out of. The state must have a log.
+/// The method constrained. vertices: the count in the mesh that the state was built from. The state must have
+/// a log.
 Ended run_constrained(State s, std::size_t vertices, const Goal& goal,
                       const SimplifyConstraints& constraints);
 
@@ -71,23 +72,23 @@ Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<dou
 
 // For max_error while collapsing, see FollowedPoints.
 
-/// Finds the face that takes each point of the faces around; false when one would be farther from all than is
-/// allowed, or the new faces farther from the surface that came in.
+/// Finds the new face for each point of the faces around. Returns false if a point would be farther than
+/// allowed from all of them, or the new faces too far from the input surface.
 bool points_stay_near(State& s, Around& around, const Vec3& to);
-/// Gives each point to the face that points_stay_near found.
+/// Assigns each point to the face that points_stay_near found.
 void hand_over_points(State& s, const Around& around);
 
-// The bound afterwards: the deviation is judged, and collapses are taken back along the log.
+// The bound after the collapses: the deviation is measured, and collapses are undone along the log.
 
-/// Judges shapes by their deviation from the mesh that came in, whose tree is built once.
+/// Measures how far shapes deviate from the input mesh, whose tree is built once.
 class Judge {
   public:
-    /// bound: in the mesh's units. samples: of the area, each way.
+    /// bound: in the mesh's units. samples: by area, in each direction.
     Judge(const Mesh& from, double bound, std::size_t samples);
 
     const FaceTree& tree() const { return tree_; }
-    /// Whether the deviation, as `deviation` would measure it, is within the bound; stops at the first sample
-    /// beyond.
+    /// True if the deviation, as measured by `deviation`, is within the bound. Stops at the first sample
+    /// beyond it.
     bool within(const Mesh& mesh) const;
     double deviation(const Mesh& mesh) const;
 
@@ -98,20 +99,20 @@ class Judge {
     DeviationSettings settings_;
 };
 
-/// What a state was before its first collapse.
+/// A state before its first collapse.
 struct Origin {
     Shape shape;
-    std::vector<Index> number; ///< of each vertex of the input, in the shape
+    std::vector<Index> number; ///< [vertices of the input] number in the shape
 
-    /// vertices: of the input.
+    /// vertices: the count in the input.
     Origin(const Shape& now, std::size_t vertices);
 };
-/// The shape after the first so many steps of the log; the log is cut to them.
+/// The shape after the first `steps` steps of the log. Truncates the log to them.
 Shape rolled_back(const Origin& origin, Log& log, std::size_t steps);
 
-/// Counts the self-intersections of the mesh that a shape was finished as; when there are more than allowed,
-/// lowers the limits (see Bounds::limits) of all vertices of the input that went into the vertices of the
-/// faces concerned: to a part of the largest error there, or to 0.
+/// Counts the self-intersections of the finished mesh of a shape. If there are more than allowed, it lowers
+/// the limits (see Bounds::limits) of all input vertices that merged into vertices of the intersecting faces.
+/// The new limit is a fraction of the largest error at that vertex, or 0.
 std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& finished, std::size_t allowed,
                                bool to_zero, std::vector<float>& limits);
 

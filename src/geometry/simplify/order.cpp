@@ -1,11 +1,11 @@
-// The order of collapses. One pass: a common threshold on the costs of all edges, and the edges below it
-// collapsed in order of cost, none twice at a vertex, each followed by the costs of the edges that changed.
-// Costs depend on an edge's two ends only, and an untouched end keeps its quadric, so every cost is exact
-// when its edge collapses.
+// The order of collapses. Each pass chooses a threshold for the costs of all edges. It collapses the edges
+// below the threshold in order of cost, at most once per vertex. After each collapse it updates the costs of
+// the changed edges. A cost depends only on the edge's two ends, and an untouched end keeps its quadric, so
+// every cost is exact when its edge collapses.
 //
-// Several states go to a goal together by one threshold: the costs of each are brought to the unit of the
-// largest. Only the last steps, and a pass that would go beyond the goal, take the edges of all states one
-// by one in strict order.
+// Several states share a goal through a common threshold: the costs of each are scaled to the unit of the
+// largest. Only the last steps, and a pass that would overshoot the goal, collapse the edges of all states
+// one by one in strict order.
 
 #include "geometry/simplify/methods.hpp"
 
@@ -23,15 +23,15 @@ namespace {
 
 constexpr std::size_t corner_chunk = 3 << 13;
 constexpr double share_per_pass = 1.0 / 8; // of the live edges that are candidates in one pass
-// Buckets: near the goal, no edge goes before one of a quarter of its cost.
+// In buckets: near the goal, all edges of a pass cost at most four times as much as the cheapest.
 constexpr std::size_t last_span = 32;
-// As their surroundings were.
+// Reasons that may no longer apply after the surroundings change.
 constexpr std::uint8_t refused = blocked_topology | blocked_flip | blocked_error;
-constexpr std::size_t few_corners = 512; // whose costs are sorted rather than counted by buckets
-// Costs of a state are not brought lower than this, so that `never` stays infinite.
+constexpr std::size_t few_corners = 512; // up to this number, costs are sorted instead of counted in buckets
+// Costs of a state are not scaled below this factor, so that `never` stays infinite.
 constexpr double least_factor = 1e-30;
 
-/// Corners of a state. Tasks look at as many blocks as come to about corner_chunk corners.
+/// A range of corners of a state. A task combines blocks of about corner_chunk corners.
 struct Block {
     std::size_t member, begin, end;
 };
@@ -72,14 +72,15 @@ class Passes {
     }
 
   private:
-    /// What brings a state's costs to the common unit. ratio: of its unit to that. Costs by quadrics are
-    /// squared lengths times the (5/8)th power of an area, see cost.cpp; others are squared lengths.
+    /// The factor that brings a state's costs to the common unit. ratio: the state's unit in the common unit.
+    /// Costs of quadrics are squared lengths times the (5/8)th power of an area, see cost.cpp; others are
+    /// squared lengths.
     static float factor(const Member& m, double ratio) {
         const double squared = ratio * ratio, power = squared * ratio * std::sqrt(std::sqrt(ratio));
         return static_cast<float>(std::max(least_factor, m.state->quadrics ? power : squared));
     }
 
-    /// Sums up what is there.
+    /// Counts the live faces and vertices, weighted by use.
     void count() {
         faces_ = vertices_ = 0;
         for (const Member& m : members_) {
@@ -88,13 +89,13 @@ class Passes {
         }
     }
 
-    /// Collapses to go, if each takes two faces and one vertex.
+    /// The number of collapses to the goal, if each removes two faces and one vertex.
     std::size_t remaining(std::size_t faces, std::size_t vertices) const {
         if (goal_.met(faces, vertices)) return 0;
         return std::min((faces - goal_.faces + 1) / 2, vertices - goal_.vertices);
     }
     std::size_t remaining() const { return remaining(faces_, vertices_); }
-    /// So near the goal that one worker finishes, in strict order.
+    /// True if the goal is so close that one worker finishes, in strict order.
     bool last_steps() const { return remaining() <= std::max<std::size_t>(256, faces_ / 64); }
 
     void lay_blocks() {
@@ -128,7 +129,7 @@ class Passes {
             },
             1);
     }
-    /// Calls body(m) for all members, small ones together.
+    /// Calls body(m) for all members; groups small members into one task.
     template <class Body>
     void for_members(Body&& body) const {
         parallel_for(members_.size(), body, std::clamp<std::size_t>(members_.size() / 256, 1, 64));
@@ -147,7 +148,7 @@ class Passes {
         });
     }
 
-    /// Edges that were refused and have a neighbour that changed in the last pass are asked again.
+    /// Retries refused edges that have a neighbour changed in the last pass.
     void price_dirty(const Block& block) {
         State& s = *members_[block.member].state;
         Pricer pricer(s);
@@ -159,7 +160,7 @@ class Passes {
         pricer.finish();
     }
 
-    /// Bits of a cost: edges below are candidates. 0 when no edge is left.
+    /// The bits of a cost: edges with lower costs are candidates. 0 when no edge is left.
     std::uint32_t threshold() const {
         const std::vector<Bucket> filled = blocks_corners() <= few_corners ? few_buckets() : all_buckets();
         if (filled.empty()) return 0;
@@ -179,7 +180,7 @@ class Passes {
 
     static std::size_t bucket_of(float cost) { return bits_of(cost) >> bucket_shift; }
 
-    /// Those that are not empty, ascending; of a few edges, which a histogram would cost more than to sort.
+    /// Non-empty buckets, ascending. For few edges, sorting is cheaper than a histogram.
     std::vector<Bucket> few_buckets() const {
         std::vector<Bucket> filled;
         for (const Block& block : blocks_) {
@@ -191,7 +192,7 @@ class Passes {
         return gathered(std::move(filled));
     }
 
-    /// The same of any number.
+    /// Non-empty buckets, ascending, for any number of edges.
     std::vector<Bucket> all_buckets() const {
         const std::vector<std::size_t> all = histogram();
         std::vector<Bucket> filled;
@@ -200,13 +201,13 @@ class Passes {
         return filled;
     }
 
-    /// How many edges have which cost.
+    /// The number of edges per bucket of cost.
     std::vector<std::size_t> histogram() const {
         using Counts = std::vector<std::size_t>;
         return parallel_reduce(
             tasks_.size() - 1, Counts(buckets),
             [&](std::size_t task, std::size_t) {
-                Counts counts(buckets + 1); // the last for what is never
+                Counts counts(buckets + 1); // the last one counts `never`
                 for (std::size_t b = tasks_[task]; b < tasks_[task + 1]; ++b) {
                     const Member& m = members_[blocks_[b].member];
                     const float factor = factors_[blocks_[b].member];
@@ -223,7 +224,7 @@ class Passes {
             1);
     }
 
-    /// The edges below the threshold, by blocks.
+    /// The edges below the threshold, by block.
     std::vector<std::vector<Candidate>> candidates(std::uint32_t limit) const {
         std::vector<std::vector<Candidate>> found(blocks_.size());
         for_blocks([&](std::size_t b) {
@@ -266,7 +267,8 @@ class Passes {
         for (const Candidate& k : more) edges.push_back({k.key, k.corner, static_cast<Index>(member)});
     }
 
-    /// Each state by itself. later: what changes the topology, which may take more faces than were reckoned.
+    /// Collapses each state independently. later: topology changes, which may remove more faces than
+    /// expected.
     void collapse_disjoint(const std::vector<std::vector<Candidate>>& found, std::vector<PassTotals>& totals,
                            std::vector<LastEdge>& later) {
         for_members([&](std::size_t m) {
@@ -277,7 +279,7 @@ class Passes {
             State& s = *members_[m].state;
             const std::size_t uses = members_[m].uses, other_faces = faces_ - uses * s.rings.live_faces,
                               other_vertices = vertices_ - uses * s.rings.live_vertices;
-            const auto most = [&] { // as if the others stayed
+            const auto most = [&] { // as if the other states did not change
                 const std::size_t left = remaining(other_faces + uses * s.rings.live_faces,
                                                    other_vertices + uses * s.rings.live_vertices);
                 return (left + uses - 1) / uses;
@@ -288,7 +290,7 @@ class Passes {
         count();
     }
 
-    /// All in one order, until the goal is met.
+    /// Collapses edges of all states in a single order, until the goal is met.
     void collapse_in_order(std::vector<LastEdge> edges, std::vector<PassTotals>& totals) {
         std::sort(edges.begin(), edges.end());
         const auto around = std::make_unique_for_overwrite<Around>();
@@ -305,8 +307,9 @@ class Passes {
             Tally& tally = tallies[edges[i].member];
             const std::size_t uses = members_[edges[i].member].uses, faces_gone = tally.faces,
                               vertices_gone = tally.vertices;
-            // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
-            // again; four faces and all vertices of a part that vanishes, so that is counted.
+            // A collapse normally removes two faces and one vertex. At a boundary it removes one face, so
+            // another pass may be needed. A vanishing part loses four faces and all its vertices, so the
+            // removed numbers are counted.
             if (collapse(s, edges[i].corner, *around, pricer, tally) != Attempt::done) continue;
             done += uses;
             faces -= uses * (tally.faces - faces_gone);
@@ -315,8 +318,8 @@ class Passes {
         for (std::size_t m = 0; m < members_.size(); ++m) join(*members_[m].state, tallies[m], totals[m]);
     }
 
-    /// Edges that were refused may do now that their surroundings changed: looks at all of them once more, as
-    /// long as that brought something.
+    /// Schedules another look at refused edges, because their surroundings may have changed. Repeats only
+    /// while the last look led to enough collapses.
     bool try_again() {
         if (100 * since_retry_ < faces_ || since_retry_ == 0) return false;
         since_retry_ = 0;
@@ -327,11 +330,11 @@ class Passes {
     std::span<Member> members_;
     Goal goal_;
     std::vector<float> factors_;           // [members]
-    std::vector<std::uint8_t> changed_;    // [members] in the last pass
+    std::vector<std::uint8_t> changed_;    // [members] true if the last pass changed it
     std::vector<Block> blocks_;            // of all members, in their order
     std::vector<std::size_t> first_block_; // [members + 1]
     std::vector<std::size_t> tasks_;       // the first block of each, and the end
-    std::size_t faces_ = 0, vertices_ = 0; // of all, each as often as it is used
+    std::size_t faces_ = 0, vertices_ = 0; // totals, weighted by use
     bool refresh_all_ = true;
     std::size_t since_retry_ = 0;
 };

@@ -1,5 +1,5 @@
-// The parts of a scene: simplified as planned, by their share of the target, and compared with what they
-// were.
+// The parts of a scene: each is simplified as planned, by its share of the target, and compared with its
+// input.
 
 #include "base/progress.hpp"
 #include "geometry/simplify/parts_plan.hpp"
@@ -18,15 +18,15 @@ using namespace simplification;
 using Stop = SimplifyResult::Stop;
 using Intersections = SimplifySettings::Intersections;
 
-/// A part as it came, as far as reports compare with it.
+/// The data of an input part that reports compare with the result.
 struct Before {
     Surface surface;             ///< in the world
     SimplifiedPart::Size size;   ///< in the world
-    Properties properties;       ///< in the world, where the method may change more than that
+    Properties properties;       ///< in the world; for methods that may change more than the size
     std::optional<double> limit; ///< max_quadric_error, in the part's own units
 };
 
-/// Measurements of a part, which hold wherever it is moved to.
+/// Measurements of a part; rigid motions do not change them.
 struct Measured {
     SimplifiedPart::Sizes sizes;
     DeviationResult deviation;
@@ -35,10 +35,10 @@ struct Measured {
 struct PartsWork {
     Scene& scene;
     PartsPlan plan;
-    std::vector<std::vector<SimplifyResult>> results{};           ///< [parts][levels] found and not yet taken
+    std::vector<std::vector<SimplifyResult>> results{}; ///< [parts][levels] computed but not yet passed on
     std::map<std::size_t, std::vector<SimplifyResult>> repeats{}; ///< results that are needed again
-    std::map<std::size_t, std::size_t> shares{};   ///< [first parts of sets] triangles that each is to have
-    Stop shared_stop = Stop::nothing;              ///< the end of the work that gave the shares
+    std::map<std::size_t, std::size_t> shares{};   ///< [first parts of sets] target number of triangles
+    Stop shared_stop = Stop::nothing;              ///< the reason that ended the shared work
     std::vector<Before> before{};                  ///< [parts]
     std::vector<std::vector<Measured>> measured{}; ///< [parts][levels]
 };
@@ -47,7 +47,7 @@ SimplifiedPart::Size size_of(const Mesh& mesh, const SurfaceSize& size) {
     return {size.area, mesh.face_count() > 0 ? size.volume : 0};
 }
 
-/// Notes what is compared with the results.
+/// Stores the data that the results are compared with.
 void note_before(PartsWork& w, const PartSet& set, std::optional<double> limit) {
     ProgressSteps steps(std::vector<double>(set.size(), 1));
     for (const std::size_t p : set) {
@@ -67,7 +67,7 @@ void keep_for_repeats(PartsWork& w, std::size_t part) {
     if (w.plan.work.uses[part] > 1) w.repeats[part] = w.results[part];
 }
 
-/// The sets that one target is shared by: those that do not repeat the work of another.
+/// The sets that share a target, without sets that repeat the work of another.
 std::vector<PartSet> sharing_sets(const PartsPlan& plan) {
     std::vector<PartSet> sets;
     for (std::size_t p = 0; p < plan.work.first.size() && plan.o.by_error; ++p) {
@@ -77,7 +77,7 @@ std::vector<PartSet> sharing_sets(const PartsPlan& plan) {
     return sets;
 }
 
-/// keep: the meshes stay in the scene, too.
+/// keep: the meshes also stay in the scene.
 SharingMeshes sharing_meshes(PartsWork& w, const PartSet& set, SimplifySettings settings, bool keep) {
     SharingMeshes sharing;
     sharing.lock = std::move(settings.lock);
@@ -91,13 +91,13 @@ SharingMeshes sharing_meshes(PartsWork& w, const PartSet& set, SimplifySettings 
     return sharing;
 }
 
-/// Where several sets share a target: finds their results. Where each has more to do than to collapse edges,
-/// finds its number of triangles.
+/// If several sets share a target: computes their results. If the method does more than collapse edges:
+/// computes only the number of triangles for each set.
 void share_target(PartsWork& w) {
     const std::vector<PartSet> sets = sharing_sets(w.plan);
     if (sets.size() < 2) return;
     SimplifySettings all = w.plan.o.all;
-    all.max_quadric_error.reset(); // each has its own
+    all.max_quadric_error.reset(); // each set has its own
     const bool lods = !all.levels.empty();
     const bool more = !lods && (all.max_error || all.self_intersections != Intersections::ignore);
     if (lods) all.self_intersections = Intersections::ignore;
@@ -116,7 +116,7 @@ void share_target(PartsWork& w) {
     if (more) {
         const SimplifyShares shares = simplify_shares(std::move(sharing), all);
         w.shared_stop = shares.stop;
-        if (shares.stop != Stop::stuck) // else each goes as far as it can
+        if (shares.stop != Stop::stuck) // otherwise each is simplified as far as possible
             for (std::size_t i = 0; i < sets.size(); ++i) w.shares[sets[i].front()] = shares.faces[i];
         return;
     }
@@ -129,7 +129,7 @@ void share_target(PartsWork& w) {
     }
 }
 
-/// Finds the results of the parts of a set, one for each level.
+/// Computes the results of the parts of a set, one per level.
 void simplify_set(PartsWork& w, const PartSet& set) {
     ProgressSteps steps({1, 9});
     SimplifySettings settings = settings_for(set, w.plan);
@@ -158,13 +158,14 @@ void simplify_set(PartsWork& w, const PartSet& set) {
         results.push_back(simplify(std::move(w.scene.parts[front].mesh), settings));
     }
     for (std::size_t i = 0; share != w.shares.end() && i < set.size(); ++i) {
-        Stop& stop = w.results[set[i]].front().stop; // a part that has its share met the target of all
+        Stop& stop = w.results[set[i]].front().stop; // a part that reached its share met the common target
         if (stop == Stop::faces || stop == Stop::nothing) stop = w.shared_stop;
     }
     keep_for_repeats(w, front);
 }
 
-/// Measures a level of a part; a part that differs by a move only has the measurements of the first one.
+/// Measures a level of a part. A part that differs from an earlier one only by a rigid motion shares its
+/// measurements.
 void measure(PartsWork& w, const Part& part, std::size_t number, std::size_t level, SimplifiedPart& entry) {
     const std::size_t as = w.plan.measured_as[number];
     if (as == number) {
@@ -186,7 +187,7 @@ void measure(PartsWork& w, const Part& part, std::size_t number, std::size_t lev
     }
 }
 
-/// Compares a level of a part, which has the mesh of the level for that time.
+/// Compares a level of a part. The part holds the mesh of the level during the comparison.
 SimplifiedPart settled_level(PartsWork& w, std::size_t number, std::size_t level) {
     Part& part = w.scene.parts[number];
     SimplifiedPart entry;
@@ -231,7 +232,7 @@ void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
     for (std::size_t p = 0; p < count; ++p)
         if (settings.selected[p]) lengths.push_back(1 + double(scene.parts[p].mesh.face_count()));
     const bool shared = settings.by_error && count > 1;
-    const double measuring = !w.plan.measures() ? 0.2 : settings.certify ? 5 : 2; // against the collapses
+    const double measuring = !w.plan.measures() ? 0.2 : settings.certify ? 5 : 2; // relative to the collapses
     ProgressSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
     share_target(w);
     steps.next();

@@ -30,14 +30,14 @@ namespace {
 
 using Method = SimplifySettings::Method;
 
-/// A share of a count that is meant for all, rounded down; it may be none.
+/// A proportional share of a total count, rounded down; an empty total stays empty.
 std::optional<std::size_t> share(std::optional<std::size_t> whole, std::size_t own, std::size_t all) {
     if (!whole || own == all || all == 0) return whole;
     return static_cast<std::size_t>(static_cast<double>(*whole) *
                                     (static_cast<double>(own) / static_cast<double>(all)));
 }
 
-/// What a part's share of the samples depends on.
+/// The size that determines a part's share of the samples.
 struct SampledSize {
     double area = 0;
     std::size_t triangles = 0;
@@ -53,9 +53,8 @@ SampledSize sampled_size(const Surface& surface) {
     return size;
 }
 
-/// Samples of parts that are measured one by one, so that all together have `all`: half of them go by area,
-/// half by the number of triangles (all of them where there is no finite area), rounded up. A single part has
-/// all.
+/// Distributes `all` samples to parts that are measured separately. Half are distributed by area, half by the
+/// number of triangles, rounded up; all by triangles if there is no finite area. A single part gets all.
 std::vector<std::size_t> shared_samples(std::size_t all, std::span<const SampledSize> parts) {
     double area = 0;
     double triangles = 0;
@@ -83,7 +82,7 @@ bool fits(const PartSet& set, const PartsPlan& plan) {
     return can_simplify_jointly(meshes, plan.o.all);
 }
 
-/// Which parts are simplified as one, and which vertices of others stay because another part has them too.
+/// Finds the sets of parts to merge, and the vertices that stay because another part shares them.
 void find_sets(PartsPlan& plan) {
     const SimplifySettings& s = plan.o.all;
     const auto& parts = plan.scene.parts;
@@ -98,7 +97,7 @@ void find_sets(PartsPlan& plan) {
             for (const std::size_t p : set) plan.set_of[p] = &set;
 }
 
-/// Shares the samples out among the parts that are simplified.
+/// Distributes the samples among the simplified parts.
 void share_samples(PartsPlan& plan) {
     const auto& parts = plan.scene.parts;
     plan.samples.assign(parts.size(), 0);
@@ -113,15 +112,15 @@ void share_samples(PartsPlan& plan) {
     for (std::size_t i = 0; i < selected.size(); ++i) plan.samples[selected[i]] = shares[i];
 }
 
-/// Finds the parts that have the result of an earlier one with the same mesh, and its measurements when they
-/// differ by a move only.
+/// Finds parts that share the result of an earlier part with the same mesh. They share its measurements too
+/// if they differ only by a rigid motion.
 void find_repeats(PartsPlan& plan) {
     const SimplifySettings& s = plan.o.all;
     const bool by_size = s.max_error || s.constraints.hausdorff > 0 || s.max_quadric_error;
     const auto key = [&](std::size_t p) {
         const Transform& to_world = plan.scene.parts[p].transform;
         const bool touches = !plan.contacts.shared.empty() && !plan.contacts.shared[p].empty();
-        const bool alone = touches || !plan.o.selected[p] || !s.lock.body.empty(); // it meets each elsewhere
+        const bool alone = touches || !plan.o.selected[p] || !s.lock.body.empty(); // its position matters
         const double scale = by_size           ? greatest_stretch(to_world)
                              : plan.o.by_error ? ordering_scale(to_world)
                                                : 1;
@@ -164,7 +163,7 @@ SimplifySettings settings_for(const PartSet& set, const PartsPlan& plan) {
         for (const std::size_t p : set) box.add(plan.scene.parts[p].mesh.bounds());
         s.max_quadric_error = *plan.o.max_of_diagonal * diagonal(box);
     }
-    if (!(s.max_quadric_error > 0.0)) s.max_quadric_error.reset(); // of a single point
+    if (!(s.max_quadric_error > 0.0)) s.max_quadric_error.reset(); // for example, a single point
     for (Plane& plane : s.lock.body) plane = pulled_back(plane, to_world);
     if (set.size() == 1 && !plan.contacts.shared.empty()) s.lock.vertices = plan.contacts.shared[set.front()];
     s.samples = 0;

@@ -1,22 +1,23 @@
 #pragma once
-// What is decided about the parts of a scene before any of them is simplified.
+// Decisions about the parts of a scene, made before any part is simplified.
 
 #include "geometry/simplify/joint.hpp"
 #include "mesh/equal_meshes.hpp"
 
 namespace facetmill::simplification {
 
-using PartSet = std::vector<std::size_t>; ///< parts, by their number in the scene
+using PartSet = std::vector<std::size_t>; ///< part numbers in the scene
 
 struct PartsPlan {
     const Scene& scene;
     const SimplifyPartsSettings& o;
-    MeshCounts all{}; ///< of the selected parts
+    MeshCounts all{}; ///< of the selected parts in total
     Contacts contacts{};
-    std::vector<const PartSet*> set_of{};   ///< [parts] of contacts, when simplified as one; empty: none is
-    DistinctParts work{Scene{}};            ///< parts that have the result of the first
-    std::vector<std::size_t> measured_as{}; ///< [parts] the part that has its measurements, mostly itself
-    std::vector<std::size_t> samples{};     ///< [parts] each way, of those selected
+    std::vector<const PartSet*> set_of{}; ///< [parts] the set in contacts that is simplified jointly; empty:
+                                          ///< no such set
+    DistinctParts work{Scene{}};          ///< equal parts share the result of the first
+    std::vector<std::size_t> measured_as{}; ///< [parts] the part whose measurements apply, usually itself
+    std::vector<std::size_t> samples{};     ///< [parts] samples in each direction, for the selected parts
 
     PartSet set_with(std::size_t part) const {
         return set_of.empty() || !set_of[part] ? PartSet{part} : *set_of[part];
@@ -30,11 +31,12 @@ struct PartsPlan {
 
 PartsPlan plan_parts(const Scene& scene, const SimplifyPartsSettings& settings);
 
-/// The settings for parts that are simplified as one: their share of the targets, in their own space.
+/// The settings for a set of parts that are merged for simplification: their share of the targets, in their
+/// own space.
 SimplifySettings settings_for(const PartSet& set, const PartsPlan& plan);
 
-/// Takes lengths of a part's space to the world's, where they only order the errors of parts. Rounded, so
-/// that nodes which differ by a rotation have the same.
+/// Scale from a part's space to the world, used only to order the errors of parts. It is rounded, so that
+/// nodes that differ by a rotation have the same scale.
 double ordering_scale(const Transform& to_world);
 
 } // namespace facetmill::simplification

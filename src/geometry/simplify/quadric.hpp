@@ -37,9 +37,9 @@ struct Quadric {
     /// The value at p; rounding may leave a small negative number, which is 0.
     double operator()(const Vec3& p) const { return std::max(0.0, dot(p, times(p)) - 2 * dot(b, p) + c); }
 
-    /// The point where Q(p) + pull * |p - anchor|^2 is least. With pull > 0 it always exists and, where the
-    /// planes leave it free (a plane, a straight edge), it stays by the anchor. LDL' of A + pull; no pivoting
-    /// is needed.
+    /// The point that minimises Q(p) + pull * |p - anchor|^2. With pull > 0 it always exists. If the planes
+    /// leave it free (a plane, a straight edge), it stays near the anchor. Solved by the LDL' factorisation
+    /// of A + pull; no pivoting is needed.
     Vec3 least(const Vec3& anchor, double pull) const {
         const double i0 = 1 / (xx + pull), l10 = xy * i0, l20 = xz * i0;
         const double i1 = 1 / (yy + pull - l10 * xy), e21 = yz - l20 * xy, l21 = e21 * i1;
@@ -53,20 +53,20 @@ struct Quadric {
 
 inline Quadric operator+(Quadric a, const Quadric& b) { return a += b; }
 
-/// The quadric of a vertex, kept about the place where the vertex is: Q(y) = y.A y - 2 b.y + c for points at
-/// y from the vertex; the weight is A's trace, since all planes have unit normals. A sum of planes through
+/// The quadric of a vertex, stored relative to the vertex position: Q(y) = y.A y - 2 b.y + c for points at y
+/// from the vertex. The weight is A's trace, because all planes have unit normals. A sum of planes through
 /// the vertex has b = 0 and c = 0.
 template <class Real>
 struct QuadricAbout {
     Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0;
 };
-/// In single precision: near the vertex nothing cancels, and errors are right down to about 1e-7 of the
-/// squared length of an edge, which is enough for surfaces that are curved everywhere.
+/// In single precision: terms near the vertex do not cancel, and errors are exact to about 1e-7 of an edge's
+/// squared length. That is enough for surfaces that are curved everywhere.
 using NearQuadric = QuadricAbout<float>;
-/// For surfaces with flat and nearly flat parts, where the smallest errors decide what goes first.
+/// For surfaces with flat and nearly flat parts, where the smallest errors decide which edge goes first.
 using FineQuadric = QuadricAbout<double>;
 
-/// q as seen from a place at h from its own: q'(y) = q(y + h).
+/// Moves the origin of q by h: q'(y) = q(y + h).
 inline Quadric seen_from(const Quadric& q, const Vec3& h) {
     const Vec3 ah = q.times(h);
     Quadric moved = q;
@@ -80,7 +80,7 @@ Quadric seen_from(const QuadricAbout<Real>& q, const Vec3& h) {
     return seen_from(Quadric{xx, q.xy, q.xz, yy, q.yz, zz, {q.bx, q.by, q.bz}, q.c, xx + yy + zz}, h);
 }
 
-/// Rounded to the numbers that are kept; the value at the place itself is not negative.
+/// Rounded to the stored precision; the value at the origin is not negative.
 template <class Real>
 QuadricAbout<Real> rounded(const Quadric& q) {
     const auto f = [](double x) { return static_cast<Real>(x); };

@@ -1,4 +1,4 @@
-// Meshes that share one target: their states go to it together, see order.cpp.
+// Meshes that share a target; order.cpp collapses their states together.
 
 #include "geometry/simplify/sharing.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 using namespace simplification;
 using Stop = SimplifyResult::Stop;
 
-/// One of those that share, from what was given to its results.
+/// One participant in a shared simplification, from its input meshes to its results.
 class Sharer {
   public:
     const std::size_t uses;
@@ -46,10 +46,10 @@ class Sharer {
         member = {&*state_, scale_ / state_->frame.scale, uses};
     }
 
-    /// The results of its meshes as they came.
+    /// The unchanged meshes as results.
     std::vector<SimplifyResult> untouched() const { return split(subject_->unchanged()); }
-    /// ... and as they are now. met: the target; own: its own part of it, which it may have met where all
-    /// together did not.
+    /// The current state as results. met: the reached target. own: this participant's part of the target,
+    /// which it may meet although the total does not.
     std::vector<SimplifyResult> results(Stop met, const Targets& own) {
         const bool stuck = member.done.stuck && !own.goal.met(*state_);
         if (member.done.stuck && !stuck) met = own.met(faces());
@@ -83,7 +83,7 @@ class Sharer {
 
     double scale_;
     SimplifySettings settings_;
-    std::vector<Mesh> meshes_; ///< as given; a single one is the subject's
+    std::vector<Mesh> meshes_; ///< the input meshes; a single mesh belongs to the subject
     std::unique_ptr<SimplifyInput> subject_;
     std::size_t vertices_given_ = 0;
     std::optional<State> state_;
@@ -100,7 +100,7 @@ class Sharing {
         for (const auto& s : sharers_) vertices_given_ += s->uses * s->vertices();
     }
 
-    /// Goes to the target. ratio: as the settings', or of a level.
+    /// Collapses until the target is met. ratio: of the settings, or of a level.
     void go(std::optional<double> ratio) {
         const Targets targets = targets_of(ratio);
         std::size_t faces = 0, vertices = 0;
@@ -128,7 +128,7 @@ class Sharing {
         stop_ = members.front().done.stuck ? Stop::stuck : targets.met(faces);
     }
 
-    /// Adds the results as they are now to those of finer levels.
+    /// Appends the current results to the results of finer levels.
     void add_results(std::optional<double> ratio, Results& results) {
         results.resize(sharers_.size());
         each([&](std::size_t i) {
@@ -140,7 +140,7 @@ class Sharing {
         });
     }
 
-    /// What each has now.
+    /// The current counts of each participant.
     SimplifyShares shares() const {
         SimplifyShares shares{{}, stop_};
         shares.faces.reserve(sharers_.size());
@@ -161,7 +161,7 @@ class Sharing {
         return {by_ratio, settings_.faces.value_or(0), settings_.vertices.value_or(0)};
     }
 
-    /// What is asked of a single one, in proportion to what it had.
+    /// The participant's part of the target, in proportion to its input.
     Targets own_part(std::optional<double> ratio, const Sharer& s) const {
         const auto part = [](std::optional<std::size_t> whole, std::size_t own, std::size_t all) {
             return static_cast<std::size_t>(double(whole.value_or(0)) * (double(own) / double(all)));
@@ -172,9 +172,9 @@ class Sharing {
 
     const SimplifySettings& settings_;
     std::vector<std::unique_ptr<Sharer>> sharers_;
-    std::size_t given_ = 0, vertices_given_ = 0; ///< faces and vertices of all, each use counted
-    bool moved_ = false;                         ///< the last target was below what there was
-    Stop stop_ = Stop::nothing;                  ///< what ended the work of all
+    std::size_t given_ = 0, vertices_given_ = 0; ///< total faces and vertices, weighted by use
+    bool moved_ = false;                         ///< the last target required collapses
+    Stop stop_ = Stop::nothing;                  ///< why the shared work stopped
 };
 
 void check_sharing(const SimplifySettings& s) {

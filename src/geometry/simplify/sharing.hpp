@@ -1,31 +1,31 @@
 #pragma once
-// Meshes that share one target: triangles stay where they are needed.
+// Meshes that share a target: triangles stay where they are needed.
 
 #include "geometry/simplify/simplify.hpp"
 
 namespace facetmill {
 
-/// A mesh, or several for which can_simplify_jointly holds and which are worked on as one.
+/// A mesh, or several meshes that satisfy can_simplify_jointly and are merged for the work.
 struct SharingMeshes {
     std::vector<Mesh> meshes;
-    SimplifyLocks lock{};                      ///< in place of that of the settings
-    std::optional<double> max_quadric_error{}; ///< likewise
-    double scale = 1;     ///< takes lengths of the meshes' space to the one in which errors are compared
-    std::size_t uses = 1; ///< how often the result is used: what a collapse takes away counts as often
+    SimplifyLocks lock{};                      ///< replaces the lock of the settings
+    std::optional<double> max_quadric_error{}; ///< replaces the value of the settings
+    double scale = 1;     ///< scale from the space of the meshes to the space in which errors are compared
+    std::size_t uses = 1; ///< how often the result is used: each use counts towards the target
 };
 
-/// As simplify, or simplify_levels when settings has levels, of meshes with one target for all: edges are
-/// collapsed in one order of cost over all of them, so that all end at about the same cost. The ratio asks
-/// for as many triangles as it would of each; faces and vertices are those of all, and each use counts.
-/// [sharing][levels][meshes]; without levels there is one. A mesh in which no collapse was made stays as it
-/// came; when no collapse is left, those that are at or below their own part of the target have met it.
+/// Like simplify, or simplify_levels when settings has levels, for meshes with a common target. Edges are
+/// collapsed in a single order of cost over all meshes, so that all end at about the same cost. The ratio
+/// applies to the total triangle count. Faces and vertices are totals too, and each use counts. Returns
+/// [sharing][levels][meshes]; without levels, one entry. A mesh without collapses stays unchanged. When no
+/// collapse is left, meshes at or below their own share of the target have met it.
 ///
-/// Requires quadric, quadric-endpoints or shortest-edge; max_error and self_intersections other than ignore
-/// are refused (check_simplify_sharing), see simplify_shares.
+/// Requires quadric, quadric-endpoints or shortest-edge. max_error and self_intersections other than ignore
+/// are refused (check_simplify_sharing); use simplify_shares for them.
 std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vector<SharingMeshes> sharing,
                                                                        const SimplifySettings& settings);
 
-/// What each would have after simplify_sharing without max_error and self_intersections.
+/// The result of simplify_sharing without max_error and self_intersections, as counts per mesh.
 struct SimplifyShares {
     std::vector<std::size_t> faces;                            ///< [sharing] triangles
     SimplifyResult::Stop stop = SimplifyResult::Stop::nothing; ///< stuck: the target was not met

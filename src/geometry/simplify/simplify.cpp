@@ -14,8 +14,8 @@ using Stop = SimplifyResult::Stop;
 using Method = SimplifySettings::Method;
 using Intersections = SimplifySettings::Intersections;
 
-constexpr int max_rounds = 16;    // of limiting what runs into itself; three or four are usual
-constexpr int gentle_rounds = 10; // before all collapses are held back there
+constexpr int max_rounds = 16;    // of limiting intersecting faces; three or four are usual
+constexpr int gentle_rounds = 10; // before all collapses at intersecting faces are blocked
 
 Ended run_to(State s, const CoincidentBorders* borders, const Goal& goal) {
     Ended end;
@@ -54,7 +54,7 @@ SimplifyResult result_of(const SimplifyInput& subject, const Targets& targets, c
     return r;
 }
 
-/// With the self-intersections counted, and avoided on request.
+/// Simplifies, counts the self-intersections, and avoids them on request.
 SimplifyResult simplify_crossing(SimplifyInput& subject, const Targets& targets,
                                  const SimplifySettings& settings) {
     const std::size_t before = find_self_intersections(subject.mesh(), {.limit = 0}).count;
@@ -104,7 +104,7 @@ std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& 
     Member member{};
     std::vector<SimplifyResult> levels;
     std::vector<double> lengths(settings.levels.size(), 1);
-    if (!lengths.empty()) lengths.front() = 3; // most collapses are on the way to the first
+    if (!lengths.empty()) lengths.front() = 3; // most collapses happen before the first level
     ProgressSteps steps(std::move(lengths));
     const auto next = [&](SimplifyResult r) {
         levels.push_back(std::move(r));

@@ -1,6 +1,6 @@
 #pragma once
-// Simplification: edges are collapsed, cheapest first, until a target is met. The one header of this folder
-// that others include.
+// Simplification: edges are collapsed, cheapest first, until a target is met. Code outside this folder
+// includes only this header.
 
 #include "base/math/portable_math.hpp"
 #include "base/refusal.hpp"
@@ -17,43 +17,45 @@
 
 namespace facetmill {
 
-/// What stays vertex by vertex.
+/// Vertices that must stay.
 struct SimplifyLocks {
     bool boundary = false;     ///< the vertices of boundary edges
     bool seams = false;        ///< the vertices of seams and of borders of primitives
     bool groups = false;       ///< the vertices of borders between values of the face attribute "group"
-    std::vector<Plane> body{}; ///< the vertices in front of all of these, in the mesh's space; empty: none
-    std::vector<std::uint8_t> vertices{}; ///< [vertices] 1 for those that stay; empty: none
-    /// No edge comes to join two of `vertices` that none joined before: of pieces of one surface that are
-    /// simplified one by one, two would get it, and it would have four faces.
+    std::vector<Plane> body{}; ///< vertices in front of all these planes, in the mesh's space; empty: none
+    std::vector<std::uint8_t> vertices{}; ///< [vertices] 1 for vertices that stay; empty: none
+    /// No collapse creates an edge between two of `vertices`. If the pieces of a surface are simplified
+    /// separately, two pieces could create the same edge, which would then have four faces.
     bool apart = false;
 };
 
-/// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
+/// Limits for each collapse of the method constrained; 0 disables a constraint.
 struct SimplifyConstraints {
-    double least_cosine = 0.5; ///< of the angle between a face's normal and the one that it came with
-    double aspect_ratio = 0;   ///< no face gets a larger one (mesh/aspect_ratio.hpp), unless one was worse
-    double roundness = 0; ///< no face gets a smaller one: 1 for an equilateral triangle, 0 for a flat one
-    double hausdorff = 0; ///< no vertex that went is farther from the faces near by, in the mesh's units
+    double least_cosine = 0.5; ///< of the angle between a face's normal and its original normal
+    double aspect_ratio =
+        0; ///< no face gets a larger ratio (mesh/aspect_ratio.hpp), unless a face was already worse
+    double roundness = 0; ///< no face gets a smaller value: 1 for an equilateral triangle, 0 for a flat one
+    double hausdorff = 0; ///< no removed vertex is farther from the faces near by, in the mesh's units
 };
 
-/// What attributes weigh in the error of the quadric methods; 0 leaves one out.
+/// The weights of attributes in the error of the quadric methods; 0 ignores an attribute.
 struct AttributeWeights {
-    /// UV sets: a texture that slides by a length counts as much as `uv` times a surface off by that length.
+    /// UV sets: a texture that slides by a length counts as much as `uv` times a surface that is off by the
+    /// same length.
     double uv = 0.5;
     // A difference of 1 counts as much as a surface that is off by the weight times 1 % of the diagonal.
     double normal = 0.1; ///< of unit vectors
     double colour = 1;   ///< of full intensity
-    double skin = 1;     ///< of skin weights: all of a joint's pull
+    double skin = 1;     ///< of skin weights: the full influence of a joint
 };
 
 struct SimplifySettings {
     enum class Method {
         quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
-        quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
+        quadric_endpoints, ///< like quadric, but the new vertex is one of the two ends: vertices are a subset
         constrained,       ///< OpenMesh's decimater: quadric, endpoints only, under SimplifyConstraints
-        shortest_edge,     ///< the shortest edge goes, and the rest meets at its midpoint
-        cluster, ///< the vertices in each cell of a grid become one: for previews, topology is not kept
+        shortest_edge,     ///< the shortest edge is collapsed to its midpoint
+        cluster,           ///< merges the vertices in each cell of a grid: for previews, topology is not kept
     };
     enum class Topology {
         keep,  ///< genus, components and boundary loops stay
@@ -62,7 +64,7 @@ struct SimplifySettings {
     enum class Intersections {
         ignore, ///< not looked for
         count,  ///< counted before and after
-        avoid,  ///< no more pairs of faces that run into each other than there were
+        avoid,  ///< no more intersecting pairs of faces than in the input
     };
     Method method = Method::quadric;
     Topology topology = Topology::keep;
@@ -70,20 +72,20 @@ struct SimplifySettings {
     AttributeWeights weights{}; ///< for quadric and quadric-endpoints
     SimplifyLocks lock{};
     SimplifyConstraints constraints{}; ///< for the method constrained
-    /// Radians, see merge_normal_seams (0: every normal seam stays); and of corners of boundaries, see
-    /// shortest_edge.
+    /// In radians: the angle for merge_normal_seams (0: every normal seam stays), and for corners of
+    /// boundaries with shortest_edge.
     double feature_angle = 30 * pi / 180;
     // At least one target; the first one met stops the work.
     std::optional<double> ratio =
         {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
     std::optional<std::size_t> faces = {};    ///< at most so many triangles
     std::optional<std::size_t> vertices = {}; ///< at most so many vertices
-    /// The deviation from the mesh that came in, measured both ways (geometry/deviation/deviation.hpp, its
-    /// seed), stays within this. In the mesh's units.
+    /// The deviation from the input mesh, measured in both directions (geometry/deviation/deviation.hpp, its
+    /// seed), stays within this bound. In the mesh's units.
     std::optional<double> max_error = {};
-    std::size_t samples = 100000; ///< each way, that max_error is judged by
-    /// For quadric and quadric-endpoints: no collapse has a larger error (see
-    /// SimplifyResult::largest_error). In the mesh's units.
+    std::size_t samples = 100000; ///< in each direction, for judging max_error
+    /// For quadric and quadric-endpoints: no collapse has a larger error (see SimplifyResult::largest_error).
+    /// In the mesh's units.
     std::optional<double> max_quadric_error = {};
     /// Levels of detail: ratios, descending. No other target may be given then.
     std::vector<double> levels = {};
@@ -91,150 +93,129 @@ struct SimplifySettings {
 
 struct SimplifyResult {
     enum class Stop {
-        nothing,           ///< the mesh was at or below every target already: it is returned as it was
+        nothing,           ///< the mesh already met every target: it is returned unchanged
         ratio,             ///< met
         faces,             ///< met
         vertices,          ///< met
-        max_error,         ///< any more would deviate too much
-        max_quadric_error, ///< any more would have a larger error
-        stuck,             ///< no collapse was left that keeps the guarantees
+        max_error,         ///< any further collapse would deviate too much
+        max_quadric_error, ///< any further collapse would have a larger error
+        stuck,             ///< every remaining collapse would break a guarantee
     };
-    /// Edges that were left because a collapse would have broken something; counted when the work stopped as
+    /// Edges that could not be collapsed without breaking a guarantee. Counted when the work stopped as
     /// stuck, for max_error or for max_quadric_error.
     struct Blocked {
-        std::size_t borders = 0;      ///< boundaries and locks; and where faces would cross, with avoid
+        std::size_t borders = 0;      ///< boundaries and locks; with avoid, also where faces would intersect
         std::size_t seams = 0;        ///< at a seam, or a border of primitives or groups
-        std::size_t non_manifold = 0; ///< at a vertex that is not manifold
+        std::size_t non_manifold = 0; ///< at a non-manifold vertex
         std::size_t topology = 0;     ///< would change genus, close a hole, or make a component vanish
         std::size_t flips = 0;        ///< would flip or flatten a face
         std::size_t error = 0;        ///< would move the surface too far
     };
     Mesh mesh;
     AttributeChanges changes;
-    /// [vertices of mesh] the vertex that each was, or that a vertex which moved took the place of, among
-    /// those that faces used; only with locks of single vertices, else empty.
+    /// [vertices of mesh] the source of each vertex, or of the vertex whose position a moved vertex took,
+    /// numbered among the vertices that faces used. Empty unless single vertices are locked.
     std::vector<Index> sources = {};
     Stop stop = Stop::nothing;
-    bool unchanged = false; ///< no collapse was made: the mesh is as it came
+    bool unchanged = false; ///< no collapse was made: the mesh equals the input
     Blocked blocked;
-    NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< what was done about normal seams
-    std::size_t merged_wedges = 0;                                 ///< by them
-    /// Faces that the work was done on turned round, so that neighbours agree; in `mesh` they face as they
-    /// did.
+    NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< how normal seams were handled
+    std::size_t merged_wedges = 0;                                 ///< merged along normal seams
+    /// Faces reversed during the work, so that neighbours agree; in `mesh` they have their original
+    /// orientation.
     std::size_t turned = 0;
-    std::size_t faces_given = 0;                         ///< as they came, polygons too
+    std::size_t faces_given = 0;                         ///< in the input, polygons too
     std::size_t faces_before = 0, faces_after = 0;       ///< triangles
     std::size_t vertices_before = 0, vertices_after = 0; ///< used by faces
-    std::size_t collapses = 0;                           ///< that led to the mesh
-    std::size_t rolled_back = 0;                         ///< that were taken back for max_error
-    std::size_t measurements = 0;                        ///< that max_error took
+    std::size_t collapses = 0;                           ///< the collapses that the mesh includes
+    std::size_t rolled_back = 0;                         ///< undone because of max_error
+    std::size_t measurements = 0;                        ///< needed for max_error
     std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
     std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
-    std::size_t held = 0; ///< vertices that less error was allowed to, to avoid self-intersections
+    std::size_t held = 0; ///< vertices with a lower error limit, to avoid self-intersections
     std::size_t passes = 0;
-    /// quadric and cluster: the largest distance (root mean square over the planes gathered in a new vertex)
-    /// at any collapse; shortest-edge: half the longest edge that was collapsed; constrained: none. In the
-    /// mesh's units.
+    /// In the mesh's units. quadric and cluster: the largest distance at any collapse, as the root mean
+    /// square over the planes of a new vertex. shortest-edge: half the longest collapsed edge. constrained:
+    /// none.
     std::optional<double> largest_error;
-    std::optional<double> cell; ///< cluster: the edge of the grid's cells, in the mesh's units
+    std::optional<double> cell; ///< cluster: the edge length of the grid's cells, in the mesh's units
 };
 
-/// Simplifies a mesh.
+/// Simplifies a mesh. Has no preconditions: open, non-manifold and degenerate input is accepted. Non-manifold
+/// vertices stay, with all edges between them.
 ///
-/// Requires nothing: open, non-manifold and degenerate input is worked on, except within reach of its
-/// non-manifold vertices, which stay with all their edges. Where neighbours face opposite ways the work is
-/// done as if they agreed (cluster aside), and every face that is left faces as it did; surfaces that cannot
-/// be oriented (a Moebius strip) count as not manifold where their neighbours disagree. Polygons are
-/// triangulated first. Vertices that no face uses are dropped.
+/// First, polygons are triangulated, unused vertices dropped, and normal-only seams merged
+/// (merge_normal_seams). Where neighbours disagree, faces are reversed during the work (not for cluster) and
+/// restored at the end. A non-orientable surface (a Moebius strip) counts as not manifold there.
 ///
-/// Guarantees: every collapse satisfies the link condition, so a manifold stays manifold, a closed surface
-/// closed, and the genus, the number of components and of boundary loops stay; a closed component keeps at
-/// least four faces. No collapse turns a face by more than 60 degrees, makes one degenerate or doubles one.
-/// Boundaries, UV and normal seams, and borders of primitives and groups collapse only along themselves;
-/// where more than two of them meet, or one ends, the vertex stays; with shortest_edge so do the vertices
-/// where a boundary turns by more than the feature angle. Vertices that were not moved keep their exact
-/// position. Open borders that run along each other at exactly the same places, as of patches that were never
-/// welded, collapse as the two sides of a seam and stay apart (with quadric, quadric-endpoints and
+/// Guarantees: every collapse satisfies the link condition, so manifoldness, closedness, the genus and the
+/// numbers of components and boundary loops stay. A closed component keeps at least four faces. No collapse
+/// turns a face by more than 60 degrees, or makes a face degenerate or double. Boundaries, UV and normal
+/// seams, and borders of primitives and groups collapse only along themselves. Their ends and crossings stay;
+/// with shortest_edge also the boundary corners sharper than the feature angle. Unmoved vertices keep their
+/// exact position. Coincident borders collapse as the two sides of a seam (quadric, quadric-endpoints and
 /// shortest-edge).
 ///
-/// max_error: every vertex and centre of a face that came in is followed to a face near by, and a collapse is
-/// refused when it leaves one farther than 9/10 of the bound from the faces around, or when the new vertex or
-/// the centre of a face at it is as far from the surface that came in. All collapses are logged, and the
-/// deviation of the result is measured. If it is above the bound, the log is cut by bisection: every
-/// beginning of it is a mesh with all the guarantees. Nothing is run again.
+/// max_error: bounds the measured deviation. Points of the input surface are followed during the collapses
+/// (bounds.cpp). If the final deviation exceeds the bound, the log of collapses is cut by bisection. Every
+/// prefix of the log is a mesh with all guarantees.
 ///
-/// self_intersections: avoid: where the result runs into itself more often than the mesh that came in, all
-/// vertices that went into the faces concerned may take part in collapses of half the error only, and
-/// all is done again, until none is new; after ten rounds they stay as they were. It works on one mesh, not
-/// on levels.
+/// self_intersections: avoid: while the result intersects itself more often than the input, the work is
+/// repeated, with half the error at the intersecting faces. After ten rounds their vertices stay fixed. Not
+/// for levels.
 ///
-/// The method constrained keeps boundaries, seams and borders vertex by vertex, and gives no largest_error;
-/// max_error and levels are refused.
+/// Methods: constrained keeps boundaries, seams and borders vertex by vertex, and has no largest_error,
+/// max_error or levels. cluster (J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for
+/// rendering complex scenes', 1993; placement after P. Lindstrom, 'Out-of-core simplification of large
+/// polygonal models', 2000) merges the vertices in each grid cell, and keeps at most one coincident face per
+/// side. Its targets set the cell size: the finest grid found that meets them. It keeps neither topology nor
+/// borders, and refuses locks, levels and self_intersections: avoid.
 ///
-/// topology: allow leaves the link condition out: the last faces of a component may go (not with max_error,
-/// which must find every point near by), holes of three edges close, and edges and vertices where handles
-/// were may end up with more than two faces or fans. Closedness, flips and features are kept as always.
+/// topology: allow drops the link condition, so components may vanish (not with max_error), and holes and
+/// handles may close. Edges and vertices may become non-manifold; closedness, flips and features are kept.
 ///
-/// The method cluster (J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for rendering complex
-/// scenes', 1993; placed after P. Lindstrom, 'Out-of-core simplification of large polygonal models', 2000)
-/// makes one vertex of all in a cell, where their planes meet best; faces that keep three vertices stay. It
-/// keeps neither topology nor borders, and refuses locks, levels and self_intersections: avoid. Its targets
-/// are met by the size of the cells: the finest grid that was found to be at or below; sheets thinner than a
-/// cell become double faces.
+/// Attributes: a moved vertex or wedge has the attributes of the input surface at its nearest point
+/// (attributes.hpp). Weights add the attribute error to the quadrics (H. Hoppe, 'New quadric metric for
+/// simplifying meshes with appearance attributes', 1999). The result is in Morton order.
 ///
-/// Weights: the attributes are linear over the faces that came in, and every new vertex pays the squared
-/// difference to what they would be at its place, by area (H. Hoppe, 'New quadric metric for simplifying
-/// meshes with appearance attributes', 1999; the best value at the vertex is eliminated, so that the sum is
-/// again a quadric). Skin weights go through a fixed random projection to four numbers.
-///
-/// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
-/// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides
-/// match); the others keep theirs, and so do faces. Seams that only normals make are merged first, see
-/// merge_normal_seams. The vertices and faces come out along a Morton curve.
-///
-/// Errors in the order: where neighbouring faces turn by more than 90 degrees, planes upright on them hold
-/// the edge, by the cosine, as they hold boundaries. Where more than a sixteenth of the edges cost less than
-/// single precision tells, costs below it are worked out in double precision; among what is left, errors of
-/// 1e-5 of the edges' lengths, the shorter edge goes first.
-///
-/// Errors: usage for the first that check_simplify_settings refuses. About O(n log n), parallel; the same
-/// bytes for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric
-/// error metrics' (1997).
+/// Errors: usage for the first refusal of check_simplify_settings. About O(n log n), parallel; the same bytes
+/// for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric error
+/// metrics' (1997).
 SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 
-/// All that simplify refuses, the first of which it throws first of all: settings that do not go together
-/// (E-CONFLICT), then no target, or settings out of range (E-RANGE).
+/// All settings that simplify refuses, in its order of reporting. First come settings that exclude each other
+/// (E-CONFLICT), then a missing target, or settings out of range (E-RANGE).
 std::vector<Refusal> check_simplify_settings(const SimplifySettings& settings);
 
-/// One result per ratio of settings.levels, from fine to coarse: a chain in which each level is made from the
-/// one before by further collapses, so a vertex of a coarse level stands for a set of vertices of the finer
-/// one, largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices
-/// and max_error must not be given. collapses are those since the mesh that came in. Throws the first that
-/// check_simplify_levels refuses.
+/// Returns one result per ratio of settings.levels, from fine to coarse. Each level continues the collapses
+/// of the one before, so a vertex of a coarse level represents a set of vertices of the finer level.
+/// largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices and
+/// max_error must not be given. collapses counts from the input mesh. Throws the first refusal of
+/// check_simplify_levels.
 std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
 
-/// As check_simplify_settings, of simplify_levels.
+/// Like check_simplify_settings, for simplify_levels.
 std::vector<Refusal> check_simplify_levels(const SimplifySettings& settings);
 
-// The parts of a scene, with one target for all.
+// The parts of a scene, with a common target.
 
-/// What is refused (E-CONFLICT) of settings that meshes cannot share; thrown before what
-/// check_simplify_settings refuses.
+/// The first conflict (E-CONFLICT) of settings with a shared target; thrown before the refusals of
+/// check_simplify_settings.
 std::optional<Refusal> check_simplify_sharing(const SimplifySettings& settings);
 
-/// How the parts of a scene are simplified together, and what is measured of them.
+/// Settings for simplifying the parts of a scene together, and for measuring them.
 struct SimplifyPartsSettings {
-    SimplifySettings all;               ///< for all selected parts together; lengths and planes of the world
-    std::vector<std::uint8_t> selected; ///< [parts] 1 for those that are simplified
-    /// For quadric, quadric-endpoints and shortest-edge: edges are collapsed in one order of cost over all
-    /// parts. Otherwise each part meets the ratio, or its share of faces and vertices, separately.
+    SimplifySettings all; ///< for all selected parts together; lengths and planes in world space
+    std::vector<std::uint8_t> selected; ///< [parts] 1 for parts to simplify
+    /// For quadric, quadric-endpoints and shortest-edge: edges are collapsed in a single order of cost over
+    /// all parts. Otherwise each part meets the ratio, or its share of faces and vertices, separately.
     bool by_error = true;
     std::optional<double> max_of_diagonal = {}; ///< max_quadric_error as a fraction of each part's diagonal
-    bool measure = true, certify = false;       ///< the deviation; and a guaranteed bound of it
-    std::function<SurfaceSize(std::size_t part)> size_before; ///< in the world, of a part as it came
+    bool measure = true, certify = false;       ///< the deviation, and a guaranteed bound of it
+    std::function<SurfaceSize(std::size_t part)> size_before; ///< in the world, of an input part
 };
 
-/// A simplified part, or a level of one.
+/// A simplified part, or one of its levels.
 struct SimplifiedPart {
     /// The size of a surface.
     struct Size {
@@ -244,25 +225,25 @@ struct SimplifiedPart {
     struct Topology {
         Properties before, after;
     };
-    /// Of the surface, in the world.
+    /// Sizes of the surface, in the world.
     struct Sizes {
         Size before, after;
     };
     SimplifyResult result;                     ///< without its mesh in reports
-    double scale = 1;                          ///< takes lengths from the part's space to the scene's
+    double scale = 1;                          ///< from lengths in the part's space to the scene's
     std::optional<double> max_quadric_error{}; ///< the limit, in scene units
     std::string part;
     std::optional<std::vector<std::string>> joint_with;
-    std::optional<Topology> topology; ///< of methods that may change it
+    std::optional<Topology> topology; ///< for methods that may change it
     std::optional<Sizes> sizes;       ///< when measured
     std::optional<DeviationResult> deviation;
-    std::optional<SurfaceSize> surface{}; ///< when this very part was measured
+    std::optional<SurfaceSize> surface{}; ///< when this part itself was measured
 };
 
-/// Simplifies the selected parts, one after the other, and passes on the levels of each (one without levels).
-/// Parts of the same transform, attributes and shading whose borders touch are simplified as one. Other
+/// Simplifies the selected parts one by one, and passes on the levels of each (one entry without levels).
+/// Parts with the same transform, attributes and shading whose borders touch are merged for the work. Other
 /// borders that touch another part keep their vertices, so that all match. Parts with equal meshes are
-/// simplified once. The meshes of the selected parts are used up: `take` gets the new ones.
+/// simplified once. Consumes the meshes of the selected parts: `take` gets the new ones.
 void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
                     const std::function<void(std::size_t part, std::vector<SimplifiedPart> levels)>& take);
 
@@ -270,7 +251,7 @@ void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
 struct MeshCounts {
     std::size_t triangles = 0, vertices = 0;
 };
-/// Of the selected parts together.
+/// The total of the selected parts.
 MeshCounts count_selected(const Scene& scene, const std::vector<std::uint8_t>& selected);
 
 } // namespace facetmill

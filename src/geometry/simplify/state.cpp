@@ -10,7 +10,7 @@ namespace facetmill::simplification {
 
 namespace {
 
-/// The lowest 11 bits of x, two zeros between neighbours.
+/// Spreads the lowest 11 bits of x, with two zeros between neighbours.
 std::uint64_t spread(std::uint64_t x) {
     x = (x | (x << 16)) & 0x00ff0000ff0000ff;
     x = (x | (x << 8)) & 0xf00f00f00f00f00f;
@@ -23,7 +23,7 @@ struct Keyed {
     Index item;
 };
 
-/// Vertices that faces use, along the curve.
+/// The used vertices, along the curve.
 std::vector<Keyed> ordered_vertices(const Mesh& mesh, const UsedVertices& used, const Frame& frame) {
     std::vector<Keyed> order;
     reserve_large(order, used.count);
@@ -57,27 +57,27 @@ std::vector<Keyed> ordered_faces(const Mesh& mesh, const std::vector<Index>& ran
     return order;
 }
 
-/// Centre of the bounds and the power of two that brings the mesh into [-1, 1].
+/// The frame with the centre of the bounding box, and the power of two that brings the mesh into [-1, 1].
 Frame frame_of(const Mesh& mesh) {
     const Box box = mesh.bounds();
     if (box.empty()) return {};
     const Vec3 half = box.max * 0.5 - box.min * 0.5;
     int exponent = 0;
     std::frexp(std::max({half.x, half.y, half.z}), &exponent);
-    // Not the sum of the corners halved, which may overflow.
+    // Halving the sum of the corners instead could overflow.
     return {box.min * 0.5 + box.max * 0.5, std::ldexp(1.0, std::clamp(-exponent, -1000, 1000))};
 }
 
-/// The lists of corners per vertex, from tri.
+/// Builds the lists of corners per vertex from tri.
 void build_lists(State& s) {
-    // Serial: along the curve this is a few milliseconds per million faces, less than sorting would take.
+    // Serial: in curve order this takes a few milliseconds per million faces, less than sorting.
     s.rings.first.assign(s.vertex_slots(), none);
     resize_large(s.rings.next, s.tri.size());
     for (std::size_t c = s.tri.size(); c-- > 0;)
         s.rings.next[c] = std::exchange(s.rings.first[s.tri[c]], static_cast<Index>(c));
 }
 
-/// Keeps the items listed, in their order; an empty array stays empty. per: values of one item.
+/// Keeps the listed items in their order; an empty array stays empty. per: values of one item.
 template <class T>
 void keep(std::vector<T>& items, const std::vector<Index>& kept, std::size_t per = 1) {
     if (items.empty()) return;
@@ -88,7 +88,7 @@ void keep(std::vector<T>& items, const std::vector<Index>& kept, std::size_t per
     items.swap(left);
 }
 
-/// Keeps the vertices listed, and gives the faces their new numbers.
+/// Keeps the listed vertices, and renumbers the vertices of faces.
 void keep_vertices(Shape& s, const std::vector<Index>& kept) {
     std::vector<Index> rank(s.vertex_slots(), none);
     for (std::size_t i = 0; i < kept.size(); ++i) rank[kept[i]] = static_cast<Index>(i);
@@ -101,7 +101,7 @@ void keep_vertices(Shape& s, const std::vector<Index>& kept) {
 void keep_vertices(QuadricCost& cost, bool seams, const std::vector<Index>& kept) {
     keep(cost.near, kept);
     if (cost.fine) keep(*cost.fine, kept);
-    if (!cost.attributes || seams) return; // those of wedges stay
+    if (!cost.attributes || seams) return; // wedge attributes do not change
     keep(cost.attributes->squares, kept);
     keep(cost.attributes->sums, kept, 4 * cost.attributes->channels);
 }
@@ -165,7 +165,7 @@ void compact(State& s) {
     vertices.reserve(s.rings.live_vertices);
     for (Index f = 0; f < s.face_slots(); ++f)
         if (s.live(f)) faces.push_back(f);
-    // A vertex that was collapsed, or lost its last face, has no list.
+    // A vertex that was merged, or lost its last face, has no list.
     for (Index v = 0; v < s.vertex_slots(); ++v)
         if (s.rings.first[v] != none) vertices.push_back(v);
     keep_faces(s, faces);

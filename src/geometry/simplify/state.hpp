@@ -1,10 +1,10 @@
 #pragma once
 // The state of a simplification: flat arrays along the curve of G. M. Morton, "A computer oriented geodetic
-// data base" (1966). Private to this folder, as are all headers here but simplify.hpp.
+// data base" (1966). Private to this folder, like every header except simplify.hpp.
 //
-// There is no halfedge structure. Corner c = 3 f + k of face f stands for the edge from its vertex to that of
-// the next corner; the corners at a vertex form a list through `next`. A dead face has `none` as its first
-// vertex; its corners stay in the lists of their vertices and are skipped.
+// There is no halfedge structure. Corner c = 3 f + k of face f represents the edge from its vertex to the
+// vertex of the next corner. The corners at a vertex form a list through `next`. A dead face has `none` as
+// its first vertex; its corners stay in the lists of their vertices and are skipped.
 
 #include "geometry/simplify/quadric.hpp"
 #include "geometry/simplify/simplify.hpp"
@@ -15,12 +15,12 @@
 
 namespace facetmill::simplification {
 
-/// How freely a vertex moves. Features are the boundary, seams and borders of primitives and groups.
+/// How freely a vertex moves. Features are boundaries, seams, and borders of primitives and groups.
 enum class Kind : std::uint8_t {
     smooth, ///< no feature edge: moves freely
     curve,  ///< on one feature line: moves along it
     corner, ///< an end or a crossing of feature lines: stays, others may be collapsed into it
-    pinned, ///< not manifold: stays as a corner does, and so do the edges between two of them
+    pinned, ///< not manifold: stays like a corner, and so do the edges between two of them
 };
 
 // Bits per corner.
@@ -30,8 +30,8 @@ inline constexpr std::uint8_t blocked = blocked_border | blocked_topology | bloc
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
-/// Where the work is done: inside = (outside - centre) * scale, within [-1, 1]; scale is a power of two. So
-/// quadrics neither overflow nor cancel.
+/// The frame of the computation: inside = (outside - centre) * scale, within [-1, 1]; scale is a power of
+/// two. So quadrics neither overflow nor cancel.
 struct Frame {
     Vec3 centre;
     double scale = 1;
@@ -40,7 +40,7 @@ struct Frame {
     Vec3 outside(const Vec3& p) const { return p / scale + centre; }
 };
 
-/// What is left of a mesh at some point of the work, and all that a result needs of it.
+/// The surviving mesh at some point of the work, with all data that a result needs.
 struct Shape {
     Frame frame{};
     std::vector<Index> tri{};          ///< [3 faces] vertices
@@ -55,57 +55,57 @@ struct Shape {
     bool has_seams() const { return !wedge.empty(); }
 };
 
-/// A collapse: b went into a, which now stands at `to` (in the frame). Vertices of the input.
+/// A collapse: b merged into a, which moved to `to` (in the frame). Vertices of the input.
 struct Step {
     Index a, b;
-    Index wedges; ///< merges of wedges so far, those of this step included
+    Index wedges; ///< merges of wedges so far, including this step
     float error;  ///< squared, as estimated, in the frame
     Vec3 to;
 };
-/// b went into a. Elements of the input.
+/// b merged into a. Elements of the input.
 struct Merge {
     Index a, b;
 };
-/// Collapses in an order in which they can be made one after the other: every beginning of it is a mesh.
+/// Collapses in an order in which they can be replayed: every prefix is a mesh.
 struct Collapses {
     std::vector<Step> steps;
     std::vector<Merge> wedges;
 };
 /// All collapses since the input: for attributes, and for the rollback.
 struct Log : Collapses {
-    /// [3 faces of the input] whether the edge of the corner was a feature then; empty when none was.
+    /// [3 faces of the input] 1 if the corner's edge was a feature in the input; empty without features.
     std::vector<std::uint8_t> features;
 };
 
-/// Attributes in the error: how far those of the faces around a vertex are from one value at its place. Per
-/// wedge of the input when there are seams, else per vertex.
+/// Attributes in the error: how far the attributes of the faces around a vertex differ from a single value at
+/// its position. Per wedge of the input if the mesh has seams, else per vertex.
 struct AttributeError {
-    std::size_t channels = 0;     ///< numbers that the attributes come down to, at least 1
+    std::size_t channels = 0;     ///< numbers that encode the attributes, at least 1
     std::vector<Quadric> squares; ///< [elements] sum over channels and faces of area times (g.p + d)^2
     std::vector<double> sums;     ///< [elements][channels][4] sum over faces of area times g and d
 };
 
-/// Points of the surface as it came, each kept with a face near by, as a list per face: for max_error.
+/// Points of the input surface for max_error, each assigned to a near face, as a list per face.
 struct FollowedPoints {
     struct Point {
         Vec3 at;
         Index next; ///< the next one with the same face, or none
     };
-    const FaceTree* input = nullptr; ///< the surface as it came, in the mesh's units
-    /// Squared, in the frame: how far a point may be from the faces around, and new vertices and places on
-    /// faces from the surface as it came.
+    const FaceTree* input = nullptr; ///< the input surface, in the mesh's units
+    /// Squared, in the frame: the allowed distance from a point to the faces around it. It also limits the
+    /// distance from new vertices and sample points on faces to the input surface.
     double farthest = 0;
-    std::size_t vertices = 0;       ///< of the surface as it came
-    std::vector<Index> triangles{}; ///< [faces of it] where it is in the tree's order
+    std::size_t vertices = 0;       ///< of the input surface
+    std::vector<Index> triangles{}; ///< [input faces] index in the tree's order
     std::vector<Point> points{};    ///< the vertices, then the centres of the faces
     std::vector<Index> first{};     ///< [faces] or none
 };
 
-/// What the settings ask of every collapse.
+/// The settings that apply to every collapse.
 struct Rules {
-    bool endpoints = false;        ///< a new vertex is one of the two that it replaces
-    bool changes_topology = false; ///< is allowed to
-    /// [vertices of the input] 1 for those that no new edge may join; null: none
+    bool endpoints = false;        ///< a new vertex is one of the two ends
+    bool changes_topology = false; ///< topology changes are allowed
+    /// [vertices of the input] 1 for vertices that no new edge may connect; null: none
     const std::vector<std::uint8_t>* apart = nullptr;
 };
 
@@ -116,55 +116,57 @@ struct Rings {
     std::size_t live_faces = 0, live_vertices = 0;
 };
 
-/// What is known of the edges that corners stand for.
+/// The flags and costs of edges, stored at their corners.
 struct Edges {
-    std::vector<std::uint8_t> flags; ///< [corners] bits: features, and why it was not collapsed
-    std::vector<float> cost;         ///< [corners] once per edge; never elsewhere
+    std::vector<std::uint8_t> flags; ///< [corners] bits: features, and why the edge was not collapsed
+    std::vector<float> cost;         ///< [corners] at one corner per edge; the other corners have `never`
 };
 
-/// Which vertices features hold.
+/// How features restrict the vertices.
 struct Features {
     std::vector<Kind> kind; ///< [vertices]
     bool any = false;       ///< edges are flagged
-    /// [wedges] with coincident borders: the vertex that each wedge was at before they were joined. Two sides
-    /// never end in one wedge, else a slit could close.
+    /// [wedges] with coincident borders: the vertex of each wedge before they were joined. Two sides never
+    /// merge into the same wedge; otherwise a slit could close.
     const std::vector<Index>* side_of_wedge = nullptr;
 };
 
-/// What collapses cost by the planes that vertices stand for.
+/// The cost of collapses, from the planes that each vertex represents.
 struct QuadricCost {
-    std::vector<NearQuadric> near;                ///< [vertices]
-    std::optional<std::vector<FineQuadric>> fine; ///< [vertices] the same; where much is nearly flat
-    std::optional<AttributeError> attributes;     ///< none: they weigh nothing
+    std::vector<NearQuadric> near; ///< [vertices]
+    std::optional<std::vector<FineQuadric>>
+        fine; ///< [vertices] the same in double precision; if much is nearly flat
+    std::optional<AttributeError> attributes; ///< empty: attributes have no weight
 };
 
-/// What has changed since an edge was looked at.
+/// Tracks the changes since an edge was last examined.
 struct Order {
-    std::uint32_t pass = 1;             ///< the last one
+    std::uint32_t pass = 1;             ///< the current pass
     std::vector<std::uint32_t> touched; ///< [vertices] pass that changed the vertex last
     std::vector<std::uint32_t>
-        dirty; ///< [vertices] pass that changed a neighbour last: what was refused may do now
+        dirty; ///< [vertices] pass that last changed a neighbour: refused edges may be allowed now
 };
 
-/// How far collapses may go.
+/// Limits on the collapses.
 struct Bounds {
-    double max_squared_error = HUGE_VAL;      ///< squared error beyond which none goes
-    std::optional<std::vector<float>> limits; ///< [vertices] squared error that one there stays below
-    std::optional<FollowedPoints> followed;   ///< with max_error
+    double max_squared_error = HUGE_VAL; ///< no collapse has a larger squared error
+    std::optional<std::vector<float>>
+        limits; ///< [vertices] squared error that collapses at the vertex stay below
+    std::optional<FollowedPoints> followed; ///< with max_error
 };
 
 struct State : Shape {
     Rings rings;
     Edges edges;
-    std::optional<Features> features;    ///< none: borders are not kept, see cluster
-    std::optional<QuadricCost> quadrics; ///< none: edges cost their length
+    std::optional<Features> features;    ///< empty: borders are not kept, see cluster
+    std::optional<QuadricCost> quadrics; ///< empty: an edge costs its length
     Order order;
     Rules rules;
     Bounds bounds;
     std::optional<Log> log; ///< when attributes or a rollback need it
 
     bool live(Index f) const { return tri[3 * f] != none; }
-    /// Whether attributes weigh in costs.
+    /// True if attributes contribute to the costs.
     bool weighs_attributes() const { return quadrics && quadrics->attributes; }
 };
 
@@ -179,12 +181,12 @@ struct UsedVertices {
     explicit UsedVertices(const Mesh& mesh);
 };
 
-/// A state of all the mesh's faces and used vertices along a Morton curve, with lists and without kinds and
+/// Builds a state of all faces and used vertices along a Morton curve, with lists but without kinds and
 /// costs. mesh: all triangles.
 State lay_out(const Mesh& mesh, const UsedVertices& used);
-/// Drops dead faces and vertices; orders stay.
+/// Drops dead faces and vertices; keeps the order.
 void compact(State& s);
-/// Drops the vertices that no face uses; orders stay.
+/// Drops the vertices that no face uses; keeps the order.
 void drop_unused(Shape& shape);
 
 } // namespace facetmill::simplification

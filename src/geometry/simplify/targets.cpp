@@ -10,7 +10,7 @@ using Method = SimplifySettings::Method;
 using Topology = SimplifySettings::Topology;
 using Intersections = SimplifySettings::Intersections;
 
-/// Collects what is refused.
+/// Collects the refusals.
 struct Refusals {
     std::vector<Refusal> all{};
 
@@ -30,7 +30,7 @@ bool locks(const SimplifyLocks& l) {
     return l.boundary || l.seams || l.groups || !l.body.empty() || !l.vertices.empty();
 }
 
-/// What the method does not go with, for one target and for levels.
+/// Adds the settings that exclude the method, for targets and for levels.
 void refuse_by_method(const SimplifySettings& s, Refusals& refused) {
     const bool constrained = s.method == Method::constrained, cluster = s.method == Method::cluster;
     refused.conflict(constrained && s.max_error, "max_error", "constrained takes no max_error",

@@ -1,39 +1,39 @@
 #pragma once
-// What is asked of the work, as goals.
+// The targets of the work, as goals.
 
 #include "geometry/simplify/features.hpp"
 #include "geometry/simplify/methods.hpp"
 
 namespace facetmill::simplification {
 
-/// Throws usage for the first of them, if there is one.
+/// Throws the first refusal as a usage error, if there is any.
 void throw_first(const std::vector<Refusal>& refusals);
 
-/// The face count that the ratio asks for: rounded up, so that 10% of 15 faces is 2.
+/// The face count for a ratio: rounded up, so that 10% of 15 faces is 2.
 std::size_t share_of(std::size_t faces, double ratio);
 
-/// The targets of a mesh, or of several together.
+/// The targets of a mesh, or the total targets of several.
 struct Targets {
     Goal goal;
     std::size_t by_ratio = 0, by_faces = 0;
 
     Targets(std::size_t faces, const SimplifySettings& settings);
-    /// by_ratio: triangles that the ratio asks for.
+    /// by_ratio: the number of triangles that the ratio allows.
     Targets(std::size_t by_ratio, std::size_t by_faces, std::size_t vertices);
 
-    /// Which of them was met, by the number of faces.
+    /// The target that the number of faces meets.
     SimplifyResult::Stop met(std::size_t faces) const;
-    /// What stopped the work.
+    /// Why the work stopped.
     SimplifyResult::Stop reason(const Ended& end) const;
 };
 
-/// What keeps the edges from going when no collapse is left: the limit on their error, where neither borders,
-/// seams nor places that are not manifold hold more of them. (Topology and flips hold an edge only as long as
-/// those around it stay.)
+/// Why the work is stuck when no collapse is left. It is the error limit, unless borders, seams or
+/// non-manifold vertices block more edges. (Topology and flips block an edge only until an edge around it
+/// collapses.)
 SimplifyResult::Stop stuck_by(const SimplifyResult::Blocked& blocked);
 
-/// As run_passes, with the vertices counted as they will be once coincident borders are separate again.
-/// borders: of each member, null where it has none.
+/// Like run_passes, but counts vertices as after coincident borders are separated again. borders: of each
+/// member; null if it has none.
 void run_passes_separate(std::span<Member> members, std::span<const CoincidentBorders* const> borders,
                          Goal goal);
 

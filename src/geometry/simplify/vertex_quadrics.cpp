@@ -1,5 +1,5 @@
-// The quadrics that vertices start with: of the planes of their faces, and of planes upright on them that
-// hold what the faces do not, boundaries, features and sharp folds.
+// The initial quadrics of vertices. They contain the planes of the faces, and planes perpendicular to faces
+// that hold boundaries, features and sharp folds.
 
 #include "geometry/simplify/cost.hpp"
 #include "parallel/parallel.hpp"
@@ -8,18 +8,19 @@ namespace facetmill::simplification {
 
 namespace {
 
-// Weights of the upright planes, per squared length of the edge, relative to faces per area.
+// Weights of the perpendicular planes, per squared edge length, relative to faces per area.
 constexpr double boundary_weight = 10, feature_weight = 1;
-// Edges of a sample of about so many faces tell whether fine quadrics are worth their time.
+// The edges of a sample of about this many faces decide whether fine quadrics are worth their time.
 constexpr std::size_t flat_sample = 1 << 12;
-constexpr double flat_share = 1.0 / 16; // of those edges
+constexpr double flat_share = 1.0 / 16; // of the sampled edges
 // Squared errors below this share of an edge's squared length are lost in the rounding of single precision.
 constexpr double invisible = 1e-7;
 
-/// The normal of a face, as long as the root of its area; 0 for a flat one, whose normal says nothing.
+/// The normal of a face, with the square root of its area as length; 0 for a flat face, whose normal is
+/// undefined.
 Vec3 root_normal(const State& s, Index f) {
     const Vec3 &p = s.at[s.tri[3 * f]], &q = s.at[s.tri[3 * f + 1]], &r = s.at[s.tri[3 * f + 2]];
-    const Vec3 n = cross(q - p, r - p); // twice the area long
+    const Vec3 n = cross(q - p, r - p); // length: twice the area
     const double twice = length(n);
     const double longest = std::max({dot(q - p, q - p), dot(r - q, r - q), dot(p - r, p - r)});
     return twice > least_height * longest ? n / std::sqrt(2 * twice) : Vec3{};
@@ -35,8 +36,8 @@ void add_plane(Quadric& q, const Vec3& w) {
     q.zz += w.z * w.z;
 }
 
-/// Adds the plane through the edge of corner c, which is at the vertex, upright on its face. weight: per
-/// squared length of the edge.
+/// Adds the plane through the edge of corner c that is perpendicular to its face. The vertex is on the edge.
+/// weight: per squared length of the edge.
 void add_upright(Quadric& q, const State& s, Index c, double weight) {
     const Vec3& from = s.at[s.tri[c]];
     const Vec3 along = s.at[s.tri[after(c)]] - from;
@@ -49,8 +50,8 @@ void add_feature(Quadric& q, const State& s, Index c) {
         add_upright(q, s, c, s.edges.flags[c] & boundary_edge ? boundary_weight : feature_weight);
 }
 
-/// Whether a face may be turned against another by more than 90 degrees: none is when all are within 45
-/// degrees of one direction.
+/// True if the face may form an angle of more than 90 degrees with another face. If all normals are within 45
+/// degrees of a common direction, no pair does.
 bool may_fold(const Vec3& w, const Vec3& mean) {
     const double along = dot(w, mean), size = dot(w, w);
     return size > 0 && !(along > 0 && 2 * along * along >= size * dot(mean, mean));
@@ -61,7 +62,7 @@ struct FoldCorner {
     Index in, out, corner;
 };
 
-/// The face that follows at the edge to `out`, those without area passed over; none at a boundary.
+/// The next face at the edge to `out`, skipping faces without area; none at a boundary.
 const FoldCorner* next_with_area(const std::vector<FoldCorner>& corners, Index out,
                                  const std::vector<Vec3>& normals) {
     for (std::size_t steps = 0; steps < corners.size(); ++steps) {
@@ -75,9 +76,9 @@ const FoldCorner* next_with_area(const std::vector<FoldCorner>& corners, Index o
     return nullptr;
 }
 
-/// Where neighbouring faces at v turn back on each other, their planes hold the fold hardly (at a full turn
-/// not at all), though the surface ends there. It is held as the boundary of a sheet then, by as much as the
-/// planes leave free: the cosine of the angle between the faces.
+/// Where neighbouring faces at v fold back on each other, their planes barely hold the fold (not at all at a
+/// full turn), although the surface ends there. The fold is then held like the boundary of a sheet. The
+/// weight compensates for the missing constraint: the cosine of the angle between the faces.
 void add_folds(Quadric& q, const State& s, Index v, const std::vector<Vec3>& normals) {
     std::vector<FoldCorner> corners;
     for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c])
@@ -100,7 +101,7 @@ void add_folds(Quadric& q, const State& s, Index v, const std::vector<Vec3>& nor
     }
 }
 
-/// Of the planes through the vertex v, as seen from it.
+/// The quadric of the planes through vertex v, relative to v.
 Quadric quadric_at(const State& s, Index v, const std::vector<Vec3>& normals) {
     std::array<Vec3, 12> few; // nearly all vertices have no more faces
     std::size_t size = 0;
@@ -135,7 +136,7 @@ std::vector<QuadricAbout<Real>> all_quadrics(const State& s) {
     return quadrics;
 }
 
-/// Whether single precision cannot tell the errors of a good part of the edges.
+/// True if a large share of the edges have errors too small for single precision.
 bool is_mostly_flat(const State& s) {
     struct Count {
         std::size_t flat = 0, all = 0;

@@ -1,4 +1,5 @@
-// A glTF file as a Scene and back: its document, its materials, and one part per node with triangles.
+// Reads a glTF file as a Scene (its document, its materials, and one part per node with triangles), and
+// writes it.
 
 #include "base/fast_json.hpp"
 #include "base/hash.hpp"
@@ -26,8 +27,8 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// What a reader of geometry must understand, or may safely not: materials, textures and lights do not move a
-/// face.
+/// True if a geometry reader understands the extension or may ignore it: materials, textures and lights do
+/// not move faces.
 bool understood(const std::string& extension) {
     static const std::set<std::string> known = {
         "KHR_draco_mesh_compression", "KHR_mesh_quantization",  "EXT_meshopt_compression",
@@ -42,7 +43,7 @@ bool understood(const std::string& extension) {
            starts("EXT_texture_") || starts("EXT_materials_") || starts("ADOBE_materials_");
 }
 
-/// glTF 1.0 lists its contents by names rather than in arrays, and may leave "asset" out.
+/// glTF 1.0 lists its contents by name instead of in arrays, and may lack "asset".
 bool is_gltf_1(const Json& document) {
     if (document.contains("asset")) return false;
     for (const char* list : {"accessors", "bufferViews", "meshes", "nodes"})
@@ -83,7 +84,7 @@ Material read_material(const JsonCursor& place, std::size_t index) {
     return material;
 }
 
-/// The mesh as the file has it: a vertex for every one of glTF's, whatever their places.
+/// The mesh as in the file: one vertex for each glTF vertex, even at equal positions.
 void unmerge(Mesh& mesh) {
     std::vector<Vec3> positions;
     for (const Index v : mesh.wedge_vertex) positions.push_back(mesh.positions[v]);
@@ -100,7 +101,7 @@ double bytes_of(const Mesh& mesh) {
     return bytes;
 }
 
-/// Says of a node that places many instances of its mesh that only the mesh is a part.
+/// Warns that only the mesh of a node with many instances becomes a part.
 void warn_of_instancing(const Placement& placement, ReadLog& log) {
     if (placement.instances == 0) return;
     log.warnings.push_back(
@@ -114,7 +115,7 @@ void warn_of_instancing(const Placement& placement, ReadLog& log) {
          false});
 }
 
-/// Says of nodes without triangles and lines, beside parts, that they are no parts.
+/// Warns that nodes without triangles and lines do not become parts, if other nodes do.
 void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>& frames, ReadLog& log) {
     std::size_t count = 0, first = 0;
     for (std::size_t n = 0; n < frames.size(); ++n) {
@@ -137,7 +138,7 @@ void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>&
          false});
 }
 
-/// Says which parts are not in the scene that viewers show, though they are loaded like the others.
+/// Warns about parts outside the scene that viewers show; they are loaded nevertheless.
 void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& log) {
     const std::vector<bool> shown = shown_nodes(document);
     std::vector<std::string> names;
@@ -156,12 +157,12 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
          false});
 }
 
-/// of_points: those are read apart.
+/// of_points: points are read separately.
 void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
                 const ReadSettings& settings, bool of_points, ReadLog& log) {
-    std::map<int, std::size_t> first_part; // of each mesh: instances copy it
+    std::map<int, std::size_t> first_part; // by mesh: instances copy it
     std::size_t vertices = 0;
-    double bytes = 0; // of copies: a node costs few bytes of JSON
+    double bytes = 0; // of copies, because a node needs few bytes of JSON
     auto all = placements(source.json(), frames);
     stand_at_largest_instances(source, frames, all);
     ProgressSteps steps(std::vector<double>(all.size(), 1));
@@ -200,7 +201,7 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 
-/// Whether nodes have points, and none has triangles.
+/// True if nodes have points and no node has triangles.
 bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
     bool points = false;
     for (const NodeFrame& frame : frames) {
@@ -213,7 +214,7 @@ bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
     return points;
 }
 
-/// Throws malformed (E-EMPTY) for a document with primitives of which none is read.
+/// Throws malformed (E-EMPTY) for a document with primitives if none of them was read.
 void refuse_without_parts(const Json& document, const std::string& name) {
     std::size_t primitives = 0;
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
@@ -231,7 +232,7 @@ bool has_embedded_images(const Json& document) {
     return false;
 }
 
-/// Whether points have morph targets, which are not read.
+/// True if points have morph targets, which are not read.
 bool points_have_targets(const Json& document) {
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
         const JsonCursor primitives = item(document, "meshes", m).at("primitives");
@@ -241,8 +242,8 @@ bool points_have_targets(const Json& document) {
     return false;
 }
 
-/// The document's materials with their textures, and nothing that stands somewhere. Warns of what moves or
-/// looks.
+/// A document with only the materials and their textures. Warns about dropped animations, cameras and other
+/// contents.
 std::shared_ptr<const Document> materials_of(Json json, const Document& document, ReadLog& log) {
     const bool targets = points_have_targets(json);
     std::vector<std::string> lost = keep_materials_only(json);
@@ -270,7 +271,7 @@ bool has_material(const Part& part) {
                        [](const Primitive& p) { return p.material != none; });
 }
 
-/// Of a document of points, and lines perhaps: its parts, which are of no document.
+/// Reads the parts of a document of points, and possibly lines. These parts belong to no document.
 void read_points(Scene& scene, Source& source, const std::vector<NodeFrame>& frames, const Document& document,
                  std::size_t max_vertices, ReadLog& log) {
     std::size_t left = max_vertices;
@@ -361,7 +362,7 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
 
 void peek(const Input& input, FileHeader& header) {
     in_file(input, [&] {
-        // Most of a document, and nothing that is asked here.
+        // Most of a document's JSON, which this check does not need.
         constexpr std::array<std::string_view, 2> unread{"accessors", "bufferViews"};
         Json json = parse_document(chunks_of(input).json, unread);
         const ScopedDestroy after(json);
@@ -394,7 +395,7 @@ Json empty_document() {
             {"scenes", Json::array({Json::object()})}};
 }
 
-/// Extensions of meshes and primitives that are written here no longer count as used where none has them.
+/// Removes extensions of meshes and primitives from the list of used extensions if none of them has any left.
 void drop_unused_extensions(Builder& builder) {
     bool draco = false, manifold = false;
     const auto has = [](const Json& object, const char* name) {
@@ -427,7 +428,7 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
     if (!buffer.empty()) patch.written.files.push_back({name, std::move(buffer)});
 }
 
-/// What a second document has besides meshes and materials does not come along.
+/// Warns that only the meshes and materials of a second document are written.
 void warn_of_losses(Patch& patch) {
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
         if (static_cast<int>(d) == patch.base) continue;
@@ -443,7 +444,7 @@ void warn_of_losses(Patch& patch) {
     }
 }
 
-/// The scene without what is no number in its attributes, which glTF forbids; none where there is nothing.
+/// A copy of the scene with NaN replaced in its attributes, because glTF forbids NaN; empty without NaN.
 std::optional<Scene> without_nan(const Scene& given, Written& written) {
     const auto has = [](const Part& part) { return has_nan(part.mesh); };
     if (std::none_of(given.parts.begin(), given.parts.end(), has)) return {};
@@ -497,7 +498,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     auto images = place_images(patch, stored.images, stem, textures);
     Bytes buffer = builder.finish(written.warnings);
     if (!settings.names) drop_names(builder.json());
-    // Whole numbers stand where other files have them, too: their nodes stay as they are to the last bit.
+    // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
     if (settings.draco.on || settings.quantize.on || settings.meshopt.on)
         shorten(builder.json(), settings.whole_positions ? Box{} : scene.bounds());
     add_main_files(patch, stem, std::move(buffer), binary);
@@ -512,7 +513,8 @@ namespace {
 
 int sniff_glb(Span bytes) { return is_glb(bytes) ? 2 : 0; }
 
-/// An object that names its asset near its beginning or end is glTF; any other object may be.
+/// Recognises an object that names its asset near its beginning or end as certainly glTF; any other object
+/// may be glTF.
 int sniff_gltf(Span bytes) {
     const std::string_view text = without_byte_order_mark(as_text(bytes));
     const auto first = text.find_first_not_of(" \t\r\n");
@@ -524,7 +526,7 @@ int sniff_gltf(Span bytes) {
     return asset ? 2 : 1;
 }
 
-/// companion: of the document that is text, which also has its images beside it.
+/// companion: the file next to a text document, which also has its images in separate files.
 Capabilities abilities(std::string companion) {
     const bool copies = !companion.empty();
     return {.transforms = true,

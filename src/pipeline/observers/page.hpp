@@ -1,12 +1,12 @@
 #pragma once
-// What the pictures of a page and the deviations of Markdown have in common.
+// Shared by the pictures of a page and the deviations of Markdown reports.
 
 #include "pipeline/observers.hpp"
 
 namespace facetmill::pipeline {
 
 report::PageStep page_step(const Step& step);
-/// References of arms, failures of contracts, and the scene at the end. scene_for: as Watch has it.
+/// Observes references of arms, failures of contracts, and the final scene. scene_for: see Watch.
 void watch_results(Engine& engine, report::Page& page, const char* scene_for);
 
 } // namespace facetmill::pipeline

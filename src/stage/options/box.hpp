@@ -1,5 +1,5 @@
 #pragma once
-// A box as users write it, and the planes that bound it.
+// The box option, and the planes that bound it.
 
 #include "mesh/plane.hpp"
 #include "options/declaration.hpp"
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// The six numbers of a box across the axes.
+/// The six numbers of a box aligned with the axes.
 struct BoxCorners {
     std::array<double, 6> numbers{};
 };
@@ -23,7 +23,7 @@ struct OptionType<BoxCorners> {
     static std::optional<double> magnitude(const BoxCorners&) { return {}; }
 };
 
-/// A box by two corners, or by centre and size; either turned about its centre on request.
+/// A box by two corners, or by centre and size; optionally rotated about its centre.
 struct BoxOption {
     std::optional<Vec3> min, max, centre, size;
     Vec3 axis{0, 0, 1};
@@ -33,11 +33,11 @@ struct BoxOption {
 /// Declares the group and its short form, [x, y, z, X, Y, Z].
 void declare_box(Declare<BoxOption>& d);
 
-/// Adds E-BOX for what is no box: corners or sizes missing, nothing between them, a zero axis.
+/// Adds E-BOX for an invalid box: missing corners or sizes, no volume, a zero axis.
 void verify_box(const BoxOption& box, const Mark& where, Problems& problems);
 
-/// Its six faces, looking inwards: the body is in front of all of them. Without an angle they are across the
-/// axes, through the very numbers given.
+/// Its six face planes, facing inwards: the box is in front of all of them. Without a rotation they are
+/// axis-aligned and use the given numbers exactly.
 std::vector<Plane> planes_of(const BoxOption& box);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// What the stages that cap have in common: the caps' material, and what is said of contours that stay open.
+// Options shared by stages with caps: the caps' material, and the warning about contours that stay open.
 
 #include "geometry/clip/clip.hpp"
 #include "options/declaration.hpp"
@@ -18,18 +18,18 @@ void declare_cap(Declare<S>& d, bool S::*cap, std::string S::*material) {
              "Name of the caps' material; made when the scene has none of that name.");
 }
 
-/// Declares `triangulate`, of a stage that cuts faces.
+/// Declares `triangulate`, for a stage that cuts faces.
 template <class S>
 void declare_triangulate(Declare<S>& d, bool S::*triangulate) {
     d.option("triangulate", triangulate,
              "Cut all faces into triangles; without this, a cut triangle may become a larger face.");
 }
 
-/// Where the material of that name is or will be.
+/// The index of an existing or future material of that name.
 Index material_number(const Scene& scene, const std::string& name);
 
-/// Sets what clip or crop needs to cap: the primitive (of the material's number, now or once add_material was
-/// called) and the numbers.
+/// Sets the cap settings of clip or crop: the primitive (with the material's number, which add_material may
+/// create later) and the numbers.
 template <class Settings>
 void set_cap(Settings& settings, const Scene& scene, const std::string& material) {
     settings.cap = true;
@@ -37,10 +37,10 @@ void set_cap(Settings& settings, const Scene& scene, const std::string& material
     settings.cap_primitive = Primitive{material_number(scene, material), {}, {}};
 }
 
-/// Appends a material of that name unless the scene has it. Call it only when a cap was made.
+/// Appends a material of that name unless the scene has it. Call it only if a cap was made.
 void add_material(Scene& scene, const std::string& name);
 
-/// Warns (W-CAP-OPEN) of each contour that the stage did not cap.
+/// Warns (W-CAP-OPEN) about each contour that the stage did not cap.
 void warn_of_open(std::string_view stage, const Part& part, const std::vector<OpenContour>& open,
                   Context& context);
 

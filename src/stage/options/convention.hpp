@@ -6,9 +6,9 @@
 
 namespace facetmill {
 
-/// All units, after the choice for none of them: its name and what it means there.
+/// All units, after a choice for no unit with this name and meaning.
 std::vector<NamedChoice<Unit>> unit_choices(std::string none, std::string none_help);
-/// ... and up axes.
+/// The same for up axes.
 std::vector<NamedChoice<UpAxis>> up_choices(std::string none, std::string none_help);
 
 } // namespace facetmill

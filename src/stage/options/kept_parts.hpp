@@ -1,6 +1,6 @@
 #pragma once
-// What a stage that cuts the parts of a scene left of them: of many parts it is normal that some stay whole
-// and others go, and worth a warning only when that is so of all.
+// Counts the results of a stage that cuts parts. In a scene of many parts, unchanged and removed parts are
+// normal; a warning is useful only if that is true of all.
 
 #include "base/text/readable_numbers.hpp"
 #include "mesh/scene.hpp"
@@ -12,13 +12,13 @@
 namespace facetmill {
 
 struct KeptParts {
-    std::size_t emptied = 0;   ///< parts of which nothing was kept
-    std::size_t untouched = 0; ///< parts that were kept as they are
-    std::size_t cut = 0;       ///< the others; parts that had nothing count nowhere
-    std::string first;         ///< the name of the first of them
+    std::size_t emptied = 0;   ///< parts without any remaining faces or points
+    std::size_t untouched = 0; ///< unchanged parts
+    std::size_t cut = 0;       ///< other parts; initially empty parts are not counted
+    std::string first;         ///< the name of the first part
 
-    /// had, left: faces of the part, or points of one without faces. changed: whether what is left is not
-    /// what there was.
+    /// had, left: faces of the part before and after, or points of a part without faces. changed: the part
+    /// was modified.
     void add(const Part& part, std::size_t had, std::size_t left, bool changed) {
         if (had == 0) return;
         if (all() == 0) first = part.name;

@@ -1,5 +1,5 @@
 #pragma once
-// The options `mask` and `caps` of the shaping stages: which vertices move.
+// The options `mask` and `caps` of the shaping stages: they select the vertices that move.
 
 #include "geometry/edit/mask.hpp"
 #include "options/declaration.hpp"
@@ -10,12 +10,12 @@ namespace facetmill {
 /// The group's fields, for Declare::group.
 void declare_mask(Declare<MaskSettings>& d);
 
-/// Its help.
+/// The help of the group.
 inline constexpr const char* mask_help =
     "Which vertices move, and what share of the way: those whose faces all have the material and the group, "
     "times the attribute.";
 
-/// How the caps of cuts move.
+/// Whether the caps of cuts may move.
 enum class Caps { fixed, free };
 
 template <class Options>
@@ -28,7 +28,7 @@ void declare_caps(Declare<Options>& d, Caps Options::*caps) {
         "close their cuts (face attribute cut_id).");
 }
 
-/// The masks of the parts that a stage works on, and a warning when they leave nothing to move anywhere.
+/// The masks of the selected parts, with a warning if they leave no vertex to move.
 class MaskOfParts {
   public:
     MaskOfParts(const Scene& scene, const std::optional<MaskSettings>& settings, Caps caps)
@@ -36,7 +36,7 @@ class MaskOfParts {
 
     /// vertex_mask of the part, with 0 for fixed caps; empty when all vertices move.
     std::vector<double> of(const Part& part);
-    /// Warns (W-MASK) when there is a mask and no vertex of any part moves.
+    /// Warns (W-MASK) if the mask leaves no vertex of any part to move.
     void warn_if_idle(Context& context) const;
 
   private:

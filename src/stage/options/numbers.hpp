@@ -1,5 +1,5 @@
 #pragma once
-// Options that are a fixed number of numbers: the coefficients of a plane, the corners of a box.
+// Options with a fixed count of numbers: the coefficients of a plane, the corners of a box.
 
 #include "options/types.hpp"
 
@@ -8,10 +8,10 @@
 
 namespace facetmill {
 
-/// Reads a list of exactly so many numbers, or a text of them with commas ("0,0,1,-2", as the one-liner
-/// writes it). False after adding a problem (E-TYPE: expected ..., found ...).
+/// Reads a list of exactly this many numbers, or a comma-separated text ("0,0,1,-2", the one-liner's syntax).
+/// Returns false after adding a problem (E-TYPE: expected ..., found ...).
 bool parse_numbers(const Value& value, std::span<double> out, std::string_view expected, Problems& problems);
-/// Its schema.
+/// Its JSON Schema.
 Json numbers_schema(std::size_t count);
 
 } // namespace facetmill

@@ -29,7 +29,7 @@ bool is_centre(std::string_view text) { return text == "centre" || text == "cent
 constexpr std::string_view short_forms =
     "a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, [A, B, C, D])";
 
-/// "z=0.2": an axis and where on it; blanks do not matter.
+/// "z=0.2": an axis and a position on it; ignores blanks.
 bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
     if (value.is_list() || value.text.find(',') != std::string::npos)
         return OptionType<PlaneCoefficients>::parse(value, out.coefficients.emplace(), problems);
@@ -50,7 +50,7 @@ bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
         out.through.percent = *percent;
         return true;
     }
-    Problems unheard; // of the part behind the equals sign, which has no place of its own
+    Problems unheard; // the part after the equals sign has no position of its own
     out.through.kind = PlanePlace::Kind::level;
     if (OptionType<Length>::parse(Value::scalar(text, value.mark), out.through.level, unheard)) return true;
     return refuse(value, short_forms, problems);
@@ -65,15 +65,15 @@ const Declaration& plane_declaration() {
     return declaration;
 }
 
-/// Flags the vertices that faces use; all of them in a mesh without faces.
+/// Flags the vertices that faces use; all vertices of a mesh without faces.
 std::vector<std::uint8_t> placed_vertices(const Mesh& mesh) {
     std::vector<std::uint8_t> used(mesh.vertex_count(), mesh.face_count() == 0);
     for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
     return used;
 }
 
-/// Least and greatest of n . p, and the box, over what a plane is placed in: faces, and where there are none,
-/// points.
+/// The extent along n, and the box, of the geometry that the plane refers to: faces, or points if there are
+/// no faces.
 struct Reach {
     double low = HUGE_VAL, high = -HUGE_VAL;
     Box box;
@@ -186,7 +186,7 @@ Json OptionType<PlaneOption>::schema() { return plane_declaration().schema(); }
 
 std::optional<Value> length_in_plane(const Value& value) {
     PlaneOption plane;
-    Problems ignored; // no plane, no length
+    Problems ignored; // the text is not a plane with a length
     if (!value.is_scalar() || value.deferred || !OptionType<PlaneOption>::parse(value, plane, ignored) ||
         plane.through.kind != PlanePlace::Kind::level)
         return {};
@@ -226,7 +226,7 @@ Plane resolve_plane(const PlaneOption& option, const Scene& scene, Context& cont
         plane.through = option.through.point;
     } else if (option.through.kind == PlanePlace::Kind::level) {
         const double level = context.resolve(option.through.level, scene, name, local);
-        plane.through = plane.normal * level; // the short form's normal is an axis of length one
+        plane.through = plane.normal * level; // the short form's normal is a unit axis
     } else {
         const Reach reach = reach_of(scene, local, plane.normal);
         plane.through = reach.box.centre();

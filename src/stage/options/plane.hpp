@@ -1,5 +1,5 @@
 #pragma once
-// A plane as users write it, and the plane that it means for a scene.
+// The plane option, and the resulting plane for a scene.
 
 #include "mesh/plane.hpp"
 #include "options/declaration.hpp"
@@ -9,8 +9,8 @@
 
 namespace facetmill {
 
-/// Where a plane stands: a point, the centre of the scene's box, a percentage of the scene's extent along the
-/// plane's normal, or (short form) a length on the normal's axis.
+/// The position of a plane: a point, the centre of the scene's box, or a percentage of the scene's extent
+/// along the normal. The short form gives a length on the normal's axis.
 struct PlanePlace {
     enum class Kind { point, centre, extent, level };
     Kind kind = Kind::point;
@@ -64,15 +64,15 @@ struct OptionType<PlaneOption> {
     static std::optional<double> magnitude(const PlaneOption&) { return {}; }
 };
 
-/// The length in the short form of a plane, "5mm" of "z=5mm", with its own place; none when the value is no
-/// such form, or has a percentage or centre there.
+/// The length in the short form of a plane, "5mm" in "z=5mm", with its position in the text. None for other
+/// values, percentages and centre.
 std::optional<Value> length_in_plane(const Value& value);
 
-/// Adds E-PLANE for what is no plane: nothing given, or a zero normal.
+/// Adds E-PLANE for an invalid plane: no value, or a zero normal.
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems);
 
-/// The plane in world space, or, given a part, in that part's own space with its own centre and extent.
-/// Records lengths under the option's name. Throws usage (E-UNIT, E-PLANE).
+/// The plane in world space. With a part, it is in that part's space, and uses its centre and extent. Records
+/// lengths under the option's name. Throws usage (E-UNIT, E-PLANE).
 Plane resolve_plane(const PlaneOption& plane, const Scene& scene, Context& context, std::string_view option,
                     const Part* local = nullptr);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What counts as on a plane, or on the outline of a footprint.
+// The option that treats nearby vertices as on a plane or outline.
 
 #include "options/declaration.hpp"
 #include "stage/context.hpp"
@@ -25,12 +25,12 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
         .schema = {{"enum", {"auto", "0", 0}}};
 }
 
-/// How far 32-bit floats are apart where the mesh is, when that may be seen beside its size and most of its
-/// positions are such numbers; else none.
+/// The float32 step at the mesh's position, if it is visible relative to its size and most positions are
+/// float32 numbers; else none.
 std::optional<double> seen_rounding(const Mesh& mesh);
 
-/// Warns (W-SNAPPED) of vertices that count as on a plane or an outline though they may be that far away.
-/// what: "the outline".
+/// Warns (W-SNAPPED) about vertices treated as on a plane or an outline, from up to this distance. what: "the
+/// outline".
 void warn_of_snapping(const std::string& part, std::size_t vertices, double apart, const std::string& what,
                       Context& context);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What other programs call options that several stages have, separated by blanks. For hints only.
+// Other programs' names for options of several stages, separated by blanks. Only for hints.
 
 #include <string_view>
 
@@ -12,6 +12,6 @@ inline constexpr std::string_view format_synonyms = "type file_type filetype out
 inline constexpr std::string_view with_synonyms = "other mesh path file tool";
 inline constexpr std::string_view attribute_synonyms = "scalar scalars field scalar_field";
 inline constexpr std::string_view plane_synonyms = "normal axis origin at";
-inline constexpr std::string_view plane_is = "(plane: z=0)"; ///< what to write instead
+inline constexpr std::string_view plane_is = "(plane: z=0)"; ///< the text to write instead
 
 } // namespace facetmill

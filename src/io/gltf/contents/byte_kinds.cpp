@@ -14,14 +14,14 @@ namespace {
 
 using namespace gltf;
 
-/// The items of a list that a document need not have.
+/// The items of an optional list.
 const Json& listed(const Json& document, const char* list) {
     static const Json nothing = Json::array();
     const auto found = document.is_object() ? document.find(list) : document.end();
     return document.is_object() && found != document.end() && found->is_array() ? *found : nothing;
 }
 
-/// The characters of data URIs in the list.
+/// The number of characters in the list's data URIs.
 std::uint64_t embedded(const Json& document, const char* list) {
     std::uint64_t bytes = 0;
     for (const Json& item : listed(document, list))
@@ -31,7 +31,7 @@ std::uint64_t embedded(const Json& document, const char* list) {
     return bytes;
 }
 
-/// The views of images, each once.
+/// The bytes of the views that contain images, each view once.
 std::uint64_t image_views(const Json& document) {
     const Json& views = listed(document, "bufferViews");
     std::set<std::size_t> of_images;
@@ -47,8 +47,7 @@ std::uint64_t image_views(const Json& document) {
 }
 
 ByteKinds of_document(std::string_view text, std::uint64_t size, bool has_own_buffer) {
-    // Most documents have neither images nor data URIs, which they cannot have without these words or
-    // escapes.
+    // A fast test: a document with images or data URIs contains these words, or escapes.
     const auto has = [&](std::string_view word) { return text.find(word) != std::string_view::npos; };
     const bool asked = has("\"images\"") || has("\"data:") || has("\\");
     const Json document = asked ? parse_json(text, Broken::discarded) : Json();

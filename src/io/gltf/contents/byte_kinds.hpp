@@ -1,5 +1,5 @@
 #pragma once
-// What the bytes of a file are spent on.
+// The kinds of data that a file consists of.
 
 #include "io/bytes.hpp"
 
@@ -9,14 +9,14 @@
 namespace facetmill::io {
 
 struct ByteKinds {
-    std::uint64_t geometry = 0; ///< meshes, and what else buffers hold: animations, skins
+    std::uint64_t geometry = 0; ///< meshes and other buffer data: animations, skins
     std::uint64_t textures = 0;
-    std::uint64_t json = 0; ///< the description: the JSON of glTF, or a file of materials
+    std::uint64_t json = 0; ///< the JSON of glTF, or a file of materials
 };
 
-/// Of a GLB or a glTF by its contents: images in the file are textures, even as text, and so are the views of
-/// its own buffer that hold images. Of any other file by its name. What cannot be read is geometry. bytes:
-/// those of the file, or none of them where only its size is known.
+/// Classifies the bytes of a file. For GLB and glTF by contents: images in the file, embedded as text or in
+/// buffer views, count as textures. For any other file by name. Unreadable contents count as geometry. bytes:
+/// the file's contents, or empty if only the size is known.
 ByteKinds byte_kinds(const std::string& name, std::uint64_t size, Span bytes);
 
 } // namespace facetmill::io

@@ -84,7 +84,7 @@ class Speller {
         return out;
     }
 
-    /// Everything called "...Texture" with an index gets the texture in place of it.
+    /// Replaces each "...Texture" index by the texture itself.
     Json without_textures(Json json) {
         if (!json.is_object()) return json;
         for (auto& [key, value] : json.items()) {

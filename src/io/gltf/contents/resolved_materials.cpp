@@ -14,7 +14,7 @@ namespace facetmill::io {
 
 using namespace gltf;
 
-/// The looks of one document, while its JSON is at hand.
+/// Resolves the materials of one document; holds its parsed JSON.
 class LookBuilder {
   public:
     LookBuilder(MaterialResolver& reader, MaterialResolver::OfDocument& known,
@@ -45,7 +45,8 @@ class LookBuilder {
         look.alpha = mode == "MASK"    ? MaterialLook::Alpha::mask
                      : mode == "BLEND" ? MaterialLook::Alpha::blend
                                        : MaterialLook::Alpha::opaque;
-        // What cannot be seen at all is no picture; MeshLab writes "Tr 1" for what is opaque.
+        // A completely invisible material is useless in a picture; MeshLab writes "Tr 1" for opaque
+        // materials.
         if (look.alpha == MaterialLook::Alpha::blend && look.base[3] == 0)
             look.alpha = MaterialLook::Alpha::opaque;
         look.cutoff = number_or(place, "alphaCutoff", 0.5f);
@@ -75,10 +76,10 @@ class LookBuilder {
         for (std::size_t i = 0; values && i < N; ++i) out[i] = static_cast<float>(values->at(i).real());
     }
 
-    /// No mesh has as many as 256 sets, so that a larger number stays one that is not there.
+    /// No mesh has 256 sets, so a larger number is clamped to a missing set.
     static int set_of(std::uint64_t number) { return static_cast<int>(std::min<std::uint64_t>(number, 255)); }
 
-    /// The texture that owner[key] names; none when there is none.
+    /// The texture that owner[key] refers to; none if there is none.
     Texture texture(const JsonCursor& owner, const char* key, bool srgb) {
         const auto info = owner.find(key);
         if (!info) return {};
@@ -100,7 +101,7 @@ class LookBuilder {
         return out;
     }
 
-    /// T R S of the specification, as two rows.
+    /// The specification's product T R S as two rows.
     static void transform(const JsonCursor& moved, Texture& out) {
         std::array<float, 2> offset{0, 0}, scale{1, 1};
         numbers(moved, "offset", offset);
@@ -135,7 +136,7 @@ class LookBuilder {
         constexpr int max_side = 4096;
         const JsonCursor place = item(json_, "images", index);
         const std::optional<Bytes> bytes = bytes_of_image(place);
-        if (!bytes) return nullptr; // told when the file was read
+        if (!bytes) return nullptr; // reported when the file was read
         const auto size = image_size(*bytes);
         if (size && reader_.bytes_ + texture_bytes(size->first, size->second, max_side) > reader_.most_) {
             warn(index, fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20),
@@ -174,7 +175,7 @@ class LookBuilder {
                              file_mark(known_.document->name),
                              hint + "; the plain colour is drawn in its place"});
     }
-    /// Of an image: its place in the document and, where it has one, its name.
+    /// Warns about an image, by its index and, if it has one, its name.
     void warn(std::size_t index, const std::string& why, const std::string& hint) {
         const std::string place = fmt::format("images[{}]", index);
         const std::string name = name_of_image(json_["images"][index], index);
@@ -215,7 +216,7 @@ std::shared_ptr<const ResolvedMaterials> MaterialResolver::materials(const Scene
             look = found->second;
             continue;
         }
-        try { // the document is as a file had it, and reading looks no further than meshes
+        try { // if reading did not check it: reading checks only meshes
             const auto builder = builders.try_emplace(document.get(), *this, known, warnings).first;
             look = builder->second.look(material);
         } catch (const Error& error) {

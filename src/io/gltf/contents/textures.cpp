@@ -15,7 +15,7 @@ using namespace gltf;
 
 namespace {
 
-/// The extensions that name an image of a kind that glTF itself has not.
+/// An extension for a kind of image that core glTF lacks.
 struct KindOfImage {
     const char* type;
     const char* extension;
@@ -23,16 +23,16 @@ struct KindOfImage {
 constexpr KindOfImage kinds_by_extension[] = {{"image/webp", "EXT_texture_webp"},
                                               {"image/ktx2", "KHR_texture_basisu"}};
 
-/// owner[key] where that is an object, else nothing.
+/// owner[key] if it is an object, else null.
 const Json* object_at(const Json& owner, const char* key) {
     if (!owner.is_object()) return nullptr;
     const auto found = owner.find(key);
     return found != owner.end() && found->is_object() ? &*found : nullptr;
 }
 
-// --- what images are used for
+// --- the uses of images
 
-/// What the specification of glTF 2.0 and its extensions say of a texture, by its name in a material.
+/// The use of a texture by its name in a material, from glTF 2.0 and its extensions.
 ImageUse use_of(const std::string& name) {
     static const std::set<std::string> colours = {"baseColorTexture",
                                                   "emissiveTexture",
@@ -54,7 +54,7 @@ ImageUse use_of(const std::string& name) {
     return use;
 }
 
-/// Walks through a document and notes what its images are used for.
+/// Walks through a document and collects the uses of its images.
 class Uses {
   public:
     explicit Uses(const Json& json)
@@ -103,7 +103,8 @@ class Uses {
         return index_at(filters, "magFilter") == nearest && index_at(filters, "minFilter") == nearest;
     }
 
-    /// Calls with each image of a texture, and marks that which stands beside another one.
+    /// Calls call for each image of a texture, and marks the core image as a fallback if an extension gives
+    /// another.
     template <class Call>
     void each_image(std::size_t index, Call&& call) {
         const Json& texture = json_["textures"][index];
@@ -120,7 +121,7 @@ class Uses {
 
     void hold(std::size_t image) { all_[image].held = true; }
 
-    /// Textures whose channels are numbers of EXT_structural_metadata or EXT_mesh_features.
+    /// Marks images whose channels hold numbers of EXT_structural_metadata or EXT_mesh_features.
     void hold_features(const Json& json) {
         if (!json.is_structured()) return;
         if (json.is_object() && json.contains("channels"))
@@ -146,10 +147,10 @@ class Uses {
     const Json& json_;
     std::size_t images_, textures_;
     std::vector<ImageUse> all_;
-    bool held_ = false, covers_ = false; ///< of the material that is walked through
+    bool held_ = false, covers_ = false; ///< of the current material
 };
 
-/// The bytes of an image; none when they are not there.
+/// The bytes of an image; empty if they are not available.
 Bytes bytes_of_image(const Document& document, Source& source, const Json& image) {
     if (!image.is_object()) return {};
     const auto uri = image.find("uri");
@@ -166,9 +167,9 @@ Bytes bytes_of_image(const Document& document, Source& source, const Json& image
     return {bytes.begin(), bytes.end()};
 }
 
-// --- other images
+// --- replacing images
 
-/// Puts images into a copy of a document.
+/// Replaces images in a copy of a document.
 class Replacing {
   public:
     Replacing(const Document& document, const std::map<std::size_t, Bytes>& replaced)
@@ -193,7 +194,7 @@ class Replacing {
     }
 
   private:
-    /// Images that have the same file and the same bytes keep sharing it.
+    /// Images with the same file and the same bytes continue to share it.
     void put_file(Json& image, const Bytes& bytes, const std::string& type) {
         const auto old = image["uri"].get<std::string>();
         const std::string before = media_type(out_.files[old]);
@@ -225,7 +226,7 @@ class Replacing {
             out_.buffers.resize(buffers.size());
             out_.buffers.back() = bytes;
             Json fresh = {{"buffer", buffers.size() - 1}, {"byteLength", bytes.size()}};
-            if (old && is_alone(*old)) { // a number that stays the same needs no other to change
+            if (old && is_alone(*old)) { // keeping the number avoids changing other references
                 view = *old;
                 json_["bufferViews"][view] = std::move(fresh);
             } else {
@@ -246,7 +247,7 @@ class Replacing {
         return list;
     }
 
-    /// Whether nothing names the view but images that are replaced.
+    /// True if only replaced images use the view.
     bool is_alone(std::size_t view) {
         std::size_t all = 0, ours = 0;
         visit_view_references(json_, [&](Json& r) { all += r == view; });
@@ -255,7 +256,7 @@ class Replacing {
         return all == ours;
     }
 
-    /// Names the images of a texture where their kinds belong.
+    /// Moves the image references of a texture to the extensions of their kinds.
     void point(Json& texture) {
         if (!texture.is_object()) return;
         const auto type = [&](std::optional<std::size_t> image) {
@@ -263,7 +264,7 @@ class Replacing {
             return found == types_.end() ? std::string() : found->second;
         };
         const std::size_t images = count_of(json_, "images");
-        for (const KindOfImage& kind : kinds_by_extension) { // an image that is of another kind now
+        for (const KindOfImage& kind : kinds_by_extension) { // for an image whose kind has changed
             const Json* extensions = object_at(texture, "extensions");
             const Json* named = extensions ? object_at(*extensions, kind.extension) : nullptr;
             const auto image = named ? index_at(*named, "source", images) : std::nullopt;
@@ -299,10 +300,10 @@ class Replacing {
     Document out_;
     Json json_;
     const std::map<std::size_t, Bytes>& replaced_;
-    std::map<std::size_t, std::string> types_;                           ///< of what is replaced
+    std::map<std::size_t, std::string> types_;                           ///< media types of replaced images
     std::map<std::pair<std::string, std::string>, std::string> renamed_; ///< by the old name and the new type
-    std::map<std::string, Bytes> files_;                                 ///< whose bytes are others now
-    std::map<std::size_t, std::size_t> views_;                           ///< by the old one
+    std::map<std::string, Bytes> files_;                                 ///< with new bytes
+    std::map<std::size_t, std::size_t> views_;                           ///< by the old view
 };
 
 } // namespace
@@ -343,10 +344,10 @@ std::vector<Bytes> image_bytes(const Document& document, const Json& json) {
     Source source(json, document.buffers);
     std::vector<Bytes> all(count_of(json, "images"));
     for (std::size_t i = 0; i < all.size(); ++i) {
-        try { // the document is as a file had it, and reading looks no further than meshes
+        try { // reading checks only meshes, so this may throw
             all[i] = bytes_of_image(document, source, json["images"][i]);
         } catch (const Error&) {
-            all[i].clear(); // told where the file is written, or by render
+            all[i].clear(); // write or render reports it
         }
     }
     return all;

@@ -1,6 +1,6 @@
 #pragma once
-// The images of a glTF document and what its materials use them for, and the document with other images in
-// their place.
+// The images of a glTF document, their uses by its materials, and a copy of the document with replaced
+// images.
 
 #include "base/json.hpp"
 #include "io/codec.hpp"
@@ -13,77 +13,75 @@
 
 namespace facetmill::io {
 
-/// What an image is used for, by all materials of its document.
+/// How all materials of a document use an image.
 struct ImageUse {
     bool colours = false;  ///< red, green and blue in sRGB
     bool normals = false;  ///< a tangent-space normal map
     bool numbers = false;  ///< metalness, roughness, occlusion, thickness ...
-    bool coverage = false; ///< alpha says how much is there: of a material that masks or blends
-    bool alpha = false;    ///< alpha is read, as coverage or as a number
-    bool nearest = false;  ///< read pixel by pixel, without mixing: a palette, say
-    bool fallback = false; ///< beside another image, for readers that do not know an extension
-    bool held = false;     ///< something other than the materials asked for names it: it has to stay as it is
-    std::vector<std::string> textures; ///< what materials call it, "baseColorTexture", each once
+    bool coverage = false; ///< alpha is coverage, in a material that masks or blends
+    bool alpha = false;    ///< alpha is used, as coverage or as a number
+    bool nearest = false;  ///< sampled without interpolation, for example a palette
+    bool fallback = false; ///< for readers without an extension that gives another image
+    bool held = false;     ///< something outside the selected materials uses it, so it must stay unchanged
+    std::vector<std::string> textures; ///< names in materials, such as "baseColorTexture", each once
 
-    /// What is said of either.
+    /// Adds the uses of other.
     void join(const ImageUse& other);
 };
 
 /// An image of a document.
 struct DocumentImage {
     std::size_t index = 0;
-    std::string name; ///< its own, else its file's, else its place: "images[3]"
-    Bytes bytes;      ///< none when they were not read, or are not there
+    std::string name; ///< its own name, else its file's, else its index: "images[3]"
+    Bytes bytes;      ///< empty if missing or not read
     ImageUse use;
 };
 
-/// The images of the document, by index. held: materials of the document whose images stay as they are. What
-/// EXT_structural_metadata, EXT_mesh_features and EXT_lights_image_based read from images is held, too. A
-/// reference to nothing is passed over. Throws malformed when the document is no JSON.
+/// The images of the document, by index. held: materials whose images must stay unchanged. Images that
+/// EXT_structural_metadata, EXT_mesh_features or EXT_lights_image_based use are held too. Invalid references
+/// are skipped. Throws malformed when the document is not JSON.
 std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
-/// What messages call an image of a document: its own name, else its file's, else its place: "images[3]".
+/// The name of an image in messages: its own name, else its file's, else its index: "images[3]".
 std::string name_of_image(const Json& image, std::size_t index);
-/// The bytes of the images of the document, whose JSON is given parsed; none for those that were not read or
-/// are not there.
+/// The bytes of the document's images, given its parsed JSON; empty for images that are missing or were not
+/// read.
 std::vector<Bytes> image_bytes(const Document& document, const Json& json);
 
-/// An image of a document as a file: where the document names it, or, when it is in the document itself,
-/// under a name made for it.
+/// An image of a document as a file: the named file, or a generated name for an embedded image.
 struct ImageFile {
     std::size_t index = 0; ///< in the document
     std::filesystem::path relative;
-    std::string uri; ///< of one that is a file; else empty
+    std::string uri; ///< of a separate file; else empty
     Bytes bytes;
 };
-/// Those whose bytes are there: first the files, then what is in the document itself, each by index.
+/// The images with available bytes: first files, then embedded images, each by index.
 std::vector<ImageFile> image_files(const Document& document, const Json& json);
 
-/// The images that a material of the document names. A reference to nothing is passed over.
+/// The images that a material of the document uses. Invalid references are skipped.
 std::set<std::size_t> images_of_material(const Json& document, const Json& material);
 
-/// What a plan of a format that names images in a library needs to know of a glTF file.
+/// The data of a glTF file that formats with image libraries need for planning.
 struct LibraryImageNames {
-    std::vector<NamedImage> embedded; ///< of the kinds that libraries name, as image_files calls them
-    /// Of these and of the files that it names, those of no material that something is drawn with.
+    std::vector<NamedImage> embedded; ///< of kinds that libraries name, with the names of image_files
+    /// Embedded images and files that no drawn material uses.
     std::set<std::filesystem::path> idle;
 };
-/// Nothing of a file of another format, or that cannot be read.
+/// Empty for other formats and unreadable files.
 LibraryImageNames library_images(const std::filesystem::path& file,
                                  const std::vector<std::filesystem::path>& asset_roots);
 
-/// Where the file is that a relative URI of a document names.
+/// The location of a file that a relative URI names.
 struct PlaceOfFile {
-    std::filesystem::path file, way; ///< from the directory
+    std::filesystem::path file, way; ///< relative to the directory
 };
-/// None when the URI is remote or absolute. directory: empty is the working one.
+/// None when the URI is remote or absolute. directory: empty for the working directory.
 std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
                                          const std::filesystem::path& directory);
 
-/// The document with other bytes (PNG, JPEG, WebP or KTX2) for some of its images, by index. Where an image's
-/// kind changes, its name, its media type and the textures do as well: WebP becomes the source of
-/// EXT_texture_webp and KTX2 that of KHR_texture_basisu, which is required unless every such texture has
-/// another image, too. Images in buffers and in data URIs become views of buffers of their own; all else is
-/// where it was.
+/// A copy of the document with new bytes (PNG, JPEG, WebP or KTX2) for some images, by index. If an image's
+/// kind changes, its name, media type and textures change too. WebP becomes the source of EXT_texture_webp,
+/// KTX2 the source of KHR_texture_basisu. The extension is required unless every such texture has a fallback.
+/// Images in buffers and data URIs get their own buffer views. Everything else keeps its index.
 std::shared_ptr<const Document> with_images(const Document& document,
                                             const std::map<std::size_t, Bytes>& replaced);
 

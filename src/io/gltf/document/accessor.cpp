@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t max_zeros = std::size_t{256} << 20;
 
-/// Count elements of `components` numbers, `stride` bytes apart.
+/// count elements of `components` numbers, `stride` bytes apart.
 template <class T>
 void gather(const std::byte* from, std::size_t count, std::size_t stride, int components,
             std::vector<T>& to) {
     const std::size_t width = static_cast<std::size_t>(components), bytes = width * sizeof(T);
     if (stride == bytes && reinterpret_cast<std::uintptr_t>(from) % alignof(T) == 0) {
-        const auto* const numbers = reinterpret_cast<const T*>(from); // no zeros are written before
+        const auto* const numbers = reinterpret_cast<const T*>(from); // not initialised with zeros first
         to.assign(numbers, numbers + count * width);
         return;
     }
@@ -32,7 +32,7 @@ void gather(const std::byte* from, std::size_t count, std::size_t stride, int co
     });
 }
 
-/// Checks that count elements of `size` bytes, `stride` apart, fit behind `offset` in the view.
+/// Checks that count elements of `size` bytes, `stride` apart, fit into the view from `offset`.
 const std::byte* elements(const JsonCursor& place, Span view, std::size_t offset, std::size_t count,
                           std::size_t stride, std::size_t size) {
     const bool fits = count == 0 || (offset <= view.size() && size <= view.size() - offset &&

@@ -1,6 +1,6 @@
 #pragma once
-// Accessors of a glTF document as typed arrays. Nothing in the document is believed: every range is checked
-// against the bytes that are there, and what would need more memory than the bytes justify is refused.
+// Accessors of a glTF document as typed arrays. The document is untrusted: every range is checked against the
+// available bytes. Memory out of proportion to the bytes is refused.
 
 #include "io/bytes.hpp"
 #include "io/codec.hpp"
@@ -27,30 +27,30 @@ std::size_t size_of(int component_type);
 int components_of(std::string_view type);
 /// An empty array of that type.
 AttributeData empty_data(int component_type);
-/// The glTF type of an array's numbers; 0 for those glTF has none for (float64, int32).
+/// The glTF type of an array's numbers; 0 if glTF has no such type (float64, int32).
 int component_type_of(const AttributeData& data);
 
 /// A parsed document and its buffers, with the buffer views that had to be decompressed.
 class Source {
   public:
-    /// added: views that are in no buffer yet, by index.
+    /// added: views that are not yet in a buffer, by index.
     Source(const Json& document, const std::vector<Bytes>& buffers,
            const std::map<std::size_t, Bytes>* added = nullptr)
         : json_(&document), buffers_(&buffers), added_(added) {}
 
     const Json& json() const { return *json_; }
-    /// The bytes of a buffer view, decompressed when it is under meshopt's extensions.
+    /// The bytes of a buffer view, decompressed if it uses a meshopt extension.
     Span view(const JsonCursor& reference);
     Span view(std::size_t index);
-    /// True when the view is of a buffer without any bytes, which is legal as long as nothing reads it.
+    /// True if the view's buffer has no bytes, which is legal until something reads it.
     bool without_bytes(std::size_t index) const;
     /// Bytes of a range of a buffer, checked. owner has "buffer", "byteOffset" and "byteLength".
     Span range(const JsonCursor& owner) const;
-    /// Accounts for memory that few bytes of the file ask for. Throws limit (E-MEMORY) when it is too much in
-    /// all.
+    /// Counts memory that few bytes of the file can request. Throws limit (E-MEMORY) when the total is too
+    /// large.
     void need(double bytes);
 
-    const Decodings* decoded = nullptr; ///< those that are known already
+    const Decodings* decoded = nullptr; ///< already decoded
 
   private:
     const Json* json_;
@@ -60,7 +60,7 @@ class Source {
     double needed_ = 0;
 };
 
-/// What an accessor says of itself, checked for what can be checked without its bytes.
+/// The properties of an accessor, checked as far as possible without its bytes.
 struct Accessor {
     JsonCursor place;
     std::size_t count;
@@ -77,12 +77,12 @@ AttributeData decode(Source& source, const Accessor& accessor);
 /// The indices of a primitive, each below count. Throws malformed (E-INDEX).
 std::vector<Index> decode_indices(Source& source, const JsonCursor& reference, std::size_t count);
 
-/// meshopt's two extensions, which differ in name only as far as both are written.
+/// The two meshopt extensions; in the supported subset they differ only in name.
 inline constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 /// The object of EXT_meshopt_compression or KHR_meshopt_compression in a buffer or a view.
 std::optional<JsonCursor> meshopt_extension(const JsonCursor& owner);
-/// Decompresses what a buffer view's object of either extension says. Throws malformed (E-MESHOPT; also for
-/// streams that the library is too old for), limit (E-MEMORY).
+/// Decompresses the data that a view's extension object (either name) describes. Throws malformed (E-MESHOPT;
+/// also for streams that the library is too old for), limit (E-MEMORY).
 Bytes decode_meshopt(Source& source, const JsonCursor& extension);
 
 } // namespace facetmill::io::gltf

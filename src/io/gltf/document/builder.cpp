@@ -25,7 +25,7 @@ std::vector<std::uint8_t> flags_of(const Numbers& numbers, std::size_t count) {
     return flags;
 }
 
-/// Clears the flag of what a reference names.
+/// Clears the flag of the referenced item.
 void keep(std::vector<std::uint8_t>& flags, const Json& reference) {
     if (const auto n = reference.get<std::size_t>(); n < flags.size()) flags[n] = 0;
 }
@@ -45,7 +45,7 @@ void erase_positions(std::vector<std::size_t>& list, const Numbers& positions) {
     list = std::move(kept);
 }
 
-// References of single items, see the end of this file.
+// References to single items, see the end of this file.
 using Visit = std::function<void(Json&)>;
 void primitive_accessors(Json& primitive, const Visit& visit);
 void primitive_views(Json& primitive, const Visit& visit);
@@ -95,13 +95,13 @@ std::size_t Builder::add_stored(Stored stored, int target) {
 }
 
 void Builder::release(const Json& primitive) {
-    Json visited = primitive; // a visit may change what it sees
+    Json visited = primitive; // the visitor may change it
     primitive_accessors(visited, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
     primitive_views(visited, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
 }
 
 void Builder::release_mesh(const Json& mesh) {
-    Json visited = mesh; // a visit may change what it sees
+    Json visited = mesh; // the visitor may change it
     mesh_accessors(visited, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
     mesh_views(visited, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
 }
@@ -124,7 +124,7 @@ void Builder::drop_released() {
          dead_views = flags_of(released_views_, count_of(json_, "bufferViews"));
     Json& all_accessors = json_["accessors"];
     visit_accessor_references(json_, [&](Json& r) { keep(dead_accessors, r); });
-    // What the dropped accessors name does not count as use.
+    // References of dropped accessors do not count as use.
     for (std::size_t a = 0; a < dead_accessors.size(); ++a)
         if (dead_accessors[a])
             accessor_views(all_accessors[a], [&](Json& r) {
@@ -132,14 +132,15 @@ void Builder::drop_released() {
             });
     for (std::size_t a = 0; a < dead_accessors.size(); ++a)
         if (dead_accessors[a])
-            all_accessors[a] = nullptr; // its extensions need not be known
+            all_accessors[a] = nullptr; // unknown extensions of it do not matter
         else
             accessor_views(all_accessors[a], [&](Json& r) { keep(dead_views, r); });
     other_views(json_, [&](Json& r) { keep(dead_views, r); });
     const Numbers accessors = numbers_of(dead_accessors), views = numbers_of(dead_views);
 
     if (has_unknown_extensions(json_)) {
-        // Somebody may name accessors and views by number: the dead ones stay as placeholders without data.
+        // Unknown extensions may refer to accessors and views by number, so dead ones stay as empty
+        // placeholders.
         for (const std::size_t a : accessors)
             all_accessors[a] = {{"componentType", int(uint8)}, {"count", 1}, {"type", "SCALAR"}};
         for (const std::size_t v : views) {
@@ -155,19 +156,19 @@ void Builder::drop_released() {
 }
 
 std::vector<std::optional<Packing>> Builder::packings_now() const {
-    std::map<std::size_t, std::string> filters; // by the index that views have now
+    std::map<std::size_t, std::string> filters; // by current view index
     for (std::size_t i = 0; i < old_view_.size(); ++i)
         if (const auto filter = filters_.find(old_view_[i]); filter != filters_.end())
             filters[i] = filter->second;
     return packings(json_, filters);
 }
 
-/// New views of one kind become one, which costs less JSON and compresses better.
+/// Merges new views of the same kind, which needs less JSON and compresses better.
 void Builder::join_views() {
-    if (has_unknown_extensions(json_)) return; // somebody may name views by number
+    if (has_unknown_extensions(json_)) return; // they may refer to views by number
     const auto how = packings_now();
     std::map<std::string, std::size_t> first;
-    std::map<std::size_t, std::pair<std::size_t, std::size_t>> moved; // to which view, behind how many bytes
+    std::map<std::size_t, std::pair<std::size_t, std::size_t>> moved; // target view and byte offset
     std::set<std::size_t> joined;
     for (std::size_t i = 0; i < how.size(); ++i) {
         if (!how[i] || how[i]->kind.empty() || !new_views_.contains(old_view_[i])) continue;
@@ -181,7 +182,7 @@ void Builder::join_views() {
         joined.insert(i);
         Json& view = json_["bufferViews"][at->second];
         view["byteLength"] = to.size();
-        // Vertex data that several accessors share needs to have its stride told.
+        // glTF requires an explicit stride when accessors share vertex data.
         if (view.value("target", 0) == array_buffer && !view.contains("byteStride"))
             view["byteStride"] = how[i]->stride;
     }
@@ -197,7 +198,7 @@ void Builder::join_views() {
     erase_positions(old_view_, joined);
 }
 
-/// Whether a compressed view of the source is written as it is.
+/// True if a compressed view of the source is copied as it is in the file.
 bool Builder::passes_through(std::size_t i) const {
     if (!meshopt_.on || new_views_.contains(old_view_[i])) return false;
     const Json* compressed = compression_of(json_["bufferViews"][i]);
@@ -208,9 +209,9 @@ bool Builder::passes_through(std::size_t i) const {
     return !version_1 && compressed->value("filter", "") != "COLOR";
 }
 
-/// The views' streams; empty for those that are written plain, since compression would not pay.
+/// The streams of the views; empty for views written uncompressed because compression would not pay off.
 std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing>>& how) {
-    constexpr std::size_t json_bytes = 160; // that the extension's object takes
+    constexpr std::size_t json_bytes = 160; // of the extension's object
     std::vector<Bytes> packed(old_view_.size());
     if (how.empty()) return packed;
     std::vector<Span> plain(old_view_.size());
@@ -234,7 +235,8 @@ std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing
     return packed;
 }
 
-/// Appends a stream to the buffer. The view is then one of the buffer that is not there. Returns it.
+/// Appends a stream to the buffer, and returns its view. The view then refers to the fallback buffer without
+/// data.
 Json Builder::pack_view(std::size_t i, const std::optional<Packing>& packing, const Bytes& packed,
                         Bytes& buffer) {
     Json view = json_["bufferViews"][i], extension = Json::object();
@@ -315,7 +317,7 @@ Bytes Builder::finish(std::vector<Diagnostic>& warnings) {
     return buffer;
 }
 
-/// One buffer with all bytes, then those that have none: glTF allows a buffer that somebody else will fill.
+/// Lists the buffer with all bytes, then buffers without data, which glTF allows for external sources.
 void Builder::list_buffers(std::size_t bytes) {
     const Json before = json_.contains("buffers") ? json_["buffers"] : Json::array();
     json_.erase("buffers");
@@ -406,7 +408,7 @@ void accessor_views(Json& accessor, const Visit& visit) {
     reference(member(member(sparse, "values"), "bufferView"), visit);
 }
 
-/// Of all but accessors.
+/// References from everything except accessors.
 void other_views(Json& document, const Visit& visit) {
     each(member(&document, "images"), [&](Json& image) { reference(member(&image, "bufferView"), visit); });
     each(member(&document, "meshes"), [&](Json& mesh) { mesh_views(mesh, visit); });
@@ -442,7 +444,7 @@ void visit_view_references(Json& document, const Visit& visit) {
 }
 
 void see_view_references(const Json& document, const std::function<void(const Json&)>& see) {
-    // None is changed: to visit takes what may be, and `see` gets what may not.
+    // Does not modify the document: the visitor gets mutable references, and `see` takes them as const.
     visit_view_references(const_cast<Json&>(document), [&](Json& r) { see(r); });
 }
 

@@ -92,20 +92,20 @@ Bytes join_glb(std::string_view json, Span binary) {
     return out;
 }
 
-// --- The only user of tinygltf. It resolves buffers: it knows data URIs and asks our callbacks for files. It
-// is handed one buffer at a time and never the document itself, because its parser keeps references
-// unchecked, refuses buffers that only EXT_meshopt_compression needs, and its model loses what it does not
-// know (64-bit integers, nulls, empty objects). Images never reach it.
+// --- The only user of tinygltf, which resolves buffers: it decodes data URIs and calls our callbacks for
+// files. It gets one buffer at a time and never the whole document. Its parser does not check references, and
+// refuses buffers that only EXT_meshopt_compression needs. Its model also loses unknown contents (64-bit
+// integers, nulls, empty objects). It never gets images.
 
 namespace fs = std::filesystem;
 
 namespace {
 
-/// What the callbacks may read: one file, already checked, and at most so many bytes of it.
+/// The file that the callbacks may read: one checked file, up to a limit.
 struct Neighbour {
     fs::path path;
     std::size_t bytes = 0;
-    int error = 0; ///< an errno: why it could not be read
+    int error = 0; ///< errno of a failed read
 };
 
 bool file_exists(const std::string&, void* user) {
@@ -115,19 +115,19 @@ bool file_exists(const std::string&, void* user) {
 
 std::string same_path(const std::string& path, void*) { return path; }
 
-/// At most so many bytes of the file; what kept it from being read is an errno, 0 for nothing.
+/// Reads at most `most` bytes of the file; returns errno, 0 for success.
 int read_prefix(const fs::path& path, std::size_t most, std::vector<unsigned char>& out) {
     const Descriptor file = open_file(path);
     if (!file) return errno;
     const auto about = status_of(file);
     if (!about) return errno;
-    // glTF allows files longer than byteLength; tinygltf does not. The file may be sparse: its size costs
+    // glTF allows files longer than byteLength; tinygltf does not. The file may be sparse, so its size proves
     // nothing.
     out.resize(std::min<std::size_t>(about->stamp.bytes, most));
     for (std::size_t at = 0; at < out.size();) {
         const auto got = read_some(file, std::as_writable_bytes(std::span(out).subspan(at)));
         if (!got) return errno;
-        if (*got == 0) out.resize(at); // it has become shorter
+        if (*got == 0) out.resize(at); // the file was truncated meanwhile
         at += *got;
     }
     return 0;
@@ -149,7 +149,7 @@ bool write_nothing(std::string*, const std::string&, const std::vector<unsigned 
     return true;
 }
 
-/// tinygltf's callbacks; newer ones ask for the size first.
+/// tinygltf's callbacks; newer versions ask for the size first.
 template <class Callbacks>
 Callbacks callbacks_for(Neighbour& neighbour) {
     Callbacks callbacks{};
@@ -224,7 +224,7 @@ Bytes load_uri(const JsonCursor& buffer, const std::string& uri, std::size_t len
         require_memory(2.0 * static_cast<double>(std::min<std::uintmax_t>(size, length)),
                        fmt::format("reading '{}'", path.string()), "use a machine with more memory");
     Bytes bytes = resolve_with_tinygltf(buffer, uri, {path, length});
-    // One that is longer than the buffer is not read to its end.
+    // A file longer than the buffer is not read to its end.
     const bool whole = !ignored && size == bytes.size();
     log.files.push_back({path, bytes.size(), whole ? sha256(bytes) : std::string()});
     return bytes;
@@ -312,7 +312,7 @@ std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary
             buffers[i].assign(binary_chunk->begin(),
                               binary_chunk->begin() + static_cast<std::ptrdiff_t>(length));
         }
-        // A buffer without data is legal as long as nothing reads from it; whoever does says so.
+        // A buffer without data is legal until something reads it; the reader reports it.
     }
     return buffers;
 }

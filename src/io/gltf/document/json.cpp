@@ -126,7 +126,7 @@ std::uint64_t JsonCursor::natural(std::uint64_t most) const {
     if (json_->is_number_unsigned() || (json_->is_number_integer() && json_->get<std::int64_t>() >= 0)) {
         value = json_->get<std::uint64_t>();
     } else if (json_->is_number_float()) {
-        // Some exporters write every number as a float: 3.0 is an integer all the same.
+        // Some exporters write every number as a float, so 3.0 counts as an integer.
         const double x = json_->get<double>();
         if (!(x >= 0 && x < 9007199254740992.0 && x == std::floor(x)))
             expected("an integer that is not negative");
@@ -184,14 +184,14 @@ std::size_t count_of(const Json& document, const char* name) {
     const JsonCursor whole(document);
     const auto* const found = whole.member(name);
     if (!found) return 0;
-    return found->second.is_array() ? found->second.size() : list(document, name)->size(); // which refuses it
+    return found->second.is_array() ? found->second.size() : list(document, name)->size(); // size() throws
 }
 
 JsonCursor item(const Json& document, const char* name, std::size_t i) {
     const JsonCursor whole(document);
     const auto* const found = whole.member(name);
     if (!found || !found->second.is_array() || i >= found->second.size())
-        return whole.at(name).at(i); // which refuses it
+        return whole.at(name).at(i); // at() throws
     JsonCursor place(found->second[i]);
     place.steps_[0] = {&found->first, 0};
     place.steps_[1] = {nullptr, i};

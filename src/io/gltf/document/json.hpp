@@ -1,5 +1,5 @@
 #pragma once
-// A glTF document as JSON, read with the place in every message: "accessors[3].count: expected ...".
+// A glTF document as JSON; messages give the path of the value: "accessors[3].count: expected ...".
 
 #include "base/error.hpp"
 #include "base/json.hpp"
@@ -15,14 +15,14 @@
 
 namespace facetmill::io::gltf {
 
-/// Parses a document. Throws malformed: E-JSON with the byte where the text stops being JSON, or when it is
-/// nested deeper than 256 levels (the JSON library writes and copies recursively).
-/// unread: lists of the document that are checked, and may be left empty.
+/// Parses a document. Throws malformed: E-JSON with the byte of the syntax error, or for nesting deeper than
+/// 256 levels (the JSON library recurses when writing and copying). unread: lists of the document that are
+/// checked for syntax, and may be left empty.
 Json parse_document(std::string_view text, std::span<const std::string_view> unread = {});
-/// The document as text; invalid UTF-8 in names that came from elsewhere is replaced, never written.
+/// The document as text; replaces invalid UTF-8 in names from other sources.
 std::string to_string(const Json& document);
 
-/// A value of the document and where it stands. Every access checks and throws malformed (E-GLTF).
+/// A value of the document and its path. Every access checks and throws malformed (E-GLTF).
 class JsonCursor {
   public:
     JsonCursor(const Json& json, std::string path) : json_(&json) {
@@ -51,12 +51,12 @@ class JsonCursor {
     [[noreturn]] void fail(const std::string& message, const char* id = "E-GLTF",
                            std::string hint = {}) const;
 
-    /// From an object to a member, by its key in the document, or from an array to an item.
+    /// A step from an object to a member, by its key in the document, or from an array to an item.
     struct Step {
         const std::string* key = nullptr;
         std::size_t item = 0;
     };
-    /// A step below another.
+    /// Appends a step to a cursor.
     JsonCursor(const JsonCursor& from, const Step& step, const Json& json);
 
   private:
@@ -71,13 +71,13 @@ class JsonCursor {
     const Member* member(const char* key) const;
 
     const Json* json_;
-    std::array<Step, 6> steps_{}; // spelled only where somebody asks: most values are as they should be
+    std::array<Step, 6> steps_{}; // formatted only on request, because most values are valid
     std::size_t step_count_ = 0;
-    std::shared_ptr<const std::string> above_; // the path of the value from which they lead here; none: ""
+    std::shared_ptr<const std::string> above_; // path of the value before these steps; null: ""
 };
 
-/// An object of these members: key, value, key, value ... An initialiser list would copy each value, and ask
-/// of each whether it is a pair. The keys differ.
+/// An object with these members: key, value, key, value ... An initialiser list would copy each value and
+/// test each for being a pair. Keys must differ.
 template <class... Members>
 Json object_of(Members&&... members) {
     Json object = Json::object();
@@ -98,21 +98,21 @@ std::optional<JsonCursor> list(const Json& document, const char* name);
 std::size_t count_of(const Json& document, const char* name);
 /// Item i of a top-level array; i must have been checked against count_of.
 JsonCursor item(const Json& document, const char* name, std::size_t i);
-/// The index below count that owner[key] is; none for anything else. For documents of which nothing but the
-/// meshes was checked.
+/// The index owner[key] if it is below count; none for anything else. For documents in which only the meshes
+/// were checked.
 std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count = SIZE_MAX);
 
 /// Whether "extensionsUsed" has the extension.
 bool uses_extension(const Json& document, std::string_view name);
-/// Puts a name into a top-level list of names ("extensionsUsed"), which is made when missing; one that is
-/// there stays where it is.
+/// Adds a name to a top-level list ("extensionsUsed"), creating the list if necessary. An existing name stays
+/// in its place.
 void add_name(Json& document, const char* list, const std::string& name);
-/// Takes a name out of such a list, which may then be empty.
+/// Removes a name from such a list; the list may become empty.
 void remove_name(Json& document, const char* list, const std::string& name);
-/// Leaves what materials need: nothing stands or moves in the document any more. Returns which lists that say
-/// more than where meshes stand had entries.
+/// Removes everything except the data of materials. Returns the removed lists that had contents other than
+/// mesh positions in the scene.
 std::vector<std::string> keep_materials_only(Json& document);
-/// Erases a top-level array that is empty, as glTF allows none.
+/// Erases an empty top-level array, because glTF forbids these.
 void erase_empty(Json& document, const char* list);
 
 } // namespace facetmill::io::gltf

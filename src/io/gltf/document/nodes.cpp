@@ -45,8 +45,7 @@ Transform from_parts(const JsonCursor& node) {
     return transform_of({move[0], move[1], move[2]}, turn, {scale[0], scale[1], scale[2]});
 }
 
-/// A node has one parent. Files that name two exist; the node then stands under the first, and `warn` hears
-/// of it.
+/// A node must have one parent. Some files name two; then the first applies, and `warn` is called.
 void link_children(const JsonCursor& node, std::size_t index, std::vector<NodeFrame>& frames,
                    const Warn& warn) {
     const auto children = node.find("children");
@@ -62,7 +61,7 @@ void link_children(const JsonCursor& node, std::size_t index, std::vector<NodeFr
     }
 }
 
-/// A level of detail (MSFT_lod) stands in for the node that names it, so under the same parent.
+/// A level of detail (MSFT_lod) replaces the node that names it, so it has the same parent.
 void link_levels(const JsonCursor& node, std::size_t index, std::vector<NodeFrame>& frames) {
     const auto extensions = node.find("extensions");
     const auto levels = extensions ? extensions->find("MSFT_lod") : std::nullopt;
@@ -174,7 +173,7 @@ std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames) {
     }
     for (std::size_t done = 0; done < order.size(); ++done)
         for (const std::size_t child : children[order[done]]) order.push_back(child);
-    // Every node has at most one parent, so what no root reaches goes round in a circle.
+    // Every node has at most one parent, so nodes that no root reaches form a cycle.
     if (order.size() < frames.size()) {
         const std::set<std::size_t> reached(order.begin(), order.end());
         for (std::size_t i = 0; i < frames.size(); ++i)
@@ -189,7 +188,7 @@ bool makes_triangles(const JsonCursor& primitive) {
     const auto mode = primitive.natural_or("mode", 4);
     if (mode > 6) primitive.at("mode").fail(fmt::format("{} is not a mode", mode));
     return mode >= 4 &&
-           primitive.at("attributes").find("POSITION"); // without positions an extension gives them
+           primitive.at("attributes").find("POSITION"); // an extension may provide positions instead
 }
 
 bool has_triangles(const JsonCursor& mesh) {
@@ -264,7 +263,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Whether a document may have a member of this name: a text without escapes says it as it is.
+/// True if a document may have a member of this name: a text without escapes contains the name literally.
 bool may_have(const std::string& json, const char* name) {
     return json.find(name) != std::string::npos || json.find('\\') != std::string::npos;
 }

@@ -13,7 +13,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// Calls change for every floating-point number below, not in extras.
+/// Calls change for every floating-point number in json, except in extras.
 template <class Change>
 void each_real(Json& json, const Change& change) {
     if (json.is_number_float())
@@ -26,7 +26,7 @@ void each_real(Json& json, const Change& change) {
 }
 
 void as_integer(Json& number) {
-    constexpr double most = 1e15; // where doubles hold all integers, with no more digits than their text
+    constexpr double most = 1e15; // doubles are exact integers up to here, with no longer text
     const double x = number.get<double>();
     if (std::abs(x) < most && x == std::floor(x)) number = static_cast<std::int64_t>(x);
 }
@@ -37,10 +37,10 @@ void as_single(Json& number) {
     if (std::isfinite(x)) number = parse_real(fmt::format("{}", x)).value_or(number.get<double>());
 }
 
-/// The number of fewest decimals that is not farther away than that.
+/// The number with the fewest decimals within this tolerance.
 double within(double x, double tolerance) { return short_near(x, 100 * tolerance); }
 
-/// A matrix whose axes are those of its parent.
+/// True if the matrix has no rotation or shear.
 bool is_straight(const Json& matrix) {
     for (std::size_t i = 0; i < 16; ++i) {
         const bool free = i >= 12 || i % 5 == 0;
@@ -66,8 +66,8 @@ void erase_defaults(Json& node) {
     if (is("scale", {1, 1, 1})) node.erase("scale");
 }
 
-/// What is lost of the numbers of a node: this length of its translation, this share of the greatest of the
-/// others.
+/// The allowed error of a node's numbers: a length for its translation, and a share of the largest number for
+/// the others.
 struct Tolerance {
     double length = 0, share = 0;
 };
@@ -89,14 +89,14 @@ void round_place(Json& node, const Tolerance& tolerance) {
     round(node["matrix"], 12, 15, tolerance.length);
 }
 
-/// The nodes' numbers with the digits that matter for a scene of this size. What is far away from where its
-/// coordinates count from needs more of them.
+/// Shortens the nodes' numbers to the digits that matter in a scene of this size. Nodes far from their
+/// coordinate origin need more digits.
 void shorten_nodes(Json& document, const Box& bounds) {
     if (!document.contains("nodes")) return;
     const auto frames = node_frames(document);
     const double size = bounds.empty() ? 0 : bounds.diagonal();
     constexpr double ratio = 1e-8;            // of the diagonal: a thousandth of a step of 17 bits
-    const auto stretch = [&](std::size_t n) { // of what the translation is in
+    const auto stretch = [&](std::size_t n) { // scale of the translation's space
         return frames[n].parent < 0
                    ? 1.0
                    : greatest_stretch(frames[static_cast<std::size_t>(frames[n].parent)].world);
@@ -116,7 +116,7 @@ void shorten_nodes(Json& document, const Box& bounds) {
     }
 }
 
-/// Interpolation that is linear anyway, weights of morph targets that are zero anyway.
+/// Linear interpolation and zero morph weights are the defaults.
 void erase_default_members(Json& document) {
     for (std::size_t a = 0; a < count_of(document, "animations"); ++a)
         for (Json& sampler : document["animations"][a]["samplers"])

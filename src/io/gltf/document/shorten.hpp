@@ -1,19 +1,19 @@
 #pragma once
-// A document in less text.
+// Shortens the JSON text of a document.
 
 #include "base/math/vec.hpp"
 #include "io/gltf/document/json.hpp"
 
 namespace facetmill::io::gltf {
 
-/// Floating-point numbers that are whole become integers, and those of materials as few digits as float32
-/// tells apart; members that say what is so without them go; matrices that only move and scale become a
+/// Floating-point numbers that are whole become integers. Numbers of materials keep only the digits of
+/// float32. Members with default values are removed. Matrices that only translate and scale become a
 /// translation and a scale. Numbers of nodes lose digits that move nothing by more than 1e-8 of the bounds'
-/// diagonal. Extras stay as they are.
+/// diagonal. Extras stay unchanged.
 void shorten(Json& document, const Box& bounds);
 
-/// Erases the names of nodes, meshes, images and what else only people look for, the asset's generator among
-/// them; not those of scenes, animations, cameras and materials.
+/// Erases the names of nodes, meshes, images and other items that only people use, and the asset's generator.
+/// Keeps the names of scenes, animations, cameras and materials.
 void drop_names(Json& document);
 
 } // namespace facetmill::io::gltf

@@ -14,7 +14,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Attribute names are glTF's where Draco knows the kind, else those of the metadata.
+/// Attribute names are glTF's if Draco knows the kind, else from the metadata.
 std::string name_of(const DracoColumn& column, std::set<std::string>& taken) {
     std::string stem = column.name;
     if (column.kind == DracoKind::normal && !taken.count("NORMAL"))
@@ -119,7 +119,7 @@ DracoColumn to_column(const Mesh& mesh, const Attribute& a) {
     return column;
 }
 
-/// Degenerate faces go, unless they are wanted or there are no others: then indices are stored.
+/// Drops degenerate faces, unless they should be kept or are the only faces: then indices are stored.
 void leave_degenerate(DracoInput& input, const DracoSettings& settings, Written& written) {
     const std::vector<bool> degenerate = degenerate_faces(input.triangles, input.point_vertex);
     const auto count = static_cast<std::size_t>(std::count(degenerate.begin(), degenerate.end(), true));

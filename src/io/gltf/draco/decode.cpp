@@ -68,7 +68,7 @@ bool copy_value(const ::draco::PointAttribute& attribute, ::draco::AttributeValu
                 std::size_t width, T* to) {
     if (attribute.data_type() != ::draco::DT_BOOL)
         return attribute.ConvertValue(value, static_cast<std::int8_t>(width), to);
-    const std::uint8_t* bytes = attribute.GetAddress(value); // the library loads any byte as a bool
+    const std::uint8_t* bytes = attribute.GetAddress(value); // the library would load any byte as a bool
     if (!attribute.IsAddressValid(bytes + width - 1)) return false;
     std::transform(bytes, bytes + width, to, [](std::uint8_t byte) { return T(byte != 0); });
     return true;
@@ -116,9 +116,9 @@ std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
     return count;
 }
 
-/// Refuses what the library's decoder of k-d trees takes without a look: attributes without components, and
-/// more points in the tree than the header has, which it would write beyond the end. The buffer is behind the
-/// number of points.
+/// Refuses input that the library's k-d tree decoder does not check. It may have attributes without
+/// components, or more points in the tree than in the header, which would overflow memory. The buffer is
+/// positioned after the number of points.
 void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
     constexpr std::uint32_t most_numbers = 256; // of a point: memory grows with its square
     const auto byte = [&] {
@@ -132,27 +132,26 @@ void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
     const std::uint32_t attributes = decode_count(buffer, true);
     std::uint32_t numbers = 0;
     for (std::uint32_t a = 0; a < attributes; ++a) {
-        byte(); // what the attribute is
-        byte(); // the type of its numbers
+        byte(); // attribute kind
+        byte(); // number type
         const std::uint8_t components = byte();
         byte();                     // normalised
-        decode_count(buffer, true); // its id
+        decode_count(buffer, true); // id
         if (components == 0) fail("an attribute has no components");
         numbers += components;
         if (numbers > most_numbers) fail("its points have more than 256 numbers each");
     }
-    byte();                      // the level of compression
-    decode_count(buffer, false); // bits of a number
+    byte();                      // compression level
+    decode_count(buffer, false); // bits per number
     const std::uint32_t in_tree = decode_count(buffer, false);
     if (attributes == 0 || in_tree != points)
         fail(fmt::format("its tree has {} points, and its header {}", in_tree, points));
 }
 
-/// Reads the numbers of faces and points that the data promises, and refuses what its bytes cannot hold or
-/// memory cannot: the library takes the memory before it finds the faces. Returns
-/// how many bytes the library may ask for at once: other numbers in the data say how many bits of a texture's
-/// orientation there are, or how many symbols, and it takes and fills what they ask for, however few bytes
-/// are left.
+/// Reads the declared numbers of faces and points. Refuses numbers that the bytes or the memory cannot hold,
+/// because the library allocates before it decodes. Returns the number of bytes that the library may request
+/// at once. Other numbers in the data, such as texture orientations or symbols, also make it allocate,
+/// however few bytes are left.
 std::size_t check_counts(::draco::DecoderBuffer buffer, bool is_mesh) {
     ::draco::DracoHeader header;
     const auto status = ::draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
@@ -183,18 +182,18 @@ std::size_t check_counts(::draco::DecoderBuffer buffer, bool is_mesh) {
         points = decode_count(buffer, variable);
         faces = decode_count(buffer, variable);
     }
-    // The entropy coding gives much for a byte, 40 faces of a flat grid of two million; a thousand are no
-    // mesh.
+    // Entropy coding is very compact: about 40 faces per byte for a flat grid of two million. A thousand per
+    // byte is not a real mesh.
     constexpr std::size_t most = 1024;
     if (faces > most * bytes || points > most * bytes)
         fail(fmt::format("{} bytes cannot hold {} faces and {} points", bytes, faces, points));
     require_memory(150.0 * faces + 100.0 * points, "decoding Draco data", "use a machine with more memory");
-    constexpr std::size_t point_bytes = 512; // 127 components of four bytes, as many as are written
+    constexpr std::size_t point_bytes = 512; // 127 components of four bytes, the maximum that is written
     return at_most_memory_there((std::size_t{1} << 20) + 64 * std::size_t{faces} + point_bytes * points +
                                 256 * bytes);
 }
 
-/// A draco::Mesh where is_mesh says so.
+/// Returns a draco::Mesh if is_mesh is set.
 std::unique_ptr<::draco::PointCloud> decode(::draco::DecoderBuffer buffer, bool is_mesh, bool quantised) {
     ::draco::Decoder decoder;
     if (quantised) keep_quantised(decoder);
@@ -208,7 +207,7 @@ std::unique_ptr<::draco::PointCloud> decode(::draco::DecoderBuffer buffer, bool 
     return std::move(decoded).value();
 }
 
-/// A draco::Mesh, or the points of a cloud where contents allows it.
+/// Returns a draco::Mesh, or the points of a cloud if contents allows it.
 std::unique_ptr<::draco::PointCloud> decode(Span bytes, DracoContents contents) {
     ::draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());

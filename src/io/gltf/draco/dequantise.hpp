@@ -1,6 +1,6 @@
 #pragma once
-// The inverse of quantisation, computed here: the library, compiled for some processors, rounds once where
-// others round twice (a fused multiply and add), and the same file would give other bytes there.
+// The inverse of quantisation, computed here. The library's result depends on whether the compiler uses fused
+// multiply-add, so the same file would give different bytes on different processors.
 
 #include <draco/attributes/point_attribute.h>
 #include <draco/compression/decode.h>
@@ -9,20 +9,20 @@
 
 namespace facetmill::io {
 
-/// Has the decoder leave positions, normals and texture coordinates as whole numbers, with what they are
-/// steps of.
+/// Makes the decoder leave positions, normals and texture coordinates as integers with their quantisation
+/// data.
 void keep_quantised(::draco::Decoder& decoder);
 
-/// Whether a mesh was decoded so and yet is not what its file says: attributes of these kinds that are whole
-/// numbers in the file come as such of 32 bits. Then it is decoded again, without.
+/// True if this kind of decoding lost types: attributes of these kinds that are integers in the file come out
+/// as 32-bit integers. Then the mesh must be decoded again, without it.
 bool has_lost_types(const ::draco::PointCloud& mesh);
 
 struct Dequantised {
     int components;
     std::vector<float> numbers; ///< [values of the attribute * components]
 };
-/// As the library computes them on a processor that rounds twice; none for what was not left quantised.
-/// Throws malformed where the data of the transform cannot be right.
+/// Computes like the library without fused multiply-add; none for attributes that were not left quantised.
+/// Throws malformed when the transform data is invalid.
 std::optional<Dequantised> dequantised(const ::draco::PointAttribute& attribute);
 
 } // namespace facetmill::io

@@ -1,4 +1,4 @@
-// How many bits of position keep vertices apart.
+// How many bits a position needs to keep vertices distinct.
 
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/draco/quantise.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 using Place = std::array<std::uint32_t, 3>;
 
-/// The number of different places.
+/// The number of distinct positions.
 std::size_t count_positions(std::vector<Place>& places) {
     for (const std::size_t i : {0u, 1u, 2u})
         radix_sort(
@@ -30,7 +30,7 @@ std::size_t count_positions(std::vector<Place>& places) {
     return count;
 }
 
-/// The step of the grid at each vertex, as it is written, or the coordinates' own bits.
+/// The grid step of each vertex as written, or the coordinates' own bits.
 std::vector<Place> places_of(const Mesh& mesh, const DracoInput& grid, std::optional<int> bits) {
     std::vector<Place> places(mesh.vertex_count());
     const float density = bits ? DracoGrid{{}, grid.range, *bits}.density() : 0;
@@ -38,7 +38,7 @@ std::vector<Place> places_of(const Mesh& mesh, const DracoInput& grid, std::opti
         for (std::size_t i = 0; i < 3; ++i) {
             const float x = static_cast<float>(mesh.positions[v][i]), origin = grid.origin[i];
             places[v][i] = bits ? step_of(settled(x, origin, density), origin, density)
-                                : std::bit_cast<std::uint32_t>(x - origin + 0.0f); // -0 is 0
+                                : std::bit_cast<std::uint32_t>(x - origin + 0.0f); // -0 becomes 0
         }
     });
     return places;

@@ -1,5 +1,5 @@
 #pragma once
-// Draco's compressed meshes, without Draco's types: its headers are included in this folder only.
+// Draco's compressed meshes, without Draco's types: only this folder includes its headers.
 
 #include "io/bytes.hpp"
 #include "io/codec.hpp"
@@ -11,21 +11,21 @@
 
 namespace facetmill::io {
 
-/// What Draco takes an attribute for: it decides prediction and quantisation.
-/// identifier: whole numbers, which nothing may round.
+/// Draco's attribute kind, which decides prediction and quantisation. identifier: integers that must not be
+/// rounded.
 enum class DracoKind { position, normal, uv, colour, generic, identifier };
 
 /// One attribute of a compressed mesh: a tuple per point.
 struct DracoColumn {
-    std::string name; ///< from the metadata, or empty
+    std::string name; ///< from the metadata; may be empty
     DracoKind kind = DracoKind::generic;
-    std::uint32_t id = 0; ///< the unique id by which glTF names it
+    std::uint32_t id = 0; ///< the unique id that glTF refers to
     int components = 1;
     bool normalised = false;
     AttributeData data; ///< [points * components]
 };
 
-/// A decoded mesh. A point is what glTF calls a vertex, here a wedge.
+/// A decoded mesh. A point is a glTF vertex, called a wedge here.
 struct DracoMesh {
     std::size_t points = 0;
     std::vector<Index> triangles; ///< three points each
@@ -34,67 +34,68 @@ struct DracoMesh {
 
 /// True when the bytes begin with Draco's magic number.
 bool is_draco(Span bytes);
-/// What the bytes may hold.
+/// The kinds of data that are accepted.
 enum class DracoContents { mesh, mesh_or_points };
-/// Decodes a mesh, or points without triangles. Throws malformed (E-DRACO), also for what is not asked for.
+/// Decodes a mesh, or points without triangles. Throws malformed (E-DRACO), also for data of another kind.
 DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
 
-/// What bytes were decoded to, by their SHA-256, so that the same bytes are decoded once.
+/// Decoded contents by the SHA-256 of the bytes, so that equal bytes are decoded once.
 class DracoDecodings : public Decodings {
   public:
     void add(Span bytes, std::shared_ptr<const DracoMesh> mesh);
-    /// As decode_draco, where the bytes are known without decoding them.
+    /// Like decode_draco, but reuses contents that are already known.
     DracoMesh decode(Span bytes, DracoContents contents) const;
 
   private:
     std::unordered_map<std::string, std::shared_ptr<const DracoMesh>> meshes_;
 };
-/// With what is known, if there is any and it is of Draco.
+/// Uses known contents, if known is not null and belongs to Draco.
 DracoMesh decode_draco(Span bytes, DracoContents contents, const Decodings* known);
 
 /// A mesh to compress.
 struct DracoInput {
-    std::vector<float> vertices; ///< x, y, z: one per vertex and not per point, so that seams do not crack
+    std::vector<float> vertices;      ///< x, y, z: per vertex, not per point, so that seams do not crack
     std::vector<Index> point_vertex;  ///< [points]
     std::vector<Index> triangles;     ///< three points each
-    std::vector<DracoColumn> columns; ///< all but the positions; ids are ignored
-    float origin[3] = {0, 0, 0}; ///< of the grid that positions are quantised to: the same for all primitives
-    float range = 1;             ///< of a mesh, so that their common borders stay together
-    float extent = 1;            ///< what the bits are meant to divide: at most the range
-    bool keep_order = false; ///< points keep their order (morph targets are not compressed and rely on it)
+    std::vector<DracoColumn> columns; ///< all except positions; ids are ignored
+    float origin[3] = {0, 0, 0};      ///< of the quantisation grid: the same for all primitives
+    float range = 1;                  ///< of a mesh, so that its primitives' common borders match
+    float extent = 1;                 ///< the length that the bits divide: at most the range
+    bool keep_order = false;          ///< for morph targets, which are not compressed and rely on the order
 };
 
-/// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to what the library stores.
+/// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to the library's stored
+/// precision.
 void set_draco_grid(const Mesh& mesh, DracoInput& input);
 
-/// Makes the steps of the grid 1, for whole numbers that reach no farther than 2^bits - 1 from its origin.
+/// Sets the grid step to 1, for integers at most 2^bits - 1 from the origin.
 void set_whole_steps(DracoInput& input, int bits);
 
-/// Makes a grid of so many bits wider, so that its steps are as long as this one; not narrower, nor where a
-/// step is below the millionths that the library stores.
+/// Widens a grid with this many bits until its steps have this length. It never narrows the grid, and does
+/// nothing for steps below the millionths that the library stores.
 void widen_draco_grid(DracoInput& input, double step, int bits);
 
-/// The faces that name a vertex twice, which Edgebreaker cannot hold; three corners each.
+/// Marks faces that repeat a vertex, which Edgebreaker cannot store; three corners each.
 std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
                                    const std::vector<Index>& point_vertex);
 
 struct DracoOutput {
     Bytes bytes;
-    std::shared_ptr<const DracoMesh> decoded; ///< what a reader will see, but for
-    DracoColumn positions;                    ///< those of the grid, alike on every processor
+    std::shared_ptr<const DracoMesh> decoded; ///< as decoded; its positions may depend on the processor
+    DracoColumn positions;                    ///< on the grid: equal on every processor
     std::uint32_t position_id = 0;
-    std::vector<std::uint32_t> ids; ///< of the columns, in order
+    std::vector<std::uint32_t> ids; ///< in column order
     bool sequential = false;
 };
 
-/// Compresses with Edgebreaker; with the sequential method when order matters, or when Edgebreaker would drop
-/// faces: it drops degenerate ones, so take them out before. Numbers are quantised alike on every processor.
-/// Throws stage (E-DRACO) when Draco cannot do it at all.
+/// Compresses with Edgebreaker. It uses the sequential method when the order matters, or when Edgebreaker
+/// would drop faces: it drops degenerate ones, so remove these before. Numbers are quantised identically on
+/// every processor. Throws stage (E-DRACO) when Draco cannot encode the mesh.
 DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
 
-/// Compresses points without triangles, each a vertex, by a k-d tree, which puts them in another order; in
-/// sequence where an attribute has numbers that the tree does not take. Quantises as encode_draco, but
-/// normals as plain numbers. Throws stage (E-DRACO).
+/// Compresses points without triangles, each a vertex, in a k-d tree, which changes their order. It uses the
+/// sequential method if the tree does not support the numbers of an attribute. Quantises like encode_draco,
+/// but stores normals as plain numbers. Throws stage (E-DRACO).
 Bytes encode_draco_points(const DracoInput& input, const DracoSettings& settings);
 
 } // namespace facetmill::io

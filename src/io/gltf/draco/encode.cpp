@@ -16,7 +16,7 @@ namespace {
 using Attribute = ::draco::GeometryAttribute;
 
 Attribute::Type type_of(const DracoColumn& column) {
-    // Draco's octahedral coding of normals is for floats; other normals go as plain numbers.
+    // Draco's octahedral coding of normals is for floats; other normals are stored as plain numbers.
     const bool floats = std::holds_alternative<std::vector<float>>(column.data);
     switch (column.kind) {
     case DracoKind::position:
@@ -39,7 +39,7 @@ Attribute::Type type_of(const DracoColumn& column) {
     return types[data.index()];
 }
 
-/// The points, those of one vertex behind each other, in their order.
+/// The points grouped by vertex, otherwise in order.
 std::vector<Index> points_by_vertex(const DracoInput& input) {
     std::vector<std::size_t> first(input.vertices.size() / 3 + 1);
     for (const Index v : input.point_vertex) ++first[v];
@@ -49,9 +49,9 @@ std::vector<Index> points_by_vertex(const DracoInput& input) {
     return points;
 }
 
-/// For each point the first one of its vertex that has the same bytes: Draco sees a seam of an attribute
-/// where the points of a vertex have different values of it, whatever these are. Only the last few of a
-/// vertex are compared, so that it stays linear.
+/// For each point, the first point of its vertex with the same bytes. Draco makes an attribute seam where the
+/// points of a vertex have different value indices, whatever the values are. Only the last few points of a
+/// vertex are compared, so that the time stays linear.
 std::vector<Index> first_with_value(const char* bytes, std::size_t stride, const DracoInput& input,
                                     const std::vector<Index>& points) {
     constexpr std::size_t compared = 32;
@@ -96,7 +96,7 @@ int add_column(::draco::PointCloud& mesh, const DracoColumn& column, const Draco
         column.data);
 }
 
-/// Positions have a value per vertex and a mapping from points: Draco then knows which points are one vertex.
+/// Stores positions per vertex with a mapping from points, so that Draco knows which points share a vertex.
 int add_positions(::draco::PointCloud& mesh, const DracoInput& input) {
     Attribute attribute;
     attribute.Init(Attribute::POSITION, nullptr, 3, ::draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
@@ -124,27 +124,27 @@ int bits_of(const DracoColumn& column, const DracoSettings& settings) {
     }
 }
 
-/// The input with numbers that are quantised alike on every processor, and the grids of its columns.
+/// The input with numbers that round identically on every processor, and the grids of its columns.
 struct Settled {
     DracoInput input;
     DracoGrid positions;
-    std::vector<std::optional<DracoGrid>> grids; ///< of float columns that are no normals
+    std::vector<std::optional<DracoGrid>> grids; ///< of float columns except normals
 };
 
-constexpr int whole_bits = 24; // which a float32 holds exactly
+constexpr int whole_bits = 24; // exact in float32
 
 bool are_whole(const std::vector<float>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(),
                        [](float x) { return x >= 0 && x < (1 << whole_bits) && x == std::floor(x); });
 }
 
-/// The grid whose steps are 1.
+/// The grid with a step of 1.
 DracoGrid whole_numbers(int components) {
     return {std::vector<float>(static_cast<std::size_t>(components), 0.0F), float((1 << whole_bits) - 1),
             whole_bits};
 }
 
-/// octahedral: how normals are quantised; else as plain numbers.
+/// octahedral: quantises normals for the octahedral coding; else as plain numbers.
 Settled settle_all(const DracoInput& given, const DracoSettings& settings, bool octahedral) {
     Settled out{given,
                 {{given.origin[0], given.origin[1], given.origin[2]},
@@ -255,7 +255,7 @@ DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings)
 }
 
 Bytes encode_draco_points(const DracoInput& given, const DracoSettings& settings) {
-    const Settled settled = settle_all(given, settings, false); // the tree knows no octahedra
+    const Settled settled = settle_all(given, settings, false); // the tree has no octahedral coding
     const DracoInput& input = settled.input;
     ::draco::PointCloud cloud;
     cloud.set_num_points(static_cast<std::uint32_t>(input.point_vertex.size()));

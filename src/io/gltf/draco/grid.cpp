@@ -1,4 +1,4 @@
-// The grid that the positions of a mesh are quantised to.
+// The quantisation grid for the positions of a mesh.
 
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/draco/quantise.hpp"

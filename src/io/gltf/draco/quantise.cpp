@@ -10,9 +10,9 @@ namespace facetmill::io {
 
 namespace {
 
-constexpr double decimals = 1e6; ///< what std::to_string leaves of a number, in its parts
+constexpr double decimals = 1e6; ///< precision of std::to_string
 
-/// What remains of a number when it is a text of the library's.
+/// The number after the library stores it as text.
 float by_text(float x) { return std::strtof(std::to_string(x).c_str(), nullptr); }
 
 /// The next storable number in a direction, x if it is one.
@@ -25,7 +25,7 @@ float storable(float x, double direction) {
     }
 }
 
-/// Both ways to round, of one expression. std::fma is exact wherever it runs.
+/// Both roundings of the same expression. std::fma is exact on every processor.
 bool is_settled(float difference, float density) {
     const float product = difference * density;
     return std::floor(product + 0.5F) == std::floor(std::fma(difference, density, 0.5F));
@@ -36,7 +36,7 @@ bool is_settled(double scaled, double centre) {
     return std::floor(product + 0.5) == std::floor(std::fma(scaled, centre, 0.5));
 }
 
-/// The vector of integers on the octahedron |x| + |y| + |z| = centre that the normal is rounded to.
+/// Replaces the normal by the integer vector on the octahedron |x| + |y| + |z| = centre that it rounds to.
 void put_on_octahedron(float* normal, const double* scaled, double centre) {
     double a = std::floor(scaled[0] * centre + 0.5), b = std::floor(scaled[1] * centre + 0.5);
     double c = centre - std::abs(a) - std::abs(b);
@@ -88,7 +88,7 @@ DracoGrid grid_of(const std::vector<float>& numbers, int components, int bits) {
 }
 
 float settled(float x, float origin, float density) {
-    constexpr int farthest = 64; // beyond it the grid is finer than the numbers
+    constexpr int farthest = 64; // beyond this, the grid is finer than the numbers
     float up = x, down = x;
     for (int n = 0; n < farthest; ++n) {
         if (is_settled(up - origin, density)) return up;

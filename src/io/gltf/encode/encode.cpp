@@ -14,11 +14,11 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// The numbers of wedges in a table.
+/// Numbers the wedges of a table.
 class Numbering {
   public:
     explicit Numbering(std::size_t wedges) : number_(wedges, none) {}
-    /// Takes the wedges among the corners, which it has none of, ascending.
+    /// Collects the distinct wedges of the corners into the table, ascending. The table must be empty.
     void collect(Table& table, const std::vector<Index>& corners) {
         std::vector<Index>& wedges = table.wedges;
         for (const Index w : corners)
@@ -26,7 +26,7 @@ class Numbering {
                 number_[w] = 0;
                 wedges.push_back(w);
             }
-        if (wedges.size() > number_.size() / 16) { // a look at all is less work than to sort these
+        if (wedges.size() > number_.size() / 16) { // scanning all numbers is faster than sorting these
             wedges.clear();
             for (Index w = 0; w < number_.size(); ++w)
                 if (number_[w] != none) wedges.push_back(w);
@@ -121,7 +121,7 @@ Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
     return attributes;
 }
 
-/// Material, extras and extensions of the primitive as the source had them.
+/// The primitive's material, extras and extensions from the source.
 Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, Builder& builder,
                      Written& written) {
     Json out = Json::object();
@@ -169,8 +169,8 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
     return out;
 }
 
-/// Whether the order of vertices says something: EXT_mesh_features numbers features by vertices where it
-/// names neither an attribute nor a texture.
+/// True if the order of vertices has a meaning: EXT_mesh_features numbers features by vertex if it names
+/// neither an attribute nor a texture.
 bool keeps_order(const Mesh& mesh, const EncodeSettings& settings) {
     if (settings.order == TriangleOrder::keep) return true;
     for (const Primitive& primitive : mesh.primitives) {
@@ -184,8 +184,8 @@ bool keeps_order(const Mesh& mesh, const EncodeSettings& settings) {
     return false;
 }
 
-/// All primitives' indices in one view, one accessor each: EXT_mesh_manifold then covers them with a single
-/// one.
+/// Writes all primitives' indices into one view, one accessor each: EXT_mesh_manifold then covers them with a
+/// single accessor.
 void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tables,
                      const std::vector<Column>& columns, const EncodeSettings& settings, Written& written,
                      EncodedMesh& out) {
@@ -226,7 +226,7 @@ std::vector<float> positions_of(const Mesh& mesh, const std::vector<Index>& wedg
     std::vector<float> out(3 * wedges.size());
     parallel_for(wedges.size(), [&](std::size_t i) {
         const Vec3& p = mesh.positions[mesh.vertex_of_wedge(wedges[i])];
-        // -0 would make one vertex two for those who compare bits.
+        // -0 would split a vertex for readers that compare bits.
         for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = static_cast<float>(p[c]) + 0.0f;
     });
     return out;
@@ -311,7 +311,7 @@ Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Colu
     return primitive;
 }
 
-/// The lines of each primitive that has some, as a list.
+/// Adds the lines of each primitive as a list.
 void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
                const EncodeSettings& settings, Written& written, EncodedMesh& out) {
     std::vector<std::vector<Index>> ends(std::max<std::size_t>(mesh.primitives.size(), 1));

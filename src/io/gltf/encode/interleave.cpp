@@ -1,4 +1,4 @@
-// The attributes of a vertex side by side, as GPUs read them.
+// Interleaves the attributes of each vertex, as GPUs read them.
 
 #include "io/gltf/encode/encode.hpp"
 #include "io/gltf/numbers/quantise.hpp"
@@ -11,7 +11,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-constexpr std::size_t greatest_stride = 252; // that glTF allows
+constexpr std::size_t greatest_stride = 252; // glTF's limit
 
 class Interleave {
   public:
@@ -29,8 +29,8 @@ class Interleave {
 
     Builder& builder_;
     Json& json_;
-    std::vector<std::size_t> group_; ///< by accessor: one of its group, itself at the end of the chain
-    std::vector<std::size_t> used_;  ///< the accessors of attributes, in the order in which they are met
+    std::vector<std::size_t> group_; ///< by accessor: another member of its group; itself for the last
+    std::vector<std::size_t> used_;  ///< accessors of attributes, in order of first use
     std::map<std::size_t, std::size_t> new_accessor_;
 };
 
@@ -43,7 +43,7 @@ void each_attributes(Json& document, Call&& call) {
         }
 }
 
-/// Whether the accessor has bytes of its own, one element after another.
+/// True if the accessor has its own bytes, without gaps between elements.
 bool Interleave::suits(std::size_t accessor) {
     if (accessor >= count_of(json_, "accessors")) return false;
     const Json& a = json_["accessors"][accessor];
@@ -57,7 +57,7 @@ std::size_t Interleave::group_of(std::size_t accessor) {
     return accessor;
 }
 
-/// Accessors that one primitive uses are of one group, and so are all that have one in common.
+/// Groups the accessors of each primitive; groups with a common accessor are merged.
 void Interleave::join_accessors() {
     group_.resize(count_of(json_, "accessors"));
     std::iota(group_.begin(), group_.end(), std::size_t{0});
@@ -100,7 +100,7 @@ void Interleave::store_view(const std::vector<std::size_t>& accessors, const std
     }
 }
 
-/// As few views as the greatest stride allows.
+/// Uses as few views as the maximum stride allows.
 void Interleave::store(const std::vector<std::size_t>& accessors) {
     std::vector<std::size_t> together;
     std::vector<Bytes> elements;

@@ -1,4 +1,4 @@
-// EXT_mesh_manifold: the primitives of a mesh as one closed surface, whose seams are taken together.
+// EXT_mesh_manifold: the primitives of a mesh as one closed surface, with merged seams.
 #include "io/gltf/encode/encode.hpp"
 
 #include "parallel/parallel.hpp"
@@ -11,7 +11,8 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// True when every directed edge is there once and its opposite once: what the extension calls manifold.
+/// True when every directed edge exists once, and so does its opposite: the extension's definition of
+/// manifold.
 bool is_manifold(const Mesh& mesh) {
     std::vector<std::uint64_t> edges, opposite;
     for (Index f = 0; f < mesh.face_count(); ++f)
@@ -47,7 +48,7 @@ Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<In
              ""});
         return nullptr;
     }
-    // The first wedge written of a vertex stands for it.
+    // The first written wedge of a vertex represents it.
     std::vector<Index> first(mesh.vertex_count(), none), at, to;
     for (Index i = 0; i < wedges.size(); ++i) {
         Index& v = first[mesh.vertex_of_wedge(wedges[i])];

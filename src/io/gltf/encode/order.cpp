@@ -17,14 +17,14 @@ namespace facetmill::io::gltf {
 namespace {
 
 constexpr std::uint32_t cache_size = 16;
-constexpr std::size_t few_corners = 3 * 1000; ///< for which another thread would take longer to come
+constexpr std::size_t few_corners = 3 * 1000; ///< below this, starting a thread takes longer
 
-/// A cache of vertices, first in, first out.
+/// A FIFO cache of vertices.
 class VertexCache {
   public:
     explicit VertexCache(std::size_t vertices) : entered_(vertices, 0) {}
 
-    /// Whether the vertex has to be transformed, since it is not there.
+    /// True if the vertex is not in the cache and must be transformed.
     bool misses(Index v) {
         if (now_ - entered_[v] <= cache_size) return false;
         entered_[v] = now_++;
@@ -44,7 +44,7 @@ std::size_t transforms(const Table& table) {
     return count;
 }
 
-/// How many vertices of each triangle are not in the cache.
+/// The number of cache misses of each triangle.
 std::vector<std::uint8_t> misses_by_triangle(const Table& table) {
     VertexCache cache(table.wedges.size());
     std::vector<std::uint8_t> misses(table.indices.size() / 3);
@@ -53,8 +53,8 @@ std::vector<std::uint8_t> misses_by_triangle(const Table& table) {
     return misses;
 }
 
-/// The first triangles of groups between which hardly a vertex is in the cache: where all three are missed
-/// anyway, and where a group so far uses the cache as well as the whole up to 5 %.
+/// The first triangles of groups that share hardly any cached vertices. A group ends where all three vertices
+/// miss anyway, once it uses the cache as well as the whole mesh does, within 5 %.
 std::vector<std::size_t> groups_of(const Table& table) {
     constexpr double threshold = 1.05;
     const std::vector<std::uint8_t> misses = misses_by_triangle(table);
@@ -76,7 +76,7 @@ std::vector<std::size_t> groups_of(const Table& table) {
     return starts;
 }
 
-/// Groups of triangles, those that face away from the middle first, since they hide the others.
+/// Sorts groups of triangles: those that face away from the centre come first, because they hide the others.
 void order_groups(const Mesh& mesh, Table& table) {
     const auto place = [&](std::size_t corner) {
         return mesh.positions[mesh.vertex_of_wedge(table.wedges[table.indices[corner]])];
@@ -118,7 +118,7 @@ void order_groups(const Mesh& mesh, Table& table) {
     table.indices = std::move(ordered);
 }
 
-/// The wedges in the order in which the triangles of the tables name them first.
+/// Sorts the wedges by first use in the triangles of the tables.
 void order_wedges(std::vector<Table*>& tables) {
     const std::vector<Index> before = tables.front()->wedges;
     std::vector<Index> number(before.size(), none), after;
@@ -139,8 +139,8 @@ void add_sizes(const Table& table, VertexCacheUse& use) {
     use.vertices += table.wedges.size();
 }
 
-/// What meshopt makes of triangles and of the places of their corners, in 14 bits, when vertices are numbered
-/// by their first use.
+/// The size of meshopt's streams for triangles and 14-bit corner positions, when vertices are numbered by
+/// first use.
 std::size_t stream_bytes(const Mesh& mesh, const Table& table, const std::vector<Index>& indices,
                          const Box& box) {
     std::vector<Index> number(table.wedges.size(), none), numbered;
@@ -165,13 +165,13 @@ std::size_t stream_bytes(const Mesh& mesh, const Table& table, const std::vector
            encode_meshopt(std::as_bytes(std::span(places)), vertices, 0).size();
 }
 
-/// A triangle, and its place along an axis as a number that sorts as the places do.
+/// A triangle, and its position along an axis as a sortable integer.
 struct Placed {
     std::uint64_t key;
     Index triangle;
 };
 
-/// The triangles by the sum of one of their corners' coordinates; those of one sum as given.
+/// The triangles sorted by the sum of their corners' coordinates; equal sums stay in order.
 std::vector<Placed> triangles_along(const Mesh& mesh, const Table& table, std::size_t axis) {
     std::vector<Placed> sorted(table.indices.size() / 3);
     for (std::size_t t = 0; t < sorted.size(); ++t) {
@@ -186,7 +186,8 @@ std::vector<Placed> triangles_along(const Mesh& mesh, const Table& table, std::s
     return sorted;
 }
 
-/// The corners of the triangles, there or back; back, too, those of one place are as given.
+/// The corners of the triangles, forward or backward; triangles at the same position stay in order either
+/// way.
 std::vector<Index> corners_along(const Table& table, const std::vector<Placed>& sorted, bool back) {
     std::vector<Index> corners;
     corners.reserve(3 * sorted.size());
@@ -207,11 +208,11 @@ std::vector<Index> corners_along(const Table& table, const std::vector<Placed>& 
 /// A function of meshoptimizer.
 using Optimize = void (*)(Index* to, const Index* corners, std::size_t count, std::size_t vertices);
 
-/// It looks at all triangles of a vertex for each that it adds: where thousands meet at one, each has a
-/// vertex of its own there meanwhile.
+/// Limits meshoptimizer's time: for each triangle that it adds, it examines all triangles of a vertex. Where
+/// thousands meet at a vertex, each gets a separate copy of the vertex during the call.
 void order_by(Optimize optimize, std::vector<Index>& corners, std::size_t vertices) {
     constexpr Index many = 4096;
-    std::vector<Index> at(vertices), apart; // triangles of each vertex; the vertices of those by themselves
+    std::vector<Index> at(vertices), apart; // triangle count by vertex; copied vertices
     for (const Index v : corners) ++at[v];
     for (Index& v : corners)
         if (at[v] > many) {
@@ -223,17 +224,17 @@ void order_by(Optimize optimize, std::vector<Index>& corners, std::size_t vertic
         if (v >= vertices) v = apart[v - vertices];
 }
 
-/// Triangles as strips, begun in the order that is given.
+/// Reorders triangles as strips, starting from the given order.
 void order_in_strips(std::vector<Index>& corners, std::size_t vertices) {
     order_by(meshopt_optimizeVertexCacheStrip, corners, vertices);
 }
 
-/// The order for caches.
+/// Reorders triangles for vertex caches.
 void order_for_cache(std::vector<Index>& corners, std::size_t vertices) {
     order_by(meshopt_optimizeVertexCache, corners, vertices);
 }
 
-/// The triangles along a curve through space, so that those of any stretch are near each other.
+/// The triangles along a space-filling curve, so that consecutive triangles are close to each other.
 std::vector<Index> corners_along_curve(const Mesh& mesh, const Table& table, const Box& box) {
     const std::size_t triangles = table.indices.size() / 3;
     const std::vector<Index> order = order_along_curve(triangles, box, [&](std::size_t t) {
@@ -249,10 +250,10 @@ std::vector<Index> corners_along_curve(const Mesh& mesh, const Table& table, con
     return corners;
 }
 
-/// The order for caches of each stretch of so many corners by itself.
+/// Reorders each chunk of `length` corners for vertex caches.
 void order_stretches_for_cache(std::vector<Index>& corners, std::size_t vertices, std::size_t length) {
     const std::size_t stretches = (corners.size() + length - 1) / length;
-    constexpr std::size_t tables = 8; // of numbers of all vertices, at most
+    constexpr std::size_t tables = 8; // memory limit: tables with a number per vertex
     parallel_chunks(
         stretches,
         [&](std::size_t begin, std::size_t end) {
@@ -277,8 +278,8 @@ void order_stretches_for_cache(std::vector<Index>& corners, std::size_t vertices
         (stretches + tables - 1) / tables);
 }
 
-/// The order for caches; of a large mesh in stretches, at the same time: at their borders, where hardly more
-/// than one vertex of a hundred is, it is transformed twice.
+/// Reorders triangles for vertex caches. Large meshes are processed in parallel chunks. Vertices at chunk
+/// borders (about one in a hundred) are transformed twice.
 void order_for_cache(const Mesh& mesh, Table& table, const Box& box) {
     constexpr std::size_t stretch = 1 << 18; // triangles
     if (table.indices.size() / 3 < 2 * stretch) return order_for_cache(table.indices, table.wedges.size());
@@ -286,16 +287,16 @@ void order_for_cache(const Mesh& mesh, Table& table, const Box& box) {
     order_stretches_for_cache(table.indices, table.wedges.size(), 3 * stretch);
 }
 
-/// Flags the orders from `first` on that are an earlier one of those again, as mostly of small meshes.
+/// Flags the orders from `first` on that equal an earlier order, as is common for small meshes.
 void mark_repeated(const std::vector<std::vector<Index>>& orders, std::size_t first,
                    std::vector<std::uint8_t>& again) {
     for (std::size_t i = first; i < orders.size(); ++i)
         for (std::size_t j = first; j < i && !again[i]; ++j) again[i] = !again[j] && orders[j] == orders[i];
 }
 
-/// The order for caches; strips begun in it, in the given one, and in those strips; for meshes that are not
-/// large, of which a percent is to be had, also strips begun along the axes, there and back: the one of the
-/// fewest bytes.
+/// Tries several orders and takes the smallest result: the order for caches, and strips started from it, from
+/// the given order, and from those strips. Meshes that are not large also try strips started along the axes,
+/// forward and backward, which saves about a percent.
 void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
     constexpr std::size_t large = 100000; // triangles
     const std::size_t vertices = table.wedges.size(), corners = table.indices.size();
@@ -315,7 +316,7 @@ void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
         if (i >= 4) orders[i] = corners_along(table, along[(i - 4) % 3], i >= 7);
     });
     std::vector<std::uint8_t> again(orders.size());
-    mark_repeated(orders, 2, again); // strips that are begun alike are the same
+    mark_repeated(orders, 2, again); // equal starting orders give equal strips
     for_orders([&](std::size_t i) {
         if (i >= 2 && !again[i]) order_in_strips(orders[i], vertices);
     });
@@ -341,7 +342,7 @@ void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder
         } else {
             order_for_cache(mesh, table, box);
             if (order == TriangleOrder::draw) order_groups(mesh, table);
-            for (int i = 0; order == TriangleOrder::strips && i < 2; ++i) // strips of strips, the best alone
+            for (int i = 0; order == TriangleOrder::strips && i < 2; ++i) // strips of strips
                 order_in_strips(table.indices, table.wedges.size());
         }
         together.push_back(&table);

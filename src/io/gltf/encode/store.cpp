@@ -1,5 +1,5 @@
-// Attributes rounded when the document is otherwise as it will be: whatever wrote them, and those of meshes
-// that are left alone, points and lines among them.
+// Rounds attributes when the document is otherwise complete. This covers attributes from all sources,
+// including unchanged meshes, points and lines.
 
 #include "io/attributes.hpp"
 #include "io/gltf/encode/encode.hpp"
@@ -20,7 +20,7 @@ bool has_extension(const Json& object, const char* name) {
     return object.contains("extensions") && object["extensions"].contains(name);
 }
 
-/// Names a grid.
+/// A key for a grid.
 std::string key_of(const std::optional<PositionGrid>& grid) {
     return grid ? fmt::format("{} {} {} {}", grid->origin.x, grid->origin.y, grid->origin.z, grid->step) : "";
 }
@@ -66,7 +66,7 @@ class Store {
     Attribute numbers(std::size_t accessor);
     std::vector<Vec3> positions(std::size_t accessor);
     std::size_t replace(std::size_t accessor, std::optional<Stored> stored);
-    /// What was made under that key, by make the first time.
+    /// Returns the accessor for the key; calls make the first time.
     template <class Make>
     std::size_t made_once(const std::string& key, Make&& make) {
         const auto known = made_.find(key);
@@ -84,13 +84,13 @@ class Store {
     Json& json_;
     const QuantizeSettings& quantize_;
     bool filters_;
-    bool small_integers_ = false;                    ///< as only KHR_mesh_quantization allows them
+    bool small_integers_ = false;                    ///< which only KHR_mesh_quantization allows
     std::vector<std::vector<std::size_t>> nodes_;    ///< by mesh
-    std::map<std::size_t, int> bits_of_node_;        ///< of the positions of its mesh, if they are on a grid
-    std::map<std::size_t, Lattice> lattice_of_node_; ///< of nodes whose parts have one
+    std::map<std::size_t, int> bits_of_node_;        ///< position bits of its mesh, if on a grid
+    std::map<std::size_t, Lattice> lattice_of_node_; ///< of nodes whose parts have a lattice
     std::vector<NodeFrame> frames_;
     std::set<std::size_t> animated_, joints_;
-    std::map<std::string, std::size_t> made_; ///< by accessor and what was asked of it
+    std::map<std::string, std::size_t> made_; ///< by accessor and requested form
 };
 
 void Store::keep(const std::string& attribute, std::string why) {
@@ -99,7 +99,7 @@ void Store::keep(const std::string& attribute, std::string why) {
     if (std::find(all.begin(), all.end(), change) == all.end()) all.push_back(change);
 }
 
-/// Whether the bytes are there: a buffer may be one that somebody else will fill.
+/// True if the bytes are available: a buffer may be filled externally.
 bool Store::readable(std::size_t accessor) const {
     if (accessor >= count_of(json_, "accessors")) return false;
     const Json& a = json_["accessors"][accessor];
@@ -110,7 +110,7 @@ bool Store::floats(std::size_t accessor) const {
     return json_["accessors"][accessor]["componentType"] == int(float32);
 }
 
-/// Whether meshopt has compressed it in the source.
+/// True if meshopt compressed it in the source.
 bool Store::compressed(std::size_t accessor) const {
     const Json& a = json_["accessors"][accessor];
     return a.contains("bufferView") &&
@@ -134,7 +134,8 @@ std::vector<Vec3> Store::positions(std::size_t accessor) {
     return to_vectors(a);
 }
 
-/// The accessor that has the numbers in place of the given one; the same when there is nothing new.
+/// Replaces an accessor by a new one with these numbers; returns the old accessor if there is nothing to
+/// store.
 std::size_t Store::replace(std::size_t accessor, std::optional<Stored> stored) {
     if (!stored) return accessor;
     for (const char* key : {"name", "extras"})
@@ -143,7 +144,7 @@ std::size_t Store::replace(std::size_t accessor, std::optional<Stored> stored) {
     return builder_.add_stored(std::move(*stored), array_buffer);
 }
 
-/// Floats for meshopt's filter; none when there is to be no filter.
+/// Floats for meshopt's filter; none if no filter is used.
 std::optional<Stored> Store::as_floats(const Attribute& numbers, int exponent, bool bounds) const {
     if (!filters_) return {};
     auto stored = exponential(numbers, exponent, bounds);
@@ -152,7 +153,7 @@ std::optional<Stored> Store::as_floats(const Attribute& numbers, int exponent, b
 
 // --- positions
 
-/// Why a mesh cannot have its grid in a node; null when it can.
+/// The reason why a node cannot hold the grid of its mesh; null if it can.
 const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid) {
     if (uses_extension(json_, "KHR_animation_pointer"))
         return "stays float32, because KHR_animation_pointer may drive its nodes";
@@ -166,7 +167,7 @@ const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid)
     return nullptr;
 }
 
-/// As many as the parts that stand where the mesh does ask for.
+/// The largest number of bits that parts with this mesh request.
 int Store::bits_of(std::size_t mesh) const {
     int bits = 0;
     for (const std::size_t node : nodes_[mesh])
@@ -175,15 +176,14 @@ int Store::bits_of(std::size_t mesh) const {
     return bits > 0 ? bits : quantize_.position_bits;
 }
 
-/// The grid whose steps are 1.
+/// The grid with a step of 1.
 PositionGrid whole_grid(const Box& box) {
     return {{short_near(box.min.x, 1), short_near(box.min.y, 1), short_near(box.min.z, 1)},
             1,
             box.longest_side() > 255 ? 16 : 8};
 }
 
-/// The lattice that the parts have which stand where the mesh does, the finest of them; else that of the box
-/// and the bits.
+/// The finest lattice of the parts with this mesh; without one, the grid of the box and the bits.
 PositionGrid Store::grid_in(std::size_t mesh, const Box& box) const {
     const int bits = bits_of(mesh);
     Lattice finest;
@@ -218,7 +218,7 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     }
     if (all.empty()) return {};
     const Box& box = faces.empty() ? all : faces;
-    if (patch_.settings.whole_positions && box.longest_side() > 65535) return {}; // float32 has them, too
+    if (patch_.settings.whole_positions && box.longest_side() > 65535) return {}; // beyond 16 bits
     const PositionGrid grid = patch_.settings.whole_positions ? whole_grid(box) : grid_in(mesh, box);
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
     if (const char* why = reason_for_floats(mesh, grid)) {
@@ -249,7 +249,7 @@ std::size_t Store::position(std::size_t accessor, const std::optional<PositionGr
                                        true));
 }
 
-/// What is given sparsely stays so.
+/// Keeps sparse accessors sparse.
 std::size_t Store::sparse(std::size_t accessor, const Attribute& given, double factor) {
     std::vector<std::uint32_t> where;
     std::vector<float> all, values;
@@ -297,12 +297,12 @@ std::size_t Store::displacement(std::size_t accessor, const std::optional<Positi
 
 // --- the other attributes
 
-/// Normals and tangents, and displacements of them.
+/// Normals, tangents, and their morph displacements.
 std::size_t Store::vector(std::size_t accessor, bool unit) {
     if (!readable(accessor)) return accessor;
     const Json& given = json_["accessors"][accessor];
     if (!given.contains("bufferView")) return accessor;
-    // Bytes are on a grid already; on the octahedron they take two numbers instead of three.
+    // Bytes are already quantised; octahedral coding would use two numbers instead of three.
     const bool bytes = given["componentType"] == int(int8) && given.value("normalized", false) && unit &&
                        !compressed(accessor) && filters_ && quantize_.on && quantize_.normal_bits <= 8;
     if (!floats(accessor) && !bytes) return accessor;
@@ -323,7 +323,7 @@ std::size_t Store::fraction(std::size_t accessor, const std::string& semantic) {
     if (!quantize_.on) return replace(accessor, as_floats(a, finest_exponent(a), false));
     const bool uv = begins(semantic, "TEXCOORD_");
     const int bits = uv ? quantize_.uv_bits : quantize_.colour_bits;
-    // Multiples of 2^-bits have as many bits of their own; 65535ths of the same steps have 16.
+    // Multiples of 2^-bits have that many significant bits; 65535ths of the same steps have 16.
     if (uv && filters_ && compressed(accessor)) return accessor;
     if (uv && filters_)
         if (auto stored = exponential(a, -bits, false)) return replace(accessor, std::move(stored));
@@ -337,7 +337,8 @@ std::size_t Store::fraction(std::size_t accessor, const std::string& semantic) {
     return replace(accessor, as_floats(a, -bits, false));
 }
 
-/// All sets of joints and weights together: the weights of a vertex sum to one over all of them.
+/// Processes all sets of joints and weights together, because the weights of a vertex sum to one over all
+/// sets.
 void Store::store_influences(Json& attributes) {
     Influences all;
     std::string key = "influences";
@@ -354,7 +355,7 @@ void Store::store_influences(Json& attributes) {
         }
     if (all.weights.empty() || all.weights.size() != all.joints.size()) return;
     const auto wide = [](const Attribute& a) { return std::holds_alternative<std::vector<float>>(a.data); };
-    if (std::none_of(all.weights.begin(), all.weights.end(), wide)) return; // integers already
+    if (std::none_of(all.weights.begin(), all.weights.end(), wide)) return; // already integers
     const bool known = made_.contains(key + " 0");
     const StoredInfluences stored = known ? StoredInfluences{} : influences(all, quantize_.weight_bits);
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -405,7 +406,7 @@ Json Store::store_primitive(Json primitive, const std::optional<PositionGrid>& g
     return primitive;
 }
 
-/// EXT_mesh_manifold names the positions of the primitives once more.
+/// EXT_mesh_manifold refers to the positions of the primitives too.
 void Store::store_manifold(Json& mesh) const {
     const Json::json_pointer place("/extensions/EXT_mesh_manifold/manifoldPrimitive/attributes/POSITION");
     if (!mesh.contains(place) || mesh["primitives"].empty()) return;
@@ -426,7 +427,7 @@ void Store::store_mesh(std::size_t mesh) {
 
 // --- the grid in a node
 
-/// Whether a node has nothing but its mesh that its transform is for.
+/// True if a node's transform affects only its mesh.
 bool stands_alone(const Json& node) {
     if (node.contains("camera") || (node.contains("children") && !node["children"].empty())) return false;
     std::size_t of_mesh = 0;
@@ -434,7 +435,7 @@ bool stands_alone(const Json& node) {
     return !node.contains("extensions") || node["extensions"].size() == of_mesh;
 }
 
-/// The animation of the morph weights of a node goes with its mesh.
+/// The animation of morph weights follows the mesh to the other node.
 void move_weights(Json& document, std::size_t from, std::size_t to) {
     if (document["nodes"][from].contains("weights")) {
         document["nodes"][to]["weights"] = document["nodes"][from]["weights"];
@@ -452,7 +453,7 @@ Json three(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 const Json::json_pointer instance_attributes("/extensions/EXT_mesh_gpu_instancing/attributes");
 
-/// The translations of a node's instances; none when their numbers cannot be read or changed.
+/// The translations of a node's instances; none when they cannot be read or changed.
 std::optional<Attribute> Store::instances_on_grid(std::size_t n, const PositionGrid& grid) {
     const Json& node = json_["nodes"][n];
     if (!node.contains(instance_attributes)) return {};
@@ -462,7 +463,7 @@ std::optional<Attribute> Store::instances_on_grid(std::size_t n, const PositionG
     return given ? translations_on_grid(*given, grid) : std::nullopt;
 }
 
-/// The origin goes to each place, since the node's own transform is outside of them.
+/// Adds the origin to each instance, because the node's own transform applies outside of them.
 void Store::place_origin_in_instances(std::size_t n, const PositionGrid& grid) {
     const Attribute moved = instances_on_grid(n, grid).value();
     Json& attributes = json_["nodes"][n][instance_attributes];

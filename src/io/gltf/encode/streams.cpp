@@ -1,6 +1,6 @@
-// Animations, instances and bind matrices, each accessor in a view of its own, so that meshopt can compress
-// them: rotations by its filter QUATERNION, translations, scales of animations and morph weights by
-// EXPONENTIAL, all else without loss.
+// Moves animations, instances and bind matrices into separate views, so that meshopt can compress them.
+// Rotations use its filter QUATERNION; translations, animated scales and morph weights use EXPONENTIAL; the
+// rest is lossless.
 
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/numbers/compress.hpp"
@@ -15,7 +15,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-constexpr int finest = -1000; ///< the exponent at which the largest number has all bits
+constexpr int finest = -1000; ///< exponent at which the largest number keeps all bits
 
 class Streams {
   public:
@@ -35,15 +35,14 @@ class Streams {
     Builder& builder_;
     Json& json_;
     bool filters_;
-    std::map<std::string, std::size_t> made_; ///< by accessor and what it is for
+    std::map<std::string, std::size_t> made_; ///< by accessor and purpose
 };
 
-/// Bits of translations and scales of animations and of morph weights, over their greatest extent: half a
-/// step is below a hundred-thousandth.
+/// Bits of animated translations, scales and morph weights over their largest extent: half a step is below a
+/// hundred-thousandth.
 constexpr int path_bits = 16;
 
-/// Numbers that round to some from 0 to 1 in 65535ths, plainly, where that takes less than the stream of
-/// floats would.
+/// Numbers that round to 0 to 1 as plain 65535ths, if this is smaller than the stream of floats.
 std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
     std::vector<std::uint16_t> all;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -52,7 +51,7 @@ std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
         all.push_back(static_cast<std::uint16_t>(x));
     }
     const Packing packing{"ATTRIBUTES", floats.filter, sizeof(float), all.size()};
-    constexpr std::size_t json_bytes = 160; // that the extension's object takes
+    constexpr std::size_t json_bytes = 160; // of the extension's object
     const Span bytes = std::as_bytes(std::span(all));
     if (encode_meshopt(floats.bytes, packing, 0).size() + json_bytes <= bytes.size()) return {};
     return Stored{
@@ -82,7 +81,7 @@ std::optional<Stored> Streams::stored(std::size_t index, const std::string& path
     if (coded && path == "weights")
         if (auto fewer = shorts(numbers, *coded)) return fewer;
     if (coded) return coded;
-    // Only vertex data may have gaps.
+    // Only vertex data may have padding between elements.
     const std::size_t size = size_of(given["componentType"].get<int>());
     if (size * static_cast<std::size_t>(numbers.components) % 4 != 0) return {};
     Stored plainly = plain(numbers.data, numbers.components, numbers.normalised, false);
@@ -91,7 +90,7 @@ std::optional<Stored> Streams::stored(std::size_t index, const std::string& path
     return plainly;
 }
 
-/// Points the reference at a new accessor for what it is used.
+/// Replaces the reference by a new accessor for this purpose.
 void Streams::store(Json& reference, const std::string& path, int exponent) {
     const auto index = reference.get<std::size_t>();
     if (index >= count_of(json_, "accessors")) return;
@@ -112,7 +111,7 @@ void Streams::store(Json& reference, const std::string& path, int exponent) {
 }
 
 void Streams::store_animation(Json& animation) {
-    std::map<std::size_t, std::string> paths; // by sampler; empty where several disagree
+    std::map<std::size_t, std::string> paths; // by sampler; empty if channels differ
     for (const Json& channel : animation["channels"]) {
         const std::string path = channel["target"].value("path", "");
         const auto sampler = channel["sampler"].get<std::size_t>();
@@ -148,7 +147,7 @@ void Streams::run() {
     }
 }
 
-/// Whether positions of the node's mesh are numbers of steps.
+/// True if positions of the node's mesh are in grid steps.
 bool Streams::on_grid(const Json& node) const {
     if (!node.contains("mesh")) return false;
     const Json& primitives = json_["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
@@ -159,7 +158,7 @@ bool Streams::on_grid(const Json& node) const {
     });
 }
 
-/// A place is told within a quarter of a step of the grid, as long as a step is in the smallest instance.
+/// Stores instance positions within a quarter of a grid step, measured at the scale of the smallest instance.
 void Streams::store_instances(Json& attributes, bool on_grid) {
     int step = finest, of_scale = finest;
     if (on_grid && filters_) {
@@ -170,7 +169,7 @@ void Streams::store_instances(Json& attributes, bool on_grid) {
                 for (int c = 0; c < 3; ++c)
                     if (const double s = std::abs(scales.value(i, c)); s > 0) least = std::min(least, s);
         }
-        constexpr int bits = 16; // at most, of a position
+        constexpr int bits = 16; // at most, per position
         if (least < HUGE_VAL) {
             step = std::ilogb(least) - 1;
             of_scale = step - bits;

@@ -12,7 +12,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// The column's bytes as they will be, or as they are where they are not rounded.
+/// The column's bytes after rounding, or unchanged if it is not rounded.
 Stored rounded(const Attribute& a, const Column& column, const EncodeSettings& settings) {
     const QuantizeSettings& to = settings.quantize;
     const auto of = [&](const char* prefix) { return column.semantic.rfind(prefix, 0) == 0; };
@@ -28,7 +28,7 @@ Stored rounded(const Attribute& a, const Column& column, const EncodeSettings& s
     return stored ? std::move(*stored) : plain(a.data, a.components, a.normalised, false);
 }
 
-/// All bytes of a wedge behind each other, wedge by wedge.
+/// The concatenated bytes of each wedge.
 struct Rows {
     std::size_t width = 0;
     std::string bytes;
@@ -79,7 +79,7 @@ void merge_alike(const Mesh& mesh, Table& table, const std::vector<Column>& colu
             number[i] = static_cast<Index>(kept.size());
             kept.push_back(table.wedges[i]);
         }
-        number[i] = number[first[i]]; // the first one is the least
+        number[i] = number[first[i]]; // the first is the lowest
     }
     if (kept.size() == count) return;
     table.wedges = std::move(kept);

@@ -13,12 +13,12 @@ namespace {
 constexpr std::byte header_1{0xA1};
 constexpr std::size_t group_size = 16, least_tail = 24, channel_size = 4;
 
-/// How the bytes of one position of a block are stored.
+/// The storage of a block's bytes at one position.
 enum Control : unsigned { small_groups = 0, large_groups = 1, zeros = 2, literal = 3 };
 /// The bits of a group's differences, by its header.
 constexpr std::array<std::array<int, 4>, 2> group_bits = {{{0, 1, 2, 4}, {1, 2, 4, 8}}};
 
-/// What the differences of a channel are.
+/// The kind of differences in a channel.
 enum ChannelMode : unsigned { of_bytes = 0, of_words = 1, of_bits = 2 };
 
 std::size_t block_elements(std::size_t stride) {
@@ -38,7 +38,7 @@ T unzigzag(T v) {
 
 std::uint32_t rotated(std::uint32_t v, unsigned by) { return v << (by & 31) | v >> ((32 - by) & 31); }
 
-/// The four bytes from one to the next element, by byte.
+/// The difference of four bytes between successive elements.
 std::uint32_t difference(std::uint32_t from, std::uint32_t to, unsigned mode, unsigned rotation) {
     if (mode == of_bits) return rotated(from ^ to, rotation);
     std::uint32_t out = 0;
@@ -71,7 +71,7 @@ std::uint32_t next_value(std::uint32_t from, std::uint32_t d, unsigned mode, uns
 
 using Group = const std::uint8_t*; // 16 differences
 
-/// The bytes of a group with so many bits; those that do not fit are behind it whole.
+/// The size of a group with this many bits; larger differences follow as whole bytes.
 std::size_t size_of_group(Group group, int bits) {
     if (bits == 0)
         return std::all_of(group, group + group_size, [](std::uint8_t d) { return d == 0; }) ? 0 : SIZE_MAX;
@@ -93,7 +93,7 @@ void put_group(Group group, int bits, Bytes& out) {
     for (std::size_t i = 0; i < group_size; i += in_byte) {
         unsigned packed = 0;
         for (std::size_t k = 0; k < in_byte; ++k) {
-            const std::size_t place = bits == 1 ? k : in_byte - 1 - k; // single bits begin with the lowest
+            const std::size_t place = bits == 1 ? k : in_byte - 1 - k; // single bits start with the lowest
             packed |= std::min<unsigned>(group[i + k], sentinel) << (place * static_cast<std::size_t>(bits));
         }
         out.push_back(static_cast<std::byte>(packed));
@@ -102,7 +102,7 @@ void put_group(Group group, int bits, Bytes& out) {
         if (group[i] >= sentinel) out.push_back(static_cast<std::byte>(group[i]));
 }
 
-/// Which header is best for a group, and its bytes.
+/// The best header for a group, and its size.
 std::pair<unsigned, std::size_t> best_header(Group group, unsigned control) {
     std::pair<unsigned, std::size_t> best{0, SIZE_MAX};
     for (unsigned h = 0; h < 4; ++h)
@@ -111,7 +111,8 @@ std::pair<unsigned, std::size_t> best_header(Group group, unsigned control) {
     return best;
 }
 
-/// The differences at one position of a block: how many, and padded with zeros to whole groups.
+/// The differences at one byte position of a block: the count, and the bytes padded with zeros to whole
+/// groups.
 struct Plane {
     std::vector<std::uint8_t> differences;
     std::size_t count = 0;
@@ -158,9 +159,9 @@ std::uint32_t channel_at(Span bytes, std::size_t element, std::size_t stride, st
     return v;
 }
 
-/// One channel of all elements: its bytes block by block, with the control of each of the four positions.
+/// One channel of all elements: its bytes by block, with the controls of the four positions.
 struct CodedChannel {
-    unsigned mode = of_bytes; ///< and the rotation, as the tail has them
+    unsigned mode = of_bytes; ///< with the rotation, as in the tail
     std::vector<std::array<unsigned, channel_size>> controls;
     std::vector<Bytes> blocks;
     std::size_t size = 0;
@@ -199,7 +200,7 @@ CodedChannel coded(Span bytes, std::size_t count, std::size_t stride, std::size_
 
 // --- decode
 
-/// What is left of a stream; `broken` when more was asked for.
+/// The unread part of a stream; `broken` after reading past its end.
 struct Rest {
     Span bytes;
     bool broken = false;
@@ -231,7 +232,7 @@ void take_group(Rest& rest, int bits, std::uint8_t* out) {
         if (out[i] == sentinel) out[i] = rest.next();
 }
 
-/// count differences, and those that fill the last group.
+/// Reads count differences, and the padding of the last group.
 std::vector<std::uint8_t> take_plane(Rest& rest, unsigned control, std::size_t count) {
     const std::size_t groups = (count + group_size - 1) / group_size;
     std::vector<std::uint8_t> out(groups * group_size);
@@ -247,7 +248,7 @@ std::vector<std::uint8_t> take_plane(Rest& rest, unsigned control, std::size_t c
     return out;
 }
 
-/// Decodes one block behind `before`, the element before it, which becomes its last one.
+/// Decodes one block; `before` is the previous element, and becomes the block's last.
 void take_block(Rest& rest, Span modes, std::size_t count, std::vector<std::uint32_t>& before,
                 std::byte* out) {
     const std::size_t channels = modes.size(), stride = channels * channel_size;
@@ -287,7 +288,7 @@ Bytes encode_attribute_stream(Span bytes, std::size_t count, std::size_t stride)
         channels,
         [&](std::size_t c) {
             best[c] = coded(bytes, count, stride, c, of_bytes);
-            constexpr unsigned sign_last = of_bits | 1 << 4; // of floats that change their sign often
+            constexpr unsigned sign_last = of_bits | 1 << 4; // for floats that change their sign often
             for (const unsigned mode : {unsigned{of_words}, unsigned{of_bits}, sign_last})
                 if (auto other = coded(bytes, count, stride, c, mode); other.size < best[c].size)
                     best[c] = std::move(other);

@@ -1,6 +1,7 @@
 #pragma once
-// Mode ATTRIBUTES of KHR_meshopt_compression in version 1, which older libraries do not know: as its appendix
-// A says it (bytes of elements apart, as differences, in groups of 16 that have 0, 1, 2, 4 or 8 bits each).
+// Mode ATTRIBUTES of KHR_meshopt_compression version 1, which older libraries do not support. Implements its
+// appendix A: it splits bytes of elements into planes of differences. Groups of 16 differences have 0, 1, 2,
+// 4 or 8 bits each.
 
 #include "io/bytes.hpp"
 
@@ -8,17 +9,17 @@
 
 namespace facetmill::io::gltf {
 
-/// Whether the stream is of version 1.
+/// True if the stream has version 1.
 bool is_attribute_stream_1(Span stream);
 
-/// count elements of `stride` bytes as a stream. Each channel of 4 bytes has the differences (of bytes, of
-/// 16-bit numbers, or of bits) that take least. stride: a multiple of 4 up to 256; bytes: count * stride.
+/// Encodes count elements of `stride` bytes. Each 4-byte channel uses the smallest differences (of bytes, of
+/// 16-bit numbers, or of bits). stride: a multiple of 4 up to 256; bytes: count * stride.
 Bytes encode_attribute_stream(Span bytes, std::size_t count, std::size_t stride);
 
-/// The elements of a stream of version 1; none when it is damaged. Takes count * stride bytes of memory.
+/// Decodes a stream of version 1; none when it is damaged. Needs count * stride bytes of memory.
 std::optional<Bytes> decode_attribute_stream(Span stream, std::size_t count, std::size_t stride);
 
-/// The most elements that a stream of so many bytes can hold.
+/// The maximum number of elements in a stream of this size.
 std::size_t most_elements_in_stream(std::size_t bytes, std::size_t stride);
 
 } // namespace facetmill::io::gltf

@@ -22,7 +22,7 @@ bool numbered(std::string_view name, std::string_view prefix) {
            (digits == "0" || digits[0] != '0');
 }
 
-/// True when glTF knows the name and the attribute has as many components as glTF wants.
+/// True if glTF defines the name for this number of components.
 bool standard(std::string_view name, int components) {
     if (name == "NORMAL") return components == 3;
     if (name == "TANGENT") return components == 4;
@@ -62,7 +62,7 @@ bool fits_uint16(const Attribute& a) {
     return true;
 }
 
-/// Whether floats are whole numbers of 16 bits: as integers nothing rounds them.
+/// True if all floats are 16-bit integers: stored as integers, they are not rounded.
 bool are_small_numbers(const Attribute& a) {
     const auto* floats = std::get_if<std::vector<float>>(&a.data);
     return floats && std::all_of(floats->begin(), floats->end(),
@@ -94,7 +94,7 @@ void convert(Attribute& a, const std::string& semantic, AttributeChanges& change
     a.normalised = false;
 }
 
-/// Unit length for normals and the first three numbers of tangents; what has no direction gets one.
+/// Normalises normals and the first three numbers of tangents; zero vectors get a direction.
 void make_unit(Attribute& a) {
     auto* numbers = std::get_if<std::vector<float>>(&a.data);
     if (!numbers) return;
@@ -104,7 +104,7 @@ void make_unit(Attribute& a) {
         const Vec3 v{n[0], n[1], n[2]};
         const double l = length(v);
         const Vec3 unit = l > 0 && l < HUGE_VAL ? v / l : Vec3{0, 0, 1};
-        // Values that are good already keep their bits.
+        // Values that are already good stay unchanged.
         if (!(l > 0.9999995 && l < 1.0000005))
             for (std::size_t c = 0; c < 3; ++c) n[c] = static_cast<float>(unit[c]);
         if (width == 4) n[3] = n[3] < 0 ? -1.0f : 1.0f;
@@ -115,12 +115,12 @@ void clamp_to_one(Attribute& a) {
     if (auto* numbers = std::get_if<std::vector<float>>(&a.data))
         parallel_for(numbers->size(), [&](std::size_t i) {
             float& x = (*numbers)[i];
-            x = x > 0 ? std::min(x, 1.0f) : 0.0f; // also for NaN
+            x = x > 0 ? std::min(x, 1.0f) : 0.0f; // also maps NaN
         });
 }
 
-/// Weights of one set that sum to one; glTF asks for it within a few units in the last place. Several sets
-/// are left alone: their sum is over all of them.
+/// Normalises the weights of a single set to a sum of one, as glTF requires within a few units in the last
+/// place. Several sets stay unchanged, because their sum includes all sets.
 void normalise_weights(Attribute& a) {
     auto* numbers = std::get_if<std::vector<float>>(&a.data);
     if (!numbers) return;

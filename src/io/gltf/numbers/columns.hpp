@@ -1,5 +1,5 @@
 #pragma once
-// The attributes of a mesh as glTF can hold them: names, types and values that the standard allows.
+// The attributes of a mesh in forms that glTF allows: names, types and values.
 
 #include "mesh/mesh.hpp"
 
@@ -8,22 +8,22 @@ namespace facetmill::io::gltf {
 /// An attribute ready to be written: of the vertex or the wedge domain.
 struct Column {
     std::string semantic; ///< "TEXCOORD_0", "_quality"
-    int target = -1;      ///< the morph target it belongs to, or -1
+    int target = -1;      ///< its morph target, or -1
     Attribute data;
 };
 
 struct ColumnSettings {
-    bool quantised = false; ///< KHR_mesh_quantization is there already: small integers may stay
+    bool quantised = false; ///< KHR_mesh_quantization is already used: small integers may stay
     bool skinned = true;    ///< keep joints and weights
 };
 
-/// All columns of the mesh, in its order of attributes. What glTF cannot hold is dropped or converted, and
-/// said: face attributes and elements of 5 to 8 numbers are dropped; 64-bit floats and 32-bit integers become
-/// float32 (or uint16 when they fit, as do identifiers). Normals and tangents get unit length again, colours
-/// and weights the range from 0 to 1.
+/// All columns of the mesh, in the order of its attributes. Attributes that glTF cannot store are dropped or
+/// converted, which `changes` records. Face attributes and elements of 5 to 8 numbers are dropped. 64-bit
+/// floats and 32-bit integers become float32 (or uint16 if they fit; identifiers too). Normals and tangents
+/// get unit length again; colours and weights are clamped to the range from 0 to 1.
 std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, AttributeChanges& changes);
 
-/// "SCALAR", "VEC3", "MAT4"; null for numbers of components that glTF has no type for.
+/// "SCALAR", "VEC3", "MAT4"; null for component counts without a glTF type.
 const char* type_name(int components);
 
 } // namespace facetmill::io::gltf

@@ -16,10 +16,10 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// Which accessors are indices, and of what.
+/// The accessors used as indices, and their kind.
 struct IndexUse {
-    bool triangles = true;      ///< of lists of triangles only
-    bool corners_count = false; ///< somebody names corners by their places
+    bool triangles = true;      ///< only lists of triangles
+    bool corners_count = false; ///< something refers to corners by index
 };
 
 std::map<std::size_t, IndexUse> index_uses(const Json& document) {
@@ -37,8 +37,7 @@ std::map<std::size_t, IndexUse> index_uses(const Json& document) {
     return uses;
 }
 
-/// What names each view: accessors as their data, whole numbers of sparse accessors by their size, and how
-/// many there are altogether.
+/// The users of each view: accessors as data, integers of sparse accessors by their size, and the total.
 struct ViewUse {
     std::vector<std::size_t> accessors;
     std::vector<std::size_t> sparse_integers;
@@ -86,8 +85,8 @@ std::optional<Packing> index_packing(const Json& document, const ViewUse& use, s
     return packing;
 }
 
-/// Whole numbers without gaps, with which sparse accessors and EXT_mesh_manifold say where corners are: none
-/// that differ in size.
+/// Packs integers without gaps that give the positions of corners in sparse accessors and EXT_mesh_manifold;
+/// none if their sizes differ.
 std::optional<Packing> integer_packing(const Json& document, const ViewUse& use, std::size_t bytes) {
     Packing packing{"INDICES", "", use.sparse_integers.front()};
     bool same = true;
@@ -121,7 +120,7 @@ std::optional<Packing> attribute_packing(const Json& document, const Json& view,
         packing.stride > 0 && packing.stride % 4 == 0 && packing.stride <= 256 && bytes % packing.stride == 0;
     if (!fits) return {};
     packing.count = bytes / packing.stride;
-    // Vertex data of one width may lie behind each other, whatever its types; all else is told apart by them.
+    // Vertex data of the same width may be joined regardless of type; other data only with the same type.
     const int target = view.value("target", 0);
     packing.kind =
         fmt::format("{} {} {} {}", target == array_buffer ? "" : type, packing.stride, filter, target);
@@ -142,7 +141,7 @@ std::vector<unsigned> indices_in(Span bytes, std::size_t size) {
     return indices;
 }
 
-/// The library's versions of streams are variables of the process: set once, to what both extensions have.
+/// The library's stream versions are global variables: set once, to values that both extensions support.
 void choose_versions() {
     static const bool chosen = [] {
         meshopt_encodeVertexVersion(0);

@@ -12,17 +12,16 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// What an object of EXT_meshopt_compression or KHR_meshopt_compression says.
+/// The contents of an EXT_meshopt_compression or KHR_meshopt_compression object.
 struct Compressed {
     Span bytes;
     std::size_t count, stride;
     std::string mode, filter;
 };
 
-/// The decoders check their input, but their preconditions are only assertions, and count decides how much
-/// memory is taken: both are checked here. A byte of input gives at most 64 of output (attributes; 1024 in
-/// version 1), a
-/// triangle or an index.
+/// The decoders check their input, but only assert their preconditions, and count decides the allocated
+/// memory: both are checked here. A byte of input gives at most 64 bytes of output (attributes; 1024 in
+/// version 1), a triangle or an index.
 void check(const JsonCursor& place, const Compressed& c) {
     const auto refuse = [&](const std::string& why) { place.fail(why, "E-MESHOPT"); };
     const bool attributes = c.mode == "ATTRIBUTES", triangles = c.mode == "TRIANGLES",
@@ -52,8 +51,8 @@ void check(const JsonCursor& place, const Compressed& c) {
         refuse(fmt::format("filter \"{}\" is unknown", c.filter));
 }
 
-/// KHR_meshopt_compression's filter COLOR: luma and two chrominances of K bits, and alpha of one bit less
-/// below a bit that tells K, become red, green, blue and alpha.
+/// Decodes KHR_meshopt_compression's filter COLOR to red, green, blue and alpha. The input is luma and two
+/// chrominances of K bits. The alpha has one bit less, below a bit that gives K.
 template <class Unsigned>
 void decode_colours(Bytes& bytes) {
     using Signed = std::make_signed_t<Unsigned>;
@@ -72,7 +71,7 @@ void decode_colours(Bytes& bytes) {
     });
 }
 
-/// The numbers that a filter makes of a view's.
+/// Applies the filter of a view.
 Bytes filtered(Bytes out, const Compressed& c) {
     if (c.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), c.count, c.stride);
     if (c.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), c.count, c.stride);

@@ -19,7 +19,7 @@ namespace {
 /// To nearest, halves away from zero.
 double to_nearest(double x) { return x < 0 ? -std::floor(0.5 - x) : std::floor(x + 0.5); }
 
-/// Whether of(i) holds for all i below count.
+/// True if of(i) is true for all i below count.
 template <class Of>
 bool holds_for_all(std::size_t count, Of&& of) {
     return parallel_reduce(
@@ -31,7 +31,7 @@ bool holds_for_all(std::size_t count, Of&& of) {
                [](int x, int y) { return std::min(x, y); }) != 0;
 }
 
-/// The numbers of an attribute, changed one by one. None when `of` says so of one.
+/// The numbers of an attribute, converted one by one. None if `of` fails for a number.
 template <class T, class Of>
 std::optional<std::vector<T>> each_number(const Attribute& a, Of&& of) {
     const std::size_t width = static_cast<std::size_t>(a.components);
@@ -44,7 +44,7 @@ std::optional<std::vector<T>> each_number(const Attribute& a, Of&& of) {
     return all ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// The largest number without its sign; infinity when one is not finite.
+/// The largest absolute value; infinity if a number is not finite.
 double largest_of(const Attribute& a) {
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -55,7 +55,7 @@ double largest_of(const Attribute& a) {
     return most;
 }
 
-/// Fractions in so many steps, stretched to the range of T.
+/// Rounds fractions to 2^bits - 1 steps, scaled to the range of T.
 template <class T>
 std::optional<Stored> stepped(const Attribute& a, double steps, double least) {
     constexpr double most = std::numeric_limits<T>::max();
@@ -94,7 +94,7 @@ Stored octahedral_as(const Attribute& a, int bits) {
     return stored;
 }
 
-/// One quaternion as the filter wants it: its largest component is left out and positive.
+/// A quaternion in the filter's form: without its largest component, which is positive.
 std::array<std::int16_t, 4> without_largest(std::array<double, 4> q) {
     constexpr double steps = 32767, root = 1.4142135623730951;
     std::size_t largest = 0;
@@ -110,13 +110,13 @@ std::array<std::int16_t, 4> without_largest(std::array<double, 4> q) {
     return out;
 }
 
-/// Shares of `whole` in proportion to the weights, which sum to it.
+/// Distributes `whole` in proportion to the weights, so that the shares sum to it.
 void share_out(const std::vector<double>& weights, std::uint32_t whole, std::vector<std::uint32_t>& shares) {
     shares.assign(weights.size(), 0);
     double sum = 0;
     for (const double w : weights) sum += w;
     if (!(sum > 0) || !(sum < HUGE_VAL)) return;
-    std::vector<std::pair<double, std::size_t>> rest; // what was cut off, negative, so that most comes first
+    std::vector<std::pair<double, std::size_t>> rest; // remainders, negated, so that the largest comes first
     std::uint32_t given = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double exact = weights[i] / sum * whole;
@@ -128,7 +128,7 @@ void share_out(const std::vector<double>& weights, std::uint32_t whole, std::vec
     for (std::size_t k = 0; given < whole; ++k, ++given) ++shares[rest[k % rest.size()].second];
 }
 
-/// The joints of a vertex with their shares, the largest first.
+/// The joints of a vertex with their shares, largest first.
 using Influence = std::pair<std::uint32_t, std::uint32_t>; // share, joint
 
 void sort_influences(std::vector<Influence>& all) {
@@ -172,12 +172,12 @@ StoredInfluences influences_as(const Influences& all) {
 double short_above(double x) {
     const auto digits = [](double y) { return parse_real(fmt::format("{:.7e}", y)).value_or(y); };
     const double near = digits(x);
-    return near >= x ? near : digits(x * (1 + 1e-7)); // at least one of the last digit more
+    return near >= x ? near : digits(x * (1 + 1e-7)); // next larger number in the last digit
 }
 
 double short_near(double x, double step) {
     if (!(step > 0) || !(step < HUGE_VAL)) return x;
-    constexpr std::size_t longest = 400; // of 1e308 with 16 decimals
+    constexpr std::size_t longest = 400; // 1e308 with 16 decimals
     std::array<char, longest> text;
     for (int decimals = 0; decimals < 17; ++decimals) {
         const auto written =
@@ -262,7 +262,7 @@ std::optional<Stored> quaternions(const Attribute& a) {
             sum += q[c] * q[c];
         }
         const double norm = std::sqrt(sum);
-        constexpr double tolerance = 1e-3; // of unit length: a rotation, not something else
+        constexpr double tolerance = 1e-3; // of unit length: otherwise it is not a rotation
         if (!(std::abs(norm - 1) <= tolerance)) return {};
         for (double& x : q) x /= norm;
         const auto four = without_largest(q);

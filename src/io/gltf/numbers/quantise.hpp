@@ -1,6 +1,6 @@
 #pragma once
-// Attributes as small integers (KHR_mesh_quantization) and as meshoptimizer's filters want them. All is
-// rounded here, in doubles and to nearest, so that every processor gives the same integers.
+// Attributes as small integers (KHR_mesh_quantization), and in the forms of meshoptimizer's filters. All
+// rounding happens here, in doubles to nearest, so that every processor gives the same integers.
 
 #include "io/bytes.hpp"
 #include "io/gltf/document/json.hpp"
@@ -11,57 +11,57 @@
 
 namespace facetmill::io::gltf {
 
-/// The grid of a mesh's positions: a stored integer n of so many bits stands for origin + step * n.
+/// The grid of a mesh's positions: a stored integer n of `bits` bits represents origin + step * n.
 struct PositionGrid {
     Vec3 origin;
     double step = 1;
     int bits = 16;
 };
 
-/// The least number at or above x > 0 that has 8 digits, so that it is short as text.
+/// The smallest number at or above x > 0 with 8 digits, so that its text is short.
 double short_above(double x);
-/// A number within a hundredth of the step of x that has as few decimals as that allows.
+/// A number within a hundredth of the step of x with as few decimals as possible.
 double short_near(double x, double step);
 
-/// Vertex data ready for a view of its own.
+/// Vertex data ready for a separate view.
 struct Stored {
     Json accessor; ///< without its view
     Bytes bytes;
-    std::size_t stride = 0; ///< 0: elements lie without gaps
-    std::string filter{};   ///< of meshopt, which makes of the bytes what the accessor says; empty: none
+    std::size_t stride = 0; ///< 0: elements without gaps
+    std::string filter{};   ///< the meshopt filter that decodes the bytes to the accessor's type; empty: none
 };
 
-/// Numbers as they are, each element padded to 4 bytes; min and max when asked for.
+/// The numbers unchanged, with each element padded to 4 bytes; min and max on request.
 Stored plain(const AttributeData& data, int components, bool normalised, bool bounds);
-/// Positions on a grid, as uint8 or uint16. Each is at most half a step off in every
-/// direction. None when one is beyond what the integers reach.
+/// Positions on a grid, as uint8 or uint16, at most half a step off along each axis. None if a position
+/// exceeds the integer range.
 std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid);
-/// Displacements of positions in steps of the grid: int16 or, where that does not reach, float32.
+/// Displacements of positions in grid steps: int16 or, if out of range, float32.
 Stored displacements(const Attribute& deltas, const PositionGrid& grid);
-/// Numbers from -1 to 1 in 2^(bits - 1) - 1 steps to either side, as normalised int8 (up to 8 bits) or int16:
-/// at most half a step off, and half a step of the integer type. None when one is beyond.
+/// Numbers from -1 to 1 in 2^(bits - 1) - 1 steps per side, as normalised int8 (up to 8 bits) or int16. The
+/// error is at most half a step plus half a step of the integer type. None if a number is out of range.
 std::optional<Stored> signed_fractions(const Attribute& a, int bits);
-/// Numbers from 0 to 1 in 2^bits - 1 steps, as normalised uint8 or uint16. None when one is beyond.
+/// Numbers from 0 to 1 in 2^bits - 1 steps, as normalised uint8 or uint16. None if a number is out of range.
 std::optional<Stored> fractions(const Attribute& a, int bits);
 /// Unit vectors, and the sign of tangents, for meshopt's filter OCTAHEDRAL (Q. Meyer et al., "On
-/// Floating-Point Normal Vectors", 2010): the coordinates on the octahedron have 2^(bits - 1) - 1 steps to
-/// either side. bits: 2 to 16.
+/// Floating-Point Normal Vectors", 2010). The octahedral coordinates have 2^(bits - 1) - 1 steps per side.
+/// bits: 2 to 16.
 Stored octahedral(const Attribute& a, int bits);
-/// Unit quaternions for meshopt's filter QUATERNION, in 16 bits. None when one is not of unit length within
-/// 1e-3.
+/// Unit quaternions for meshopt's filter QUATERNION, in 16 bits. None if the length of a quaternion differs
+/// from 1 by more than 1e-3.
 std::optional<Stored> quaternions(const Attribute& a);
-/// Numbers for meshopt's filter EXPONENTIAL, all with this exponent: multiples of 2^exponent, at most half of
-/// that off. None when one is too large for 24 bits.
+/// Numbers for meshopt's filter EXPONENTIAL with a common exponent: multiples of 2^exponent, with an error of
+/// at most half of that. None if a number needs more than 24 bits.
 std::optional<Stored> exponential(const Attribute& a, int exponent, bool bounds);
-/// The exponent at which the largest number has all 24 bits: no number is off by more than float32's step at
-/// the largest.
+/// The exponent at which the largest number uses all 24 bits: no error exceeds float32's step at the largest
+/// number.
 int finest_exponent(const Attribute& a);
-/// The exponent of the largest power of two that is not above the greatest extent of a component / 2^bits.
+/// The exponent of the largest power of two not above the largest component extent / 2^bits.
 int exponent_of_range(const Attribute& a, int bits);
 
-/// Weights and joints of a mesh by set, the largest weights of a vertex first, since neighbours are more
-/// alike then. The weights of a vertex, over all sets, sum to exactly one (the largest remainders are rounded
-/// up); a joint without weight becomes 0, as glTF wants it.
+/// Weights and joints of a mesh by set. The largest weights of a vertex come first, because neighbours are
+/// then more similar. The weights of a vertex, over all sets, sum to exactly one (the largest remainders are
+/// rounded up). A joint without weight becomes 0, as glTF requires.
 struct Influences {
     std::vector<Attribute> joints, weights;
 };

@@ -1,4 +1,4 @@
-// Tracks of animations that change nothing.
+// Finds animation tracks that change nothing.
 
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/document/nodes.hpp"
@@ -13,7 +13,7 @@ using namespace gltf;
 
 namespace {
 
-/// What a node has where nothing animates it; empty for what is no place.
+/// The value of a node's property without animation; empty for other properties.
 std::vector<double> rest_of(const Json& node, const std::string& path) {
     if (node.contains("matrix")) return {};
     std::vector<double> rest;
@@ -24,7 +24,7 @@ std::vector<double> rest_of(const Json& node, const std::string& path) {
     return rest;
 }
 
-/// Whether all keys are within the tolerance of the rest, component by component; a rotation may be negated.
+/// True if all keys equal the rest value within the tolerance, by component; rotations may be negated.
 bool rests(const Attribute& keys, const std::vector<double>& rest, double tolerance) {
     if (static_cast<std::size_t>(keys.components) != rest.size()) return false;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -48,11 +48,11 @@ bool has_additions(const Json& object) { return object.contains("extensions") ||
 double end_of(const Json& document, const Json& animation, const Json& channel) {
     const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
     const Json& times = document["accessors"][sampler["input"].get<std::size_t>()];
-    return times.contains("max") ? times["max"][0].get<double>() : HUGE_VAL; // unknown: it may be the last
+    return times.contains("max") ? times["max"][0].get<double>() : HUGE_VAL; // unknown: it may end last
 }
 
-/// Channels without the resting ones, and the samplers that they name. One that ends last stays, so that the
-/// animation is as long as it was.
+/// Drops the resting channels and their samplers. The channel that ends last stays, so that the animation
+/// keeps its duration.
 std::size_t drop_channels(const Json& document, Json& animation, std::vector<bool> resting) {
     Json& channels = animation["channels"];
     double last = 0, kept = -1;
@@ -90,7 +90,7 @@ std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
     std::vector<Bytes> buffers = document_.buffers;
     buffers.insert(buffers.end(), added_.begin(), added_.end());
     Source source(json_, buffers);
-    std::map<std::string, int> animations_of; // by what they move
+    std::map<std::string, int> animations_of; // by animated property
     for (std::size_t a = 0; a < count_of(json_, "animations"); ++a) {
         std::set<std::string> here;
         for (const Json& channel : json_["animations"][a]["channels"]) here.insert(target_of(channel));
@@ -110,7 +110,7 @@ std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
         if (rest.empty()) return false;
         const Json reference = sampler["output"];
         const Accessor a = accessor(source, JsonCursor(reference, "output"));
-        constexpr double ratio = 1e-5; // of scales and of unit quaternions: below any rounding of positions
+        constexpr double ratio = 1e-5; // for scales and unit quaternions: below any rounding of positions
         return rests({"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)}, rest,
                      path == "translation" ? length : ratio);
     };

@@ -24,8 +24,8 @@ void visit_members(Json& document, const char* list, const char* key, const Visi
         if (index_at(item, key)) visit(item[key]);
 }
 
-/// Textures are named by materials, "...Texture", by sets of feature ids, "texture", and by whatever reads
-/// channels of them.
+/// Textures are referenced by materials ("...Texture"), by sets of feature ids ("texture"), and by everything
+/// that reads their channels.
 void visit_texture_references(Json& json, const Visit& visit) {
     if (!json.is_structured()) return;
     for (auto& [key, value] : json.items()) {
@@ -63,7 +63,7 @@ void each_number(Json& owner, const char* key, const Visit& visit) {
         if (one.is_number_unsigned()) visit(one);
 }
 
-/// The nodes that are named for what they are and not as part of the hierarchy.
+/// References to nodes other than in the hierarchy.
 void visit_named_nodes(Json& document, const Visit& visit) {
     if (document.contains("skins"))
         for (Json& skin : document["skins"]) {
@@ -80,7 +80,7 @@ void visit_named_nodes(Json& document, const Visit& visit) {
             if (node.contains(lod)) each_number(node[lod], "ids", visit);
 }
 
-/// Calls with each node and scene, and the key of the nodes that it has.
+/// Calls call with each node and scene, and the key of its child nodes.
 template <class Call>
 void each_parent(Json& document, Call&& call) {
     for (const auto& [list, key] : {std::pair("nodes", "children"), {"scenes", "nodes"}})
@@ -93,7 +93,7 @@ void visit_node_references(Json& document, const Visit& visit) {
     each_parent(document, [&](Json& owner, const char* key) { each_number(owner, key, visit); });
 }
 
-/// For each item, the first that is written as it is.
+/// For each item, the first item with the same text.
 std::vector<std::size_t> first_equal(const std::vector<std::string>& written) {
     std::map<std::string, std::size_t> known;
     std::vector<std::size_t> first;
@@ -112,7 +112,7 @@ std::vector<std::string> texts_of(const Json& document, const char* list, bool k
     return all;
 }
 
-/// What an image is: its bytes, and whatever else the document says of it.
+/// A text for each image with its bytes and all its other properties.
 std::vector<std::string> image_texts(const Document& source, const Json& document) {
     std::vector<std::string> all;
     for (const Bytes& bytes : image_bytes(source, document)) {
@@ -129,7 +129,7 @@ void follow(const std::vector<std::size_t>& first, Json& reference) {
     if (old < first.size()) reference = first[old];
 }
 
-/// Takes nodes out of a node's children or a scene's nodes.
+/// Removes dead nodes from a node's children or a scene's nodes.
 void drop_children(Json& owner, const char* key, const std::set<std::size_t>& dead) {
     if (!owner.contains(key)) return;
     Json left = Json::array();
@@ -141,8 +141,8 @@ void drop_children(Json& owner, const char* key, const std::set<std::size_t>& de
 
 bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
 
-/// The nodes that are more than places, or are not in the scene, where nothing may get into them or out, and
-/// those below them.
+/// Nodes with more than a transform, nodes outside the scene (nothing may enter or leave these), and their
+/// descendants.
 std::set<std::size_t> bound_nodes(Json& document) {
     std::set<std::size_t> bound;
     const auto frames = node_frames(document);
@@ -160,7 +160,7 @@ std::set<std::size_t> bound_nodes(Json& document) {
     return bound;
 }
 
-/// The meshes that have more than triangles without morph targets.
+/// Meshes with more than triangles without morph targets.
 std::set<std::size_t> bound_meshes(const Json& document) {
     std::set<std::size_t> bound;
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
@@ -173,7 +173,7 @@ std::set<std::size_t> bound_meshes(const Json& document) {
     return bound;
 }
 
-/// New numbers when the dead ones are gone.
+/// New numbers after removing the dead items.
 std::vector<int> numbers_without(std::size_t count, const std::set<std::size_t>& dead) {
     std::vector<int> numbers;
     int next = 0;
@@ -235,7 +235,7 @@ std::size_t DocumentOptimizer::merge_equal_accessors() {
             std::visit([](const auto& numbers) { return sha256(std::as_bytes(std::span(numbers))); }, data);
     }
     const auto first = first_equal(said);
-    for (std::size_t a = 0; a < count; ++a) // whoever needs the bounds finds them
+    for (std::size_t a = 0; a < count; ++a) // the remaining accessor gets the bounds
         for (const char* key : {"min", "max"})
             if (first[a] != a && json_["accessors"][a].contains(key))
                 json_["accessors"][first[a]][key] = json_["accessors"][a][key];
@@ -245,7 +245,7 @@ std::size_t DocumentOptimizer::merge_equal_accessors() {
     return merged;
 }
 
-/// The least and greatest numbers of accessors, which glTF wants only of positions and of times.
+/// Drops minima and maxima of accessors, which glTF requires only for positions and times.
 void DocumentOptimizer::drop_bounds() {
     std::set<std::size_t> needed;
     const auto need = [&](const Json& owner, const char* key) {
@@ -274,7 +274,7 @@ std::set<std::size_t> DocumentOptimizer::unnamed(const char* list, References re
     };
     std::set<std::size_t> dead = without_name(json_);
     for (const std::size_t i : named) dead.erase(i);
-    if (!all_) // each list is erased from once, so that its numbers are still those of before
+    if (!all_) // one call per list, so that indices still have their old values
         for (const std::size_t i : without_name(before_)) dead.erase(i);
     return dead;
 }
@@ -287,8 +287,7 @@ std::size_t DocumentOptimizer::erase(const char* list, References references,
     return dead.size();
 }
 
-/// The emptied nodes that nothing needs, and then those above them; each is taken out of its parent and its
-/// scene.
+/// The emptied nodes without other uses, then their ancestors; removes each from its parent and its scene.
 std::set<std::size_t> DocumentOptimizer::empty_nodes(const std::set<std::size_t>& emptied) {
     std::set<std::size_t> named, dead;
     visit_named_nodes(json_, [&](Json& r) { named.insert(r.get<std::size_t>()); });
@@ -361,7 +360,7 @@ std::shared_ptr<const Document> DocumentOptimizer::finish(const std::shared_ptr<
 
 std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents) {
     std::vector<bool> bound = animated_parts(scene);
-    std::vector<std::set<std::size_t>> nodes; // of each document, that are bound
+    std::vector<std::set<std::size_t>> nodes; // by document: bound nodes
     std::vector<std::set<std::size_t>> meshes;
     for (DocumentOptimizer& document : documents) {
         nodes.push_back(bound_nodes(document.json_));

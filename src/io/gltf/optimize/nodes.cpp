@@ -1,4 +1,4 @@
-// Nodes of a document at the top of their scene, and many in one.
+// Moves nodes of a document to the top of their scene, and merges many into one.
 
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/document/accessor.hpp"
@@ -16,19 +16,19 @@ using namespace gltf;
 
 namespace {
 
-/// A place as EXT_mesh_gpu_instancing tells it.
+/// A transform as EXT_mesh_gpu_instancing stores it.
 struct Stance {
     Vec3 translation, scale;
     std::array<double, 4> rotation; ///< x, y, z, w
 };
 
-/// The unit quaternion of a rotation, given by its columns. After S. W. Shepperd, "Quaternion from Rotation
-/// Matrix" (1978).
+/// The unit quaternion of a rotation matrix, given by its columns. After S. W. Shepperd, "Quaternion from
+/// Rotation Matrix" (1978).
 std::array<double, 4> quaternion_of(const Vec3& x, const Vec3& y, const Vec3& z) {
     const double squares[4] = {1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z, 1 - x.x - y.y + z.z,
                                1 + x.x + y.y + z.z};
     const std::size_t most = static_cast<std::size_t>(std::max_element(squares, squares + 4) - squares);
-    const double s = std::sqrt(squares[most]) * 2; // four times the largest number
+    const double s = std::sqrt(squares[most]) * 2; // four times the largest component
     const std::array<std::array<double, 4>, 4> all = {
         {{s / 4, (x.y + y.x) / s, (z.x + x.z) / s, (y.z - z.y) / s},
          {(x.y + y.x) / s, s / 4, (y.z + z.y) / s, (z.x - x.z) / s},
@@ -37,8 +37,8 @@ std::array<double, 4> quaternion_of(const Vec3& x, const Vec3& y, const Vec3& z)
     return all[most];
 }
 
-/// None for a transform that shears, flattens or mirrors: renderers turn faces with their node, not with its
-/// instances.
+/// None for a transform that shears, flattens or mirrors: renderers flip the faces of mirrored nodes, but not
+/// of mirrored instances.
 std::optional<Stance> stance_of(const Transform& t) {
     constexpr double tolerable = 1e-6; // cosine of the angle between two axes
     Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
@@ -80,7 +80,7 @@ std::size_t DocumentOptimizer::add_floats(const std::vector<float>& numbers, int
                              {"type", components == 3 ? "VEC3" : "VEC4"}});
 }
 
-/// Among the nodes of the scene that `like`, or what it hangs from, is in.
+/// Adds the node to the scene that contains `like` or its root.
 void DocumentOptimizer::put_at_top(std::size_t node, std::size_t like) {
     const auto frames = node_frames(json_);
     while (frames[like].parent >= 0) like = static_cast<std::size_t>(frames[like].parent);

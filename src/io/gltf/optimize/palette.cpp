@@ -1,4 +1,4 @@
-// What materials of a document need of vertices, and plain materials as pixels of one.
+// The vertex data that a document's materials need, and plain materials as pixels of a palette.
 
 #include "geometry/render/srgb.hpp"
 #include "io/gltf/document/json.hpp"
@@ -37,7 +37,7 @@ bool read_number(const Json& owner, const char* key, double& number) {
     return number >= 0 && number <= 1;
 }
 
-/// Whether the object has no members but these.
+/// True if the object has only these members.
 bool has_only(const Json& object, std::initializer_list<const char*> keys) {
     return std::all_of(object.items().begin(), object.items().end(), [&](const auto& member) {
         return std::find(keys.begin(), keys.end(), member.key()) != keys.end();
@@ -70,7 +70,7 @@ bool all_equal(const std::vector<PlainLook>& looks, Member PlainLook::*member) {
                        [&](const PlainLook& look) { return look.*member == looks.front().*member; });
 }
 
-/// Adds the sets of texture coordinates that textures anywhere in the object read.
+/// Collects the texture coordinate sets that textures anywhere in the object use.
 void collect_uvs(const Json& object, std::set<int>& uvs) {
     if (!object.is_structured()) return;
     for (const auto& [key, value] : object.items()) {
@@ -113,7 +113,7 @@ std::optional<PlainLook> DocumentOptimizer::plain_look(std::size_t material) con
 std::size_t DocumentOptimizer::add_palette(const std::vector<PlainLook>& looks) {
     Json material = parse_document(looks.front().kind);
     material["name"] = "palette";
-    const std::size_t sampler = // each pixel by itself
+    const std::size_t sampler = // pixels without interpolation
         add("samplers", {{"magFilter", 9728}, {"minFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33071}});
     const auto texture = [&](const char* name, PixelOf pixel_of) {
         Pixels pixels{looks.size(), 1, {}, false};

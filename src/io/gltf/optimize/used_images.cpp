@@ -1,4 +1,4 @@
-// Which images of a document are of materials that something is drawn with.
+// Finds the images of materials that are used for drawing.
 
 #include "base/hash.hpp"
 #include "base/text/words.hpp"
@@ -13,7 +13,7 @@ using namespace gltf;
 
 namespace {
 
-/// The images of a material, one by one: of malformed references nothing.
+/// The images of a material, one by one; skips malformed references.
 class ImagesOfMaterial {
   public:
     ImagesOfMaterial(const Json& document, std::set<std::size_t>& images)
@@ -39,7 +39,7 @@ class ImagesOfMaterial {
         if (source != owner.end() && source->is_number_unsigned()) images_.insert(source->get<std::size_t>());
     }
 
-    /// An empty object where there is none.
+    /// An empty object if there is none.
     const Json& texture_of(const Json& reference) const {
         static const Json nothing = Json::object();
         const auto all = document_.find("textures"), index = reference.find("index");
@@ -72,7 +72,7 @@ std::set<std::size_t> drawn_materials(const Json& document, const std::vector<Pl
             if (const auto material = primitives.at(i).find("material"))
                 used.insert(material->index(count_of(document, "materials"), "material"));
     }
-    // Of a document of points all materials are.
+    // A document of points uses all materials.
     if (placements.empty())
         for (std::size_t m = 0; m < count_of(document, "materials"); ++m) used.insert(m);
     return used;
@@ -101,7 +101,7 @@ LibraryImageNames library_images(const std::filesystem::path& file,
         for (std::size_t i = 0; i < count_of(json, "images"); ++i)
             if (const auto uri = item(json, "images", i).find("uri"); uri && !is_data_uri(uri->text()))
                 if (const auto path = decoded_path(uri->text())) sort(i, *path);
-        ReadLog ignored; // reading the file will tell
+        ReadLog ignored; // reading the file will report it
         Document document;
         document.buffers = load_buffers(json, chunks.binary, input, ignored);
         for (const ImageFile& image : image_files(document, json)) {

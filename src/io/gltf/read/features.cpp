@@ -8,7 +8,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// Why a set of feature ids does not hold; empty: it does.
+/// The reason why a set of feature ids is no longer valid; empty if it is valid.
 std::string reason_to_drop(const Json& ids, const std::function<bool(const std::string&)>& has) {
     const auto needs = [&](const std::string& attribute) {
         return has(attribute) ? std::string() : fmt::format("feature ids, for want of {}", attribute);
@@ -27,7 +27,7 @@ bool is_feature_id(std::string_view semantic) {
 
 Json features_that_hold(const std::string& extension, const Json& value,
                         const std::function<bool(const std::string&)>& has, std::vector<std::string>& lost) {
-    if (extension == "EXT_structural_metadata") return value; // names what the document has, which stays
+    if (extension == "EXT_structural_metadata") return value; // refers to the document, which stays
     if (extension != "EXT_mesh_features" || !value.is_object() || !value.contains("featureIds"))
         return nullptr;
     Json kept = value;

@@ -1,5 +1,5 @@
 #pragma once
-// Features and metadata of 3D Tiles: EXT_mesh_features (numbers of features at vertices or in textures) and
+// Features and metadata of 3D Tiles: EXT_mesh_features (feature numbers at vertices or in textures) and
 // EXT_structural_metadata (tables of their properties). Cesium and OGC, 2022.
 
 #include "base/json.hpp"
@@ -11,13 +11,13 @@
 
 namespace facetmill::io::gltf {
 
-/// Whether the vertex attribute of that name numbers features: _FEATURE_ID_0, and _BATCHID of older tiles.
-/// Such numbers are never mixed.
+/// True if the vertex attribute of that name contains feature numbers: _FEATURE_ID_0, and _BATCHID of older
+/// tiles. Such numbers are never interpolated.
 bool is_feature_id(std::string_view semantic);
 
-/// What still holds of one of these extensions of a primitive whose mesh has changed; null when nothing does,
-/// or for another extension. has: whether the primitive has a vertex attribute. What does not hold any more
-/// is added to lost, in words.
+/// The part of such an extension that is still valid for a primitive whose mesh has changed; null if nothing
+/// is, or for another extension. has: returns whether the primitive has a vertex attribute. Adds descriptions
+/// of invalid parts to lost.
 Json features_that_hold(const std::string& extension, const Json& value,
                         const std::function<bool(const std::string&)>& has, std::vector<std::string>& lost);
 

@@ -15,7 +15,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// An attribute of the instances, as the extension names it and as a node does.
+/// An attribute of the instances: its name in the extension and its name in a node.
 struct PlaceAttribute {
     const char* semantic;
     const char* member;
@@ -128,7 +128,7 @@ std::optional<Attribute> translations_on_grid(const Instances& given, const Posi
 }
 
 void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog& log) {
-    constexpr double bytes_of_node = 2000; // with its part
+    constexpr double bytes_of_node = 2000; // including its part
     const Json original = document;
     Source source(original, buffers);
     double needed = 0;
@@ -148,7 +148,7 @@ void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog
             children.push_back(document["nodes"].size());
             document["nodes"].push_back(node_of(*all, i, node.at("mesh").json(), node.text_or("name", "")));
         }
-        Json& changed = document["nodes"][n]; // the list may have moved
+        Json& changed = document["nodes"][n]; // the list may have been reallocated
         if (!children.empty()) changed["children"] = std::move(children);
         changed.erase("mesh");
         changed["extensions"].erase(instancing_extension);
@@ -177,8 +177,8 @@ namespace facetmill::io {
 
 namespace {
 
-/// Calls visit for each part with instances: its number in the scene, where the largest of them is, seen from
-/// the node, and all of them.
+/// Calls visit for each part with instances: its number in the scene, the transform of the largest instance
+/// relative to the node, and all instances.
 void for_each_instanced(
     const Scene& scene,
     const Function<void(std::size_t part, const Transform& largest, const gltf::Instances& all)>& visit) {
@@ -187,7 +187,7 @@ void for_each_instanced(
         if (document.json.find(gltf::instancing_extension) == std::string::npos) continue;
         const Json json = gltf::parse_document(document.json);
         gltf::Source source(json, document.buffers);
-        std::map<int, gltf::Instances> known; // of nodes
+        std::map<int, gltf::Instances> known; // by node
         for (std::size_t i = 0; i < scene.parts.size(); ++i) {
             const Part& part = scene.parts[i];
             if (part.document != static_cast<int>(d) || part.node < 0) continue;
@@ -206,8 +206,8 @@ void for_each_instanced(
 
 std::vector<double> errors_of_instances(const Scene& scene, bool filters) {
     constexpr double of_float = 1.0 / (1 << 23);
-    // Each number of the quaternion is off by 1.1e-5 as stored and 1.5e-5 as decoded, the largest by up to
-    // sqrt(3) times as much: together an angle of less than this.
+    // Each component of the quaternion has an error of 1.1e-5 when stored and 1.5e-5 when decoded. The error
+    // of the largest component is up to sqrt(3) times as much. The total is an angle below this value.
     constexpr double of_rotation = 2e-4;
     std::vector<double> errors(scene.parts.size());
     for_each_instanced(scene, [&](std::size_t i, const Transform& at, const gltf::Instances&) {
@@ -215,7 +215,7 @@ std::vector<double> errors_of_instances(const Scene& scene, bool filters) {
         const Box box = part.mesh.bounds();
         if (box.empty()) return;
         const double corner = std::max(length(box.min), length(box.max)),
-                     inside = length(at.point({})) + greatest_stretch(at) * corner, // seen from the node
+                     inside = length(at.point({})) + greatest_stretch(at) * corner, // relative to the node
             outside = greatest_stretch(part.transform) / greatest_stretch(at);
         errors[i] =
             2 * of_float * inside * outside +
@@ -229,7 +229,7 @@ void for_each_place_of_instances(
     constexpr std::size_t most = 65536;
     for_each_instanced(scene, [&](std::size_t i, const Transform& largest, const gltf::Instances& all) {
         const auto back = inverse(largest);
-        if (!back) return; // not of a largest place
+        if (!back) return; // never for a largest instance
         const Transform node = scene.parts[i].transform * *back;
         const std::size_t step = (all.count + most - 1) / most;
         for (std::size_t k = 0; k < all.count; k += step)

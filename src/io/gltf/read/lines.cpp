@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* suffix_of_lines = "_lines";
 
-/// Appends the lines of one primitive, in the space of the world.
+/// Appends the lines of a primitive in world space.
 void add_lines(Source& source, const JsonCursor& primitive, const Transform& world, std::size_t max_vertices,
                Lines& lines) {
     const Accessor positions = accessor(source, primitive.at("attributes").at("POSITION"));
@@ -44,7 +44,7 @@ void add_lines(Source& source, const JsonCursor& primitive, const Transform& wor
         lines.segments.push_back({base + ends[i], base + ends[i + 1], material});
 }
 
-/// Takes the lines from a mesh that has triangles, too: a mesh of them.
+/// Removes the lines from a mesh that also has triangles, and returns them as a mesh.
 Json lines_taken_from(Json& mesh, const std::string& path) {
     const JsonCursor before(mesh, path);
     Json kept = Json::array(), lines = Json::array();
@@ -62,7 +62,7 @@ Json lines_taken_from(Json& mesh, const std::string& path) {
     return taken;
 }
 
-/// A node that stands where this one does, with another mesh.
+/// A node with the same transform but another mesh.
 Json beside_node(const Json& node, std::size_t mesh, const std::string& path) {
     Json beside = Json::object();
     const std::string name = JsonCursor(node, path).text_or("name", "");
@@ -76,7 +76,7 @@ Json beside_node(const Json& node, std::size_t mesh, const std::string& path) {
     return beside;
 }
 
-/// Whether the mesh has triangles and lines.
+/// True if the mesh has triangles and lines.
 bool has_both(const JsonCursor& mesh) {
     if (!has_triangles(mesh)) return false;
     const JsonCursor primitives = mesh.at("primitives");
@@ -85,7 +85,7 @@ bool has_both(const JsonCursor& mesh) {
     return false;
 }
 
-/// What stands beside nodes and meshes.
+/// The nodes and meshes that were split off, by their originals.
 struct Beside {
     std::map<std::size_t, std::size_t> nodes, meshes;
 };
@@ -95,8 +95,8 @@ std::optional<std::size_t> known(const std::map<std::size_t, std::size_t>& besid
     return found == beside.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The pointer to the weights of what stands beside those that this one names (KHR_animation_pointer), or
-/// none.
+/// Converts a pointer to morph weights (KHR_animation_pointer) into the pointer to the weights of the
+/// split-off node or mesh; none for other pointers.
 std::optional<std::string> pointer_beside(const std::string& pointer, const Beside& beside) {
     constexpr std::string_view end = "/weights";
     const std::string_view text = pointer;
@@ -111,7 +111,7 @@ std::optional<std::string> pointer_beside(const std::string& pointer, const Besi
     return {};
 }
 
-/// The target of a channel that moves the weights of what stands beside, or null.
+/// The target of a channel for the morph weights of the split-off node, or null.
 Json target_beside(const JsonCursor& target, const Beside& beside, std::size_t nodes) {
     Json moved = target.json();
     if (const auto node = target.find("node"); node && target.text_or("path", "") == "weights") {
@@ -130,7 +130,7 @@ Json target_beside(const JsonCursor& target, const Beside& beside, std::size_t n
     return moved;
 }
 
-/// What moves the morph weights of a node moves those of the one beside it.
+/// Copies animations of a node's morph weights to its split-off node.
 void animate_beside(Json& document, const Beside& beside, std::size_t nodes) {
     for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
         const JsonCursor channels = item(document, "animations", a).at("channels");
@@ -145,7 +145,7 @@ void animate_beside(Json& document, const Beside& beside, std::size_t nodes) {
     }
 }
 
-/// Throws malformed when a scene names a node that is not there.
+/// Throws malformed when a scene refers to a missing node.
 void check_roots(const Json& document, std::size_t nodes) {
     for (std::size_t s = 0; s < count_of(document, "scenes"); ++s)
         if (const auto roots = item(document, "scenes", s).find("nodes"))
@@ -160,7 +160,7 @@ bool part_lines(Json& document) {
         if (has_both(item(document, "meshes", m))) both.push_back(m);
     if (both.empty()) return false;
     const auto frames =
-        node_frames(document); // before there are more meshes and nodes, which nothing may name
+        node_frames(document); // before adding meshes and nodes, so that nothing refers to them yet
     check_roots(document, frames.size());
     Beside beside;
     for (const std::size_t m : both) {

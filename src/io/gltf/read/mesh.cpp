@@ -16,7 +16,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// The vertices that one or more primitives share: those with the same accessors.
+/// Vertices with the same accessors, shared by one or more primitives.
 struct Block {
     std::size_t first = 0, count = 0; // wedges
     std::vector<Vec3> positions;
@@ -29,12 +29,12 @@ struct Merge {
     JsonCursor mesh_place;
     std::size_t max_vertices;
     std::vector<Block> blocks;
-    std::map<std::string, std::size_t> block_of; // by the accessors' indices, spelled
+    std::map<std::string, std::size_t> block_of; // by the accessors' indices, as text
     std::size_t wedges = 0;
     DecodedMesh out;
     std::vector<Index> face_primitive;
     double bytes =
-        0; ///< of all blocks and corners: a few bytes of JSON may name the same accessor again and again
+        0; ///< of all blocks and corners: few bytes of JSON may refer to the same accessor repeatedly
 
     void need(double more) {
         bytes += more;
@@ -47,7 +47,7 @@ struct Merge {
     }
 };
 
-/// True when an accessor can be a mesh attribute; matrices of small numbers are padded and not read.
+/// True if an accessor can be a mesh attribute; matrices of small numbers are padded and not supported.
 bool usable(const Accessor& a) {
     const std::string type = a.place.at("type").text();
     return a.component_type != uint32 &&
@@ -111,7 +111,7 @@ std::size_t plain_block(Merge& merge, const JsonCursor& primitive) {
     const Accessor positions = accessor(merge.source, attributes.at("POSITION"));
     if (positions.components != 3) positions.place.fail("POSITION must be VEC3");
     block.count = positions.count;
-    if (block.count > merge.max_vertices) add_vertices(merge, block); // refuses
+    if (block.count > merge.max_vertices) add_vertices(merge, block); // throws
     block.positions = to_vectors(to_attribute(merge, "POSITION", positions, block.count));
     for (const auto& [name, reference] : attributes.json().items())
         if (name != "POSITION")
@@ -121,7 +121,7 @@ std::size_t plain_block(Merge& merge, const JsonCursor& primitive) {
     return merge.block_of[key] = merge.blocks.size() - 1;
 }
 
-/// The numbers of a decoded column as the type that the accessor promises, when they differ.
+/// Converts the numbers of a decoded column to the accessor's type, if they differ.
 Attribute from_column(const std::string& name, DracoColumn column, const Accessor& promised) {
     Attribute a{
         name, Domain::wedge, role_of(name), column.components, promised.normalised, std::move(column.data)};
@@ -143,7 +143,7 @@ Attribute from_column(const std::string& name, DracoColumn column, const Accesso
     return a;
 }
 
-/// The vertices of a Draco primitive, and its indices. Attributes that the payload lacks come from their
+/// The vertices and indices of a Draco primitive. Attributes missing in the payload come from their
 /// accessors.
 std::size_t draco_block(Merge& merge, const JsonCursor& primitive, const JsonCursor& draco,
                         std::vector<Index>& indices) {
@@ -192,7 +192,7 @@ std::size_t draco_block(Merge& merge, const JsonCursor& primitive, const JsonCur
     return merge.blocks.size() - 1;
 }
 
-/// Strips and fans as a list. The stitches of strips (triangles with equal indices) are no faces.
+/// Strips and fans as a list. The degenerate triangles that connect strips are dropped.
 std::vector<Index> as_list(const std::vector<Index>& indices, std::uint64_t mode) {
     std::vector<Index> list;
     for (std::size_t i = 2; i < indices.size(); ++i) {
@@ -210,7 +210,7 @@ Primitive primitive_info(const Merge& merge, const JsonCursor& primitive, const 
     if (const auto material = primitive.find("material"))
         info.material =
             static_cast<Index>(material->index(count_of(merge.source.json(), "materials"), "material"));
-    info.attributes.push_back("POSITION"); // an empty list would mean all
+    info.attributes.push_back("POSITION"); // because an empty list would mean all
     for (const auto& a : block.attributes) info.attributes.push_back(a.name);
     Json kept;
     if (const auto extras = primitive.find("extras")) kept["extras"] = extras->json();
@@ -256,7 +256,7 @@ void add_primitive(Merge& merge, const JsonCursor& primitive) {
         mesh.corners.resize(before + indices.size());
         parallel_for(indices.size(), [&](std::size_t i) { mesh.corners[before + i] = first + indices[i]; });
     }
-    if (!mesh.primitives.empty()) { // of one, it is not needed
+    if (!mesh.primitives.empty()) { // a single one does not need it
         merge.face_primitive.resize(before / 3, 0);
         merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
     }
@@ -283,7 +283,7 @@ void add_line_primitive(Merge& merge, const JsonCursor& primitive) {
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }
 
-/// The attribute of that name for the whole mesh, in a form that holds what all blocks have.
+/// The attribute of that name for the whole mesh, in a type that fits the values of all blocks.
 Attribute& common_attribute(Mesh& mesh, const Attribute& part) {
     if (Attribute* known = mesh.find(part.name, Domain::wedge)) {
         if (known->data.index() != part.data.index() || known->normalised != part.normalised) {
@@ -315,7 +315,8 @@ void copy_into(Attribute& to, const Attribute& from, std::size_t first) {
             for (std::size_t i = 0; i < from.size(); ++i)
                 for (std::size_t c = 0; c < width; ++c) {
                     const bool there = c < static_cast<std::size_t>(from.components);
-                    // Same type: the raw number; else value() gives fractions, which float32 holds.
+                    // For the same type, the raw number; otherwise value() gives fractions, which float32 can
+                    // hold.
                     const double x = !there ? (to.role == Role::colour ? opaque : 0.0)
                                      : to.data.index() == from.data.index()
                                          ? static_cast<double>(std::get<Numbers>(
@@ -329,7 +330,7 @@ void copy_into(Attribute& to, const Attribute& from, std::size_t first) {
 
 void join_blocks(Merge& merge) {
     Mesh& mesh = merge.out.mesh;
-    if (merge.blocks.size() == 1) { // as most are: nothing to copy
+    if (merge.blocks.size() == 1) { // the common case: nothing to copy
         mesh.positions = std::move(merge.blocks.front().positions);
     } else {
         for (auto& block : merge.blocks) {
@@ -414,7 +415,7 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
 
 namespace {
 
-/// Corner c of the mesh is at the returned vertex, a wedge's number; empty when the extension does not say.
+/// The vertex at corner c of the mesh, as a wedge number; empty if the extension does not give them.
 std::vector<Index> told_vertices(Source& source, const JsonCursor& extension, const Mesh& mesh) {
     const JsonCursor primitive = extension.at("manifoldPrimitive");
     std::vector<Index> vertices = decode_indices(source, primitive.at("indices"), mesh.positions.size());
@@ -449,7 +450,7 @@ bool merge_as_told(Source& source, const JsonCursor& mesh_place, Mesh& mesh,
         if (!(mesh.positions[v] == mesh.positions[mesh.corners[c]]))
             return ignore("it merges different positions");
     }
-    // Unused vertices stand for themselves; the others are numbered by first occurrence.
+    // Unused vertices stay separate; the others are numbered by first occurrence.
     std::vector<Index> number(mesh.positions.size(), none);
     std::vector<Vec3> positions;
     mesh.wedge_vertex.resize(vertex_of.size());

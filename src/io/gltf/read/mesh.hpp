@@ -1,13 +1,12 @@
 #pragma once
-// A glTF mesh as a Mesh: its primitives merged for geometry, and known again by the face attribute
-// "primitive".
+// A glTF mesh as a Mesh: its primitives are merged for geometry, and kept in the face attribute "primitive".
 
 #include "io/codec.hpp"
 #include "io/gltf/document/accessor.hpp"
 
 namespace facetmill::io::gltf {
 
-/// Primitives that others read, so that no warning is due.
+/// Primitives that other functions read, so that no warning is needed.
 struct ReadElsewhere {
     bool lines = false, points = false;
 };
@@ -17,19 +16,19 @@ struct DecodedMesh {
     std::vector<ReadWarning> warnings;
 };
 
-/// Decodes the triangles of mesh `index`, or the lines of one that has no triangles: triangles are welded by
-/// exact position into vertices, or as EXT_mesh_manifold says; glTF's vertices become wedges, equal ones at a
-/// vertex one wedge. Points beside them are left to the document, with a warning
-/// (W-SKIPPED). Primitive::material is the document's material index. The same bytes give the same Mesh, so
-/// the writer decodes again to see whether a part is untouched. Throws malformed and limit.
+/// Decodes the triangles of mesh `index`, or the lines of a mesh without triangles. Triangles are welded into
+/// vertices by exact position, or as EXT_mesh_manifold defines. glTF's vertices become wedges; equal wedges
+/// at a vertex are merged. Points in the same mesh stay in the document, with a warning (W-SKIPPED).
+/// Primitive::material is the document's material index. The same bytes give the same Mesh, so the writer can
+/// decode again to check for changes. Throws malformed and limit.
 DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
                         const ReadElsewhere& elsewhere = {});
 
-/// The role that a glTF attribute name has.
+/// The role of a glTF attribute name.
 Role role_of(std::string_view semantic);
 
-/// Applies EXT_mesh_manifold's merges to a mesh whose wedges are vertices; false when there are none, or they
-/// contradict the mesh (then a warning is added and nothing changed).
+/// Applies EXT_mesh_manifold's merges to a mesh whose wedges are vertices. Returns false without merges, or
+/// if they contradict the mesh (then it adds a warning and changes nothing).
 bool merge_as_told(Source& source, const JsonCursor& mesh_place, Mesh& mesh,
                    std::vector<ReadWarning>& warnings);
 

@@ -9,7 +9,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// Its material and extras; none when it has neither.
+/// The primitive's material and extras; empty if it has neither.
 std::vector<Primitive> primitive_of(const Source& source, const JsonCursor& place) {
     Primitive primitive;
     if (const auto material = place.find("material"))

@@ -14,14 +14,14 @@ namespace {
 
 using namespace gltf;
 
-/// A document, opened when a part of it is met.
+/// A document, opened on first use.
 class Opened {
   public:
     explicit Opened(const facetmill::Document& document)
         : json_(parse_document(document.json)), frames_(node_frames(json_)),
           source_(json_, document.buffers) {}
 
-    /// The matrices of the joints of a node's skin: from the bind pose to the world. None without a skin.
+    /// The joint matrices of a node's skin, from the bind pose to the world. None without a skin.
     std::vector<Transform> joints(std::size_t node) {
         const auto skin = index_at(item(json_, "nodes", node).json(), "skin", count_of(json_, "skins"));
         if (!skin) return {};
@@ -64,7 +64,7 @@ std::vector<Index> wedge_of_vertices(const Mesh& mesh) {
     return out;
 }
 
-/// Replaces an attribute of directions by float32, direction by direction: changed(element, value).
+/// Converts a direction attribute to float32, element by element: changed(element, value).
 template <class Changed>
 void change_directions(Attribute& a, Changed&& changed) {
     std::vector<float> data(a.size() * static_cast<std::size_t>(a.components));
@@ -84,7 +84,7 @@ Attribute* directions(Mesh& mesh, const char* name) {
     return nullptr;
 }
 
-/// Moves the mesh by its targets. Whether anything moved.
+/// Applies the mesh's morph targets. Returns true if anything moved.
 bool morph(Mesh& mesh, const std::vector<double>& weights) {
     bool any = false;
     const std::vector<Index> wedges = wedge_of_vertices(mesh);
@@ -125,7 +125,7 @@ std::vector<SkinSet> skin_sets(const Mesh& mesh) {
     }
 }
 
-/// The mean of the matrices of a wedge's joints by its weights; the first joint's where all weights are 0.
+/// The weighted mean of a wedge's joint matrices; the first joint's matrix if all weights are 0.
 Transform mixed(const std::vector<SkinSet>& sets, const std::vector<Transform>& joints, Index wedge) {
     Transform sum;
     double total = 0;
@@ -167,7 +167,7 @@ bool has_targets(const Mesh& mesh) {
                        [](const Attribute& a) { return a.role == Role::morph_vector; });
 }
 
-/// Whether the part has moved.
+/// Returns true if the part has moved.
 bool take_pose(Part& part, Opened& document) {
     bool moved = has_targets(part.mesh) && morph(part.mesh, document.weights(part));
     if (!part.skinned || part.node < 0) return moved;
@@ -188,7 +188,7 @@ std::optional<Scene> posed(const Scene& scene) {
     bool any = false;
     for (Part& part : out.parts) {
         if (!may_move(part)) continue;
-        try { // reading looks no further than meshes
+        try { // reading checks only meshes, so this may throw
             const auto document = static_cast<std::size_t>(part.document);
             Part moved = part;
             if (!take_pose(moved,

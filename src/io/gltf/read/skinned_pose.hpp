@@ -7,10 +7,10 @@
 
 namespace facetmill::io {
 
-/// The scene with its skinned parts as the nodes of their document place their joints, and morphed ones by
-/// their default weights (those of the node, else of the mesh), as glTF 2.0 has it; weights of joints are
-/// made to sum to one. Positions, normals and tangents change, and nothing else: stages work on the bind
-/// pose, pictures show this. None where nothing changes. A skin that cannot be read leaves its part as it is.
+/// The scene with skinned parts posed by the nodes of their document, and morphed parts with their default
+/// weights (from the node, else the mesh), as in glTF 2.0. Joint weights are normalised to sum to one. Only
+/// positions, normals and tangents change: stages work on the bind pose, pictures show this pose. None if
+/// nothing changes. A part with an unreadable skin stays unchanged.
 std::optional<Scene> posed(const Scene& scene);
 
 } // namespace facetmill::io

@@ -1,7 +1,7 @@
-// Skinned parts that have moved. The world's place of a vertex p under glTF's skinning is the sum of
-// weight * joint's world * inverse bind matrix * p. Moved by C, the vertices become C p, the joints' worlds
-// C * joint's world by a node above their roots, and the inverse bind matrices B become B * inverse(C): the
-// sum is moved by C in every pose.
+// Skinned parts that have moved. glTF's skinning moves a vertex p to the sum of weight * joint world matrix *
+// inverse bind matrix * p. To move the part by C, vertices become C p. The joint world matrices become C *
+// joint world matrix, through a node above their roots. The inverse bind matrices B become B * inverse(C).
+// The sum is then moved by C in every pose.
 
 #include "io/gltf/read/skins.hpp"
 

@@ -6,11 +6,11 @@
 
 namespace facetmill::io::gltf {
 
-/// Of a skin of so many joints, 16 numbers each, column by column. Throws malformed (E-GLTF) where its
-/// accessor is none of that kind.
+/// The matrices of a skin with this many joints, 16 numbers each, column by column. Throws malformed (E-GLTF)
+/// if its accessor has another type or size.
 std::vector<float> bind_matrices(Source& source, const JsonCursor& skin, std::size_t joints);
 
-/// Of 16 numbers, column by column.
+/// A transform from 16 numbers, column by column.
 Transform from_columns(const float* numbers);
 
 } // namespace facetmill::io::gltf

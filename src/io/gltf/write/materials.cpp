@@ -20,7 +20,7 @@ const Json& other_document(MaterialCopies& copies, int document) {
     return found->second;
 }
 
-/// Runs `copy` the first time that item i of that kind of a document is asked for, and remembers the new
+/// Calls `copy` the first time that item i of a kind and a document is requested, and remembers the new
 /// index.
 template <class Copy>
 std::size_t once(MaterialCopies& copies, int document, std::size_t kind, std::size_t i, Copy&& copy) {
@@ -69,8 +69,7 @@ std::size_t copy_texture(MaterialCopies& copies, int document, std::size_t i) {
     return copies.patch.builder.add("textures", std::move(texture));
 }
 
-/// Renumbers the textures in a material, its extensions included: everything called "...Texture" with an
-/// index.
+/// Renumbers the textures of a material and its extensions: every "...Texture" with an index.
 void copy_textures(MaterialCopies& copies, int document, Json& json) {
     if (!json.is_object()) return;
     for (auto& [key, value] : json.items()) {
@@ -94,7 +93,7 @@ void copy_textures(MaterialCopies& copies, int document, Json& json) {
 Json new_material(const Material& material) {
     Json json = Json::object();
     if (!material.name.empty()) json["name"] = material.name;
-    // glTF's default is metal, which nothing but glTF means.
+    // glTF's default is metal, which other formats do not intend.
     json["pbrMetallicRoughness"] = {{"baseColorFactor", Json::array()}, {"metallicFactor", 0}};
     for (const double c : material.base_colour)
         json["pbrMetallicRoughness"]["baseColorFactor"].push_back(std::clamp(c, 0.0, 1.0));
@@ -102,7 +101,7 @@ Json new_material(const Material& material) {
     return json;
 }
 
-/// Stages may change which sides are seen; all else of a document's material is as it was.
+/// Stages may change whether a material is double-sided; the rest of a document's material is unchanged.
 void patch_sides(const Material& material, Json& json) {
     if (json.value("doubleSided", false) != material.double_sided)
         json["doubleSided"] = material.double_sided;

@@ -9,15 +9,15 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// Parts that came from one mesh and still have the same one.
+/// Parts that share a source mesh and are still equal.
 struct Variant {
-    std::size_t example;   ///< a part
-    bool original = false; ///< nothing has changed: its primitives stay as they are
+    std::size_t example;   ///< an example part
+    bool original = false; ///< unchanged: its primitives stay
     int mesh = -1;
     std::size_t dropped_faces = 0;
 };
 
-/// Whether the primitive is among those that the part of its mesh has.
+/// True if the primitive belongs to the mesh's part.
 bool is_of_part(const Json& primitive, bool lines) {
     const JsonCursor place(primitive, "");
     return lines ? makes_lines(place) : makes_triangles(place);
@@ -32,20 +32,20 @@ bool has_draco(const Json& primitive) {
     return primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression");
 }
 
-/// Whether the view of the accessor is compressed by meshopt.
+/// True if meshopt compresses the accessor's view.
 bool has_meshopt(const Json& document, const Json& accessor) {
     const Json& a = document["accessors"][accessor.get<std::size_t>()];
     return a.contains("bufferView") &&
            compression_of(document["bufferViews"][a["bufferView"].get<std::size_t>()]);
 }
 
-/// Triangles that meshopt can compress well: in an order for it, each attribute by itself.
+/// True if meshopt can compress the triangles well: in a suitable order, with separate attributes.
 bool ready_for_meshopt(const Json& document, const Json& primitive) {
     return primitive.contains("indices") && has_meshopt(document, primitive["indices"]) &&
            has_meshopt(document, primitive["attributes"]["POSITION"]);
 }
 
-/// True when the primitives as they are in the document are what the settings ask for.
+/// True if the primitives in the document already satisfy the settings.
 bool stored_as_wanted(const Patch& patch, const Json& mesh) {
     const TriangleOrder order = patch.settings.order;
     const bool stays = order == TriangleOrder::automatic || order == TriangleOrder::keep;
@@ -89,7 +89,7 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     s.points = patch.of_points;
     s.name = part.name;
     s.material = [&copies](Index m) { return patch_material(copies, m); };
-    // Numbers of features and tables mean something in one document only.
+    // Feature numbers and tables are only valid in one document.
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d)
         if (static_cast<int>(d) != patch.base)
             for (const char* name : {"EXT_mesh_features", "EXT_structural_metadata"})
@@ -99,7 +99,7 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     return s;
 }
 
-/// What EXT_mesh_manifold names of a mesh that has changed is of no use any more.
+/// Releases the accessors of EXT_mesh_manifold for a mesh that has changed.
 void release_manifold(Patch& patch, const Json& extension) {
     patch.builder.release_mesh(
         {{"primitives", Json::array()}, {"extensions", {{"EXT_mesh_manifold", extension}}}});
@@ -111,11 +111,11 @@ void release_manifold(Patch& patch, const Json& extension) {
         all.push_back(change);
 }
 
-/// Extensions of the mesh are about the geometry that it had.
+/// Drops extensions of the mesh that describe its old geometry.
 void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
     if (!mesh.contains("extensions")) return;
     for (const auto& [name, value] : mesh["extensions"].items()) {
-        if (name == "EXT_mesh_manifold") { // ours: written again on request
+        if (name == "EXT_mesh_manifold") { // written again on request
             release_manifold(patch, value);
             continue;
         }
@@ -129,14 +129,14 @@ void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
     mesh.erase("extensions");
 }
 
-/// The mesh object for a part: `mesh` is what it was (or has only a name). Null when nothing is left of it.
+/// The mesh object of a part. `mesh`: the old object (or only a name). Null if nothing is left of it.
 Json encoded_object(MaterialCopies& copies, Json mesh, Variant& variant) {
     Patch& patch = copies.patch;
     const Part& part = patch.scene.parts[variant.example];
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(copies, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
     patch.written.cache.add(encoded.cache);
-    Json untouched = Json::array(); // points, and lines of which tubes were made
+    Json untouched = Json::array(); // points, and lines that became tubes
     if (mesh.contains("primitives")) {
         const bool lines = is_of_lines(JsonCursor(mesh, ""));
         for (auto& primitive : mesh["primitives"])
@@ -151,7 +151,7 @@ Json encoded_object(MaterialCopies& copies, Json mesh, Variant& variant) {
     return mesh;
 }
 
-/// Whether the variant is a level of detail of an earlier one: it stands for the same node.
+/// True if the variant is a level of detail of an earlier variant: both belong to the same node.
 bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Variant& variant) {
     const int node = scene.parts[variant.example].node;
     return node >= 0 && std::any_of(variants.data(), &variant, [&](const Variant& earlier) {
@@ -159,7 +159,7 @@ bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Va
            });
 }
 
-/// All parts of one mesh of the patched document.
+/// Writes all parts of one mesh of the patched document.
 void patch_variants(MaterialCopies& copies, std::size_t mesh, std::vector<Variant>& variants) {
     Patch& patch = copies.patch;
     const bool all_original =
@@ -219,7 +219,7 @@ PartMeshes patch_meshes(Patch& patch, Claims claims) {
     const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
     std::vector<std::size_t> variant_of(parts.size());
     std::map<std::pair<int, int>, std::vector<Variant>>
-        families; // by document and mesh; new parts stand alone
+        families; // by document and mesh; new parts separately
     const auto key_of = [&](std::size_t i) {
         const Part& p = parts[i];
         const bool ours = p.document == patch.base && p.document >= 0 && p.source_mesh >= 0 &&

@@ -9,14 +9,14 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// The morph targets of the mesh at a node of the document; 0 where there is none.
+/// The number of morph targets of a document node's mesh; 0 if there are none.
 std::size_t target_count(const Json& document, const Json& node) {
     if (!node.contains("mesh")) return 0;
     const Json& first = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"][0];
     return first.contains("targets") ? first["targets"].size() : 0;
 }
 
-/// Whether a channel animates the morph weights of a node that had targets and has none now. Warns of it.
+/// True if a channel animates morph weights of a node that no longer has targets. Warns about it.
 bool is_dead(Patch& patch, const JsonCursor& channel) {
     const Json &document = patch.builder.json(), &source = patch.builder.source().json();
     const JsonCursor target = channel.at("target");
@@ -28,8 +28,7 @@ bool is_dead(Patch& patch, const JsonCursor& channel) {
     return true;
 }
 
-/// Drops the animation of morph weights where the targets are gone, which glTF forbids, and animations that
-/// have nothing left to do.
+/// Drops animations of morph weights without targets, which glTF forbids, and animations that become empty.
 void drop_dead_weights(Patch& patch) {
     Json& document = patch.builder.json();
     const std::size_t count = count_of(document, "animations");
@@ -62,7 +61,7 @@ void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int pa
     if (name != placement.name) json["name"] = name;
 }
 
-/// Where the node of a part should be: where the part is, taken back by the instance that it stands at.
+/// The wanted world transform of a part's node: the part's transform without its instance transform.
 Transform node_world(const Patch& patch, const Claims& claims, const Part& part) {
     const auto found = claims.largest_instances.find(part.node);
     if (part.document != patch.base || found == claims.largest_instances.end()) return part.transform;
@@ -72,7 +71,7 @@ Transform node_world(const Patch& patch, const Claims& claims, const Part& part)
     return back ? part.transform * *back : part.transform;
 }
 
-/// Where each node of the document should be now: parts where they say, everything else where it was.
+/// The wanted world transforms of the document's nodes: of the parts, and otherwise unchanged.
 std::vector<Transform> wanted_worlds(const Patch& patch, const Claims& claims) {
     std::vector<Transform> worlds;
     for (const auto& frame : claims.frames) worlds.push_back(frame.world);
@@ -85,13 +84,13 @@ std::vector<Transform> wanted_worlds(const Patch& patch, const Claims& claims) {
     return worlds;
 }
 
-/// Gives a node a matrix in place of what it had.
+/// Replaces a node's transform by a matrix.
 void set_matrix(Json& node, const Transform& local) {
     for (const char* key : {"translation", "rotation", "scale", "matrix"}) node.erase(key);
     if (!local.identity()) node["matrix"] = matrix(local);
 }
 
-/// The same but for the rounding of a product with an inverse.
+/// True if equal within the rounding of a product with an inverse.
 bool nearly_same(const Transform& a, const Transform& b) {
     double most = 0, apart = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -102,8 +101,7 @@ bool nearly_same(const Transform& a, const Transform& b) {
     return apart <= 1e-12 * most;
 }
 
-/// Replaces a node by another one wherever the document places it: in scenes, as a child, as a level of
-/// detail.
+/// Replaces a node by another everywhere in the hierarchy: in scenes, as a child, as a level of detail.
 void place_instead(Json& document, std::size_t node, std::size_t other) {
     const auto replace = [&](Json& list) {
         for (Json& index : list)
@@ -118,7 +116,7 @@ void place_instead(Json& document, std::size_t node, std::size_t other) {
     }
 }
 
-/// Warns of a node that moves by itself under one that is animated and stays.
+/// Warns about a node that moves while an animated ancestor stays.
 void warn_of_animated_ancestor(Patch& patch, const Claims& claims, std::size_t n,
                                const std::set<std::size_t>& animated, const std::vector<Transform>& wanted) {
     for (int p = claims.frames[n].parent; p >= 0; p = claims.frames[static_cast<std::size_t>(p)].parent) {
@@ -131,7 +129,7 @@ void warn_of_animated_ancestor(Patch& patch, const Claims& claims, std::size_t n
     }
 }
 
-/// Nodes whose parents and own place are as they were keep their transform as written.
+/// Keeps the transforms of nodes whose parent and local transform have not changed.
 void move_nodes(Patch& patch, const Claims& claims) {
     const auto wanted = wanted_worlds(patch, claims);
     const auto animated = animated_nodes(patch.builder.json());
@@ -153,7 +151,7 @@ void move_nodes(Patch& patch, const Claims& claims) {
         }
         if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;
         if (!parent_moved) warn_of_animated_ancestor(patch, claims, n, animated, wanted);
-        // An animated node keeps its own transform, which the animation drives: one above it moves both.
+        // An animated node keeps its own transform, which the animation drives: a new node above moves both.
         if (animated.contains(n))
             move_from_above(patch, n, *up * wanted[n] * *down);
         else
@@ -161,7 +159,7 @@ void move_nodes(Patch& patch, const Claims& claims) {
     }
 }
 
-/// The scene that new nodes are put into: the default one.
+/// The scene for new nodes: the default scene.
 Json& root_nodes(Json& document) {
     if (count_of(document, "scenes") == 0) {
         document["scenes"] = Json::array({Json::object()});
@@ -176,15 +174,15 @@ Json& root_nodes(Json& document) {
     return nodes;
 }
 
-/// The node of the document that a new part was split off from; -1 for none.
+/// The document node from which a new part was split off; -1 for none.
 int origin_of(const Patch& patch, const Claims& claims, const Part& part) {
     const bool there = part.document == patch.base && part.node >= 0 &&
                        static_cast<std::size_t>(part.node) < claims.frames.size();
     return there ? part.node : -1;
 }
 
-/// Where the part stands below a node that an animation moves, so that it moves along; nothing when it stands
-/// by itself.
+/// The part's transform relative to its origin, if an animation moves that node; none if the part is
+/// independent.
 std::optional<Transform> place_below(const Patch& patch, const Claims& claims, const Part& part, int origin) {
     const auto animated = animated_nodes(patch.builder.json());
     bool moves = false;
@@ -197,7 +195,7 @@ std::optional<Transform> place_below(const Patch& patch, const Claims& claims, c
     return nearly_same(local, {}) ? Transform{} : local;
 }
 
-/// A part that was split off has the morph weights of its origin, and their animation.
+/// Copies the morph weights and their animation from the origin of a split-off part.
 void copy_weights(Patch& patch, int origin, std::size_t node) {
     Json& document = patch.builder.json();
     if (origin < 0 || target_count(document, document["nodes"][node]) == 0) return;
@@ -293,7 +291,7 @@ std::pair<std::string, std::size_t> level_of(const std::string& name) {
 
 using Levels = std::map<std::size_t, std::size_t>; ///< part by level
 
-/// The levels of each part that has some.
+/// The levels of each part that has levels.
 std::map<std::size_t, Levels> levels_by_part(const std::vector<Part>& parts) {
     std::map<std::string, std::size_t> named;
     for (std::size_t i = 0; i < parts.size(); ++i) named.emplace(parts[i].name, i);
@@ -306,7 +304,7 @@ std::map<std::size_t, Levels> levels_by_part(const std::vector<Part>& parts) {
     return all;
 }
 
-/// Out of the scenes' roots: a level is shown in place of its node only.
+/// Removes a level from the scenes' roots, because it is shown only instead of its node.
 void unroot(Json& document, std::size_t node) {
     for (auto& scene : document["scenes"]) {
         if (!scene.contains("nodes")) continue;
@@ -317,7 +315,7 @@ void unroot(Json& document, std::size_t node) {
     }
 }
 
-/// Stands where its part is, seen from the parent of the node that it stands in for.
+/// Sets the transform of a level relative to the parent of the node that it replaces.
 void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
     const auto up = parent ? inverse(parent->world) : Transform{};
     if (!up) return;
@@ -326,7 +324,7 @@ void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
     if (!local.identity()) node["matrix"] = matrix(local);
 }
 
-/// Makes the nodes of parts X.lod1, X.lod2, ... levels of X's.
+/// Turns parts X.lod1, X.lod2, ... into levels of X.
 void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& node_of_part) {
     if (!patch.settings.lods) return;
     Json& document = patch.builder.json();
@@ -343,7 +341,7 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
             const auto node = static_cast<std::size_t>(node_of_part[part]);
             ids.push_back(node);
             ++linked;
-            if (frames[node].parent >= 0) continue; // stands somewhere in the document already
+            if (frames[node].parent >= 0) continue; // already in the hierarchy
             unroot(document, node);
             if (!patch.scene.parts[part].skinned)
                 place_level(document["nodes"][node], parent,
