@@ -24,7 +24,7 @@ enum class ErrorKind : int {
 };
 
 /// The exit code and its meaning: "2 (the command line or the pipeline is wrong)".
-std::string to_string(ErrorKind kind);
+[[nodiscard]] std::string to_string(ErrorKind kind);
 
 enum class Severity { error, warning, note };
 
@@ -63,7 +63,7 @@ class Error : public std::exception {
 };
 
 /// An error of kind limit (E-MEMORY), with out_of_memory set.
-Error out_of_memory(std::string message, std::string hint = {}, Mark where = {});
+[[nodiscard]] Error out_of_memory(std::string message, std::string hint = {}, Mark where = {});
 
 /// Whether --allow lists the warning: the ids are from the user.
 bool is_allowed(const Diagnostic& warning, const std::vector<std::string>& ids);
@@ -90,7 +90,7 @@ class Problems {
 };
 
 /// The diagnostic as text: "file:line:col: error[ID]: message", the source line, a caret, the hint.
-std::string render(const Diagnostic& diagnostic, bool colour = false);
+[[nodiscard]] std::string render(const Diagnostic& diagnostic, bool colour = false);
 
 } // namespace facetmill
 

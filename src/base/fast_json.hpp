@@ -16,12 +16,12 @@ namespace facetmill {
 /// object's members; this function's time is linear.
 /// unread: members of the outermost object that are only checked; their arrays and objects are returned
 /// empty.
-std::optional<Json> fast_json(std::string_view text, int deepest = 256,
-                              std::span<const std::string_view> unread = {});
+[[nodiscard]] std::optional<Json> fast_json(std::string_view text, int deepest = 256,
+                                            std::span<const std::string_view> unread = {});
 
 /// The text of a value in one line, the same as json.dump(-1, ' ', false, Json::error_handler_t::replace). It
 /// recurses, as the library does.
-std::string fast_text(const Json& json);
+[[nodiscard]] std::string fast_text(const Json& json);
 
 /// Makes a value null. It is recursive; the library avoids recursion by first moving everything below the
 /// value to a list.

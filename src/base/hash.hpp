@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-std::string sha256(std::span<const std::byte> bytes);
+[[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
 
 /// The SHA-256 of bytes added in pieces.
 class Sha256 {

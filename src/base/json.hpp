@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 /// Parses a JSON text. Throws Json::parse_error; with Broken::discarded, an invalid text gives a value that
 /// is_discarded(). Compiled once, unlike the template Json::parse.
 enum class Broken { thrown, discarded };
-Json parse_json(std::string_view text, Broken broken = Broken::thrown);
+[[nodiscard]] Json parse_json(std::string_view text, Broken broken = Broken::thrown);
 } // namespace facetmill
 
 // Compiled once, in json.cpp: otherwise fifty files would compile these templates again.

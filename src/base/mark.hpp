@@ -23,10 +23,10 @@ struct Mark {
 };
 
 /// A mark for a whole file.
-Mark file_mark(std::string name);
+[[nodiscard]] Mark file_mark(std::string name);
 /// A mark for a line of a file that is not kept in memory.
-Mark line_mark(std::string name, int line);
+[[nodiscard]] Mark line_mark(std::string name, int line);
 /// "file:3:7", "file:3" or "file"; empty when unknown.
-std::string to_string(const Mark& mark);
+[[nodiscard]] std::string to_string(const Mark& mark);
 
 } // namespace facetmill

@@ -47,8 +47,8 @@ struct RegisterMessages {
 /// All ids in order: errors, then warnings. Throws when an id is registered twice.
 const std::vector<MessageId>& message_ids();
 /// The entry of an id, or null.
-const MessageId* message_id(std::string_view id);
+[[nodiscard]] const MessageId* message_id(std::string_view id);
 /// The ids of the warnings, in order.
-std::vector<std::string> warning_ids();
+[[nodiscard]] std::vector<std::string> warning_ids();
 
 } // namespace facetmill

@@ -17,6 +17,7 @@ bool is_want_of_threads(const std::exception& e);
 
 /// Converts these exceptions to an error of kind limit (E-MEMORY); none for other exceptions. what: the
 /// purpose of the memory, or empty.
-std::optional<Error> told_as_limit(const std::exception& e, const std::string& what = {}, Mark where = {});
+[[nodiscard]] std::optional<Error> told_as_limit(const std::exception& e, const std::string& what = {},
+                                                 Mark where = {});
 
 } // namespace facetmill

@@ -16,7 +16,7 @@ struct Refusal {
 };
 
 /// "split: 'min_angle' goes with no other target".
-inline std::string refusal_text(std::string_view owner, const Refusal& refusal) {
+[[nodiscard]] inline std::string refusal_text(std::string_view owner, const Refusal& refusal) {
     return std::string(owner) + ": " + refusal.message;
 }
 

@@ -15,7 +15,7 @@ void sort_unique(std::vector<T>& values) {
 }
 
 template <class T>
-std::vector<T> sorted_once(std::vector<T> values) {
+[[nodiscard]] std::vector<T> sorted_once(std::vector<T> values) {
     sort_unique(values);
     return values;
 }

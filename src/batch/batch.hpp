@@ -38,10 +38,11 @@ struct Sources {
 /// folder of its input relative to the base. The default base is the part of a pattern before its first
 /// wildcard, and the working directory for lists and tables. Outside the base the folder is empty. Throws
 /// missing (E-FILE) when a pattern matches nothing, malformed (E-TABLE) for an unreadable table.
-std::vector<Asset> find_assets(const Sources& sources);
+[[nodiscard]] std::vector<Asset> find_assets(const Sources& sources);
 
 /// The assets that earlier batches of this pipeline recorded in an output folder.
-std::vector<std::string> former_assets(const std::filesystem::path& output_dir, const std::string& pipeline);
+[[nodiscard]] std::vector<std::string> former_assets(const std::filesystem::path& output_dir,
+                                                     const std::string& pipeline);
 
 struct Settings {
     /// Plans the pipeline for an asset; adds problems.
@@ -83,7 +84,8 @@ struct Prepared {
 /// Plans every asset, so that nothing runs if any plan has errors. Adds the problems of planning. Adds
 /// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (ignoring case),
 /// and E-OVERWRITE for an output that is also an input.
-Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems);
+[[nodiscard]] Prepared prepare(const std::vector<Asset>& assets, const Settings& settings,
+                               Problems& problems);
 
 /// The outcome of an asset.
 struct Outcome {
@@ -121,32 +123,32 @@ struct Listener {
 /// MAKEFLAGS, else from default_threads(). The outputs of an asset appear together, and have the same bytes
 /// for any number of jobs. Completed assets are recorded in the output folder, so that the next batch skips
 /// unchanged assets. Throws output (E-BUSY) when another batch of this pipeline is running there.
-Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
+[[nodiscard]] Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
 
 /// The summary of assets that do not run because of these errors.
-Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, ErrorKind kind,
-                const std::vector<Diagnostic>& why);
+[[nodiscard]] Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, ErrorKind kind,
+                              const std::vector<Diagnostic>& why);
 
 /// The memory that concurrent jobs may use: the requested amount, or (for 0) three quarters of the available
 /// memory.
-std::uint64_t memory_for_jobs(std::uint64_t asked);
+[[nodiscard]] std::uint64_t memory_for_jobs(std::uint64_t asked);
 
 /// The worse of two exit codes, in the order 70, 2, 4, 7, 5, 6, 3, 1, 0.
-int worse_exit_code(int a, int b);
+[[nodiscard]] int worse_exit_code(int a, int b);
 
 /// The assets in the order of a summary: the worst failures first, then assets that did not run, then
 /// warnings.
-std::vector<std::size_t> worst_first(const Summary& summary);
+[[nodiscard]] std::vector<std::size_t> worst_first(const Summary& summary);
 
 /// A summary for a terminal: failures, and as many other assets as fit, or all. Shows only the ids of errors,
 /// because the messages were printed when they occurred.
-Painted to_terminal(const Summary& summary, bool colour, bool all);
+[[nodiscard]] Painted to_terminal(const Summary& summary, bool colour, bool all);
 /// A report in the format of its suffix (report::form_of). It contains neither times nor which assets were
 /// skipped, so that the same assets give the same text. Throws usage (E-REPORT) for another suffix.
-std::string render_for(const std::string& path, const Summary& summary);
+[[nodiscard]] std::string render_for(const std::string& path, const Summary& summary);
 /// The JSON Schema of the report in JSON.
-Json summary_schema();
+[[nodiscard]] Json summary_schema();
 /// Times, threads and skipped assets, as JSON.
-std::string timings_text(const Summary& summary);
+[[nodiscard]] std::string timings_text(const Summary& summary);
 
 } // namespace facetmill::batch

@@ -24,7 +24,7 @@ struct Column {
 };
 
 /// In the order of the tables.
-std::span<const Column> columns();
-Figures figures_of(const report::RunRecord& record);
+[[nodiscard]] std::span<const Column> columns();
+[[nodiscard]] Figures figures_of(const report::RunRecord& record);
 
 } // namespace facetmill::batch

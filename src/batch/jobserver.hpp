@@ -32,6 +32,6 @@ class Jobserver {
 };
 
 /// The FIFO named in these MAKEFLAGS; empty if there is none.
-std::string jobserver_file(const std::string& makeflags);
+[[nodiscard]] std::string jobserver_file(const std::string& makeflags);
 
 } // namespace facetmill::batch

@@ -42,7 +42,7 @@ struct Done {
 
 /// The current size and time of a file, without digest. Omits a time so recent that a later change could keep
 /// it. None if the file does not exist.
-std::optional<Stamp> stamp_of(const std::filesystem::path& file);
+[[nodiscard]] std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 
 /// A file of JSON lines, appended after each run. If a batch is killed, only its last line can be incomplete,
 /// which is then ignored. The file is locked while it is open.

@@ -7,7 +7,7 @@
 namespace facetmill::batch {
 
 /// The mount point of a file's file system, with links resolved; empty if unknown.
-std::string mount_point_of(const std::filesystem::path& file);
+[[nodiscard]] std::string mount_point_of(const std::filesystem::path& file);
 
 enum class Presence {
     there,        ///< also if it cannot be checked
@@ -15,6 +15,6 @@ enum class Presence {
     gone
 };
 /// source: absolute. mount_point: of the source when it was read; empty: unknown.
-Presence presence_of(const std::filesystem::path& source, const std::string& mount_point);
+[[nodiscard]] Presence presence_of(const std::filesystem::path& source, const std::string& mount_point);
 
 } // namespace facetmill::batch

@@ -21,6 +21,6 @@ using Row = std::vector<Cell>;
 /// Shafranovich, "Common format and MIME type for comma-separated values (CSV) files", 2005) with a heading.
 /// The separator is the first comma, semicolon or tab in the heading. Throws malformed (E-TABLE), missing
 /// when there is no file.
-std::vector<Row> read_params_table(const std::filesystem::path& file);
+[[nodiscard]] std::vector<Row> read_params_table(const std::filesystem::path& file);
 
 } // namespace facetmill::batch

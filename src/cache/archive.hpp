@@ -42,14 +42,14 @@ struct Corrupt : std::exception {
 };
 
 /// Throws Corrupt for invalid CBOR, or nesting of more than 200 levels.
-Json json_of_cbor(io::Span cbor);
+[[nodiscard]] Json json_of_cbor(io::Span cbor);
 
 /// Points as arrays of three numbers each; null for null.
-inline const double* coordinates(const Vec3* points) {
+[[nodiscard]] inline const double* coordinates(const Vec3* points) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     return reinterpret_cast<const double*>(points);
 }
-inline double* coordinates(Vec3* points) { return reinterpret_cast<double*>(points); }
+[[nodiscard]] inline double* coordinates(Vec3* points) { return reinterpret_cast<double*>(points); }
 
 /// Writes numbers in the machine's byte order, because the data never leaves the machine.
 class ByteWriter {

@@ -10,7 +10,7 @@ namespace facetmill::cache {
 /// The folder in FACETMILL_CACHE, else facetmill in XDG_CACHE_HOME or ~/.cache. None for FACETMILL_CACHE=off,
 /// or without such a location. Also none if the usual location belongs to another user, who could not remove
 /// the files (sudo with the caller's HOME).
-std::optional<std::filesystem::path> folder();
+[[nodiscard]] std::optional<std::filesystem::path> folder();
 
 /// True if FACETMILL_CACHE names a folder: then the user explicitly requested a cache.
 bool is_named();
@@ -25,6 +25,6 @@ struct Limit {
 };
 /// FACETMILL_CACHE_SIZE (5GB, 500MiB); by default 5 GiB and a tenth of the space. Throws usage (E-ARGUMENT)
 /// for an invalid amount.
-Limit size_limit();
+[[nodiscard]] Limit size_limit();
 
 } // namespace facetmill::cache

@@ -8,13 +8,13 @@
 namespace facetmill::cache {
 
 /// The complete scene: equal scenes give equal bytes, independent of addresses.
-io::Bytes encoded(const Scene& scene);
+[[nodiscard]] io::Bytes encoded(const Scene& scene);
 /// The SHA-256 of encoded(), computed without storing the bytes.
-std::string digest_of(const Scene& scene);
+[[nodiscard]] std::string digest_of(const Scene& scene);
 /// None for invalid bytes.
-std::optional<Scene> decoded_scene(io::Span bytes);
+[[nodiscard]] std::optional<Scene> decoded_scene(io::Span bytes);
 /// The approximate size of encoded(), without computing it.
-std::size_t size_of(const Scene& scene);
+[[nodiscard]] std::size_t size_of(const Scene& scene);
 
 /// The report of a stage that need not run.
 struct Memory {
@@ -25,12 +25,12 @@ struct Memory {
     std::string told_name;                  ///< its name, if warnings contain it; else empty
     Box bounds;                             ///< of the resulting scene
 };
-io::Bytes encoded(const Memory& memory);
+[[nodiscard]] io::Bytes encoded(const Memory& memory);
 /// Encodes the memory with this record instead of its own, to avoid a copy.
-io::Bytes encoded(const Memory& memory, const report::StageRecord& record);
-std::optional<Memory> decoded_memory(io::Span bytes);
+[[nodiscard]] io::Bytes encoded(const Memory& memory, const report::StageRecord& record);
+[[nodiscard]] std::optional<Memory> decoded_memory(io::Span bytes);
 
 /// A key that depends on exactly these texts.
-std::string key_of(const std::vector<std::string>& texts);
+[[nodiscard]] std::string key_of(const std::vector<std::string>& texts);
 
 } // namespace facetmill::cache

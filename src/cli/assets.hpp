@@ -24,10 +24,11 @@ void check_sources(const AssetOptions& options, const CommandLine& line, Problem
 
 /// As batch::find_assets, with messages that point into the command line. prune: assets of earlier batches
 /// may no longer exist.
-std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line, bool prune = false);
+[[nodiscard]] std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line,
+                                                  bool prune = false);
 
 /// The common settings with this asset's params, which take precedence, and its folder.
-pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings);
+[[nodiscard]] pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings);
 
 /// Sets the pipeline, the output folder and the planner of an asset. Throws missing (E-FILE) if the pipeline
 /// does not exist.

@@ -15,13 +15,14 @@ void add_cache_options(Arguments& arguments, CacheOptions& options);
 
 /// The folder of the run's store, created if missing. None without a store, or if creating it fails. For the
 /// sandbox.
-std::optional<std::filesystem::path> cache_folder(const CacheOptions& options);
+[[nodiscard]] std::optional<std::filesystem::path> cache_folder(const CacheOptions& options);
 
 /// The store for a run, by default enabled. Null with --no-cache, FACETMILL_CACHE=off, or without a default
 /// folder (cache::folder). Also null with CI=true unless --cache or FACETMILL_CACHE request it. Problems are
 /// reported (W-CACHE) if the cache was requested or with tells_all, unless the id is allowed; notes are
 /// always reported. Throws usage if both options are given, and if --cache finds no folder.
-std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
-                                        const Console& console, bool tells_all = false);
+[[nodiscard]] std::unique_ptr<cache::Store> store_for(const CacheOptions& options,
+                                                      const std::vector<std::string>& allowed,
+                                                      const Console& console, bool tells_all = false);
 
 } // namespace facetmill::cli

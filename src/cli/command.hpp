@@ -54,32 +54,32 @@ struct Command {
 /// In the order of --help.
 const std::vector<Command>& commands();
 
-Command run_command();
-Command batch_command();
-Command export_command();
-Command plan_command();
-Command pipe_command();
-Command new_command();
-Command check_command();
-Command info_command();
-Command render_command();
-Command diff_command();
-Command stages_command();
-Command schema_command();
-Command formats_command();
-Command cache_command();
-Command explain_command();
-Command docs_command();
-Command completions_command();
+[[nodiscard]] Command run_command();
+[[nodiscard]] Command batch_command();
+[[nodiscard]] Command export_command();
+[[nodiscard]] Command plan_command();
+[[nodiscard]] Command pipe_command();
+[[nodiscard]] Command new_command();
+[[nodiscard]] Command check_command();
+[[nodiscard]] Command info_command();
+[[nodiscard]] Command render_command();
+[[nodiscard]] Command diff_command();
+[[nodiscard]] Command stages_command();
+[[nodiscard]] Command schema_command();
+[[nodiscard]] Command formats_command();
+[[nodiscard]] Command cache_command();
+[[nodiscard]] Command explain_command();
+[[nodiscard]] Command docs_command();
+[[nodiscard]] Command completions_command();
 
 /// --quiet, -v, --log.
 void add_message_options(Arguments& arguments, Console& console);
 
 /// Runs the whole program and returns the exit code. Throws Error. Leaves quiet, colours and so on in
 /// console for the caller.
-int program(std::vector<std::string> arguments, Console& console);
+[[nodiscard]] int program(std::vector<std::string> arguments, Console& console);
 
 /// The version; with --json also the libraries, and the sandbox support of this system.
-std::string version_text(bool json);
+[[nodiscard]] std::string version_text(bool json);
 
 } // namespace facetmill::cli

@@ -21,7 +21,7 @@ void add_sandbox_option(Arguments& arguments, SandboxOptions& options);
 void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders);
 
 /// The read settings with these asset roots.
-io::ReadSettings read_settings(const std::vector<std::string>& asset_roots);
+[[nodiscard]] io::ReadSettings read_settings(const std::vector<std::string>& asset_roots);
 
 /// Adds an input and its folder, which holds its neighbours.
 void allow_input(AllowedFiles& allowed, const std::filesystem::path& input);

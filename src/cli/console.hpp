@@ -25,7 +25,7 @@ struct PrintedMessage {
 
 /// The text after the name of a running stage: " 42 %, about 12 s left", or ", 12 s" without a fraction;
 /// empty in the first second.
-std::string how_far(double seconds, const PrintedMessage& last);
+[[nodiscard]] std::string how_far(double seconds, const PrintedMessage& last);
 
 /// Writes to standard error.
 class Console {

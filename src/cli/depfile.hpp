@@ -10,7 +10,7 @@ namespace facetmill::cli {
 std::string make_escaped(const std::string& path, bool target);
 
 /// "target: inputs", and an empty rule for each input, so that Make does not stop if an input is deleted.
-std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);
+[[nodiscard]] std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);
 
 /// Call it before a run with a depfile. Throws as make_escaped for the target or its candidates, and for the
 /// plan's inputs.

@@ -30,16 +30,18 @@ struct ComparedFiles {
 };
 /// Throws as reading a file: missing, malformed. Throws usage for a limit with a unit if the first file has
 /// no unit.
-ComparedFiles compared_files(const DiffOptions& options, const std::string& a, const std::string& b,
-                             const CommandLine& line, const Console& console);
+[[nodiscard]] ComparedFiles compared_files(const DiffOptions& options, const std::string& a,
+                                           const std::string& b, const CommandLine& line,
+                                           const Console& console);
 
 /// Warns of textures missing from pictures, each once.
 void tell_not_drawn(const std::vector<Diagnostic>& not_drawn, const Console& console);
 
 /// The folder of the pairs' pages: "changes.html" -> "changes".
-std::filesystem::path folder_of_pages(const std::string& index);
+[[nodiscard]] std::filesystem::path folder_of_pages(const std::string& index);
 /// Compares the files below both folders pair by pair, prints the result and writes the reports. Returns the
 /// worst exit code of the pairs.
-int diff_of_folders(const DiffOptions& options, const CommandLine& line, const Console& console);
+[[nodiscard]] int diff_of_folders(const DiffOptions& options, const CommandLine& line,
+                                  const Console& console);
 
 } // namespace facetmill::cli

@@ -10,7 +10,7 @@ namespace facetmill::cli {
 /// Parses the stages from argument `first` on into a document of format 1. Adds problems of the one-liner's
 /// syntax (E-PIPE), for example a missing ! between stages. Options of pipe itself (own; null: unknown)
 /// after a stage are also problems.
-Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems,
-                 const Arguments* own = nullptr);
+[[nodiscard]] Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems,
+                               const Arguments* own = nullptr);
 
 } // namespace facetmill::cli

@@ -9,13 +9,13 @@ namespace facetmill::cli {
 /// "50%". Vectors and lists are split at commas; lists of paths are not, because a path may contain a comma.
 /// Text in braces, or in nested brackets, is YAML if the option accepts such values; problems of that YAML
 /// are added.
-Value pipe_value(std::string text, const Option* option, const Mark& mark, Problems& problems);
+[[nodiscard]] Value pipe_value(std::string text, const Option* option, const Mark& mark, Problems& problems);
 
 /// @{x} -> ${x}; @@{ stays @{.
-std::string expressions(std::string text);
+[[nodiscard]] std::string expressions(std::string text);
 
 /// Numbers alone form a single value if a value may itself be a list. For example, four numbers are a plane,
 /// not four planes.
-Value as_one_value(Value list, const Option& option);
+[[nodiscard]] Value as_one_value(Value list, const Option& option);
 
 } // namespace facetmill::cli

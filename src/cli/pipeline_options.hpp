@@ -34,9 +34,9 @@ void add_partition_option(Arguments& arguments, PipelineOptions& options);
 /// --partition with --memory, --scratch and --keep-cells: meshes larger than memory.
 void add_cell_options(Arguments& arguments, PipelineOptions& options);
 /// The settings by these options. Throws usage (E-ARGUMENT).
-pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);
+[[nodiscard]] pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);
 /// Bytes: "8GB", "8G", "50%" of the available memory; 0 for an empty text. Throws usage (E-ARGUMENT).
-std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
+[[nodiscard]] std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
 /// --no-sync.
 void add_sync_option(Arguments& arguments, PipelineOptions& options);
 /// --strict, --allow, --check-invariants.
@@ -46,8 +46,8 @@ void add_warning_options(Arguments& arguments, PipelineOptions& options);
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
 /// Settings for a plan: splits values at "="; problems point into the command line.
-pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
-                                     Problems& problems);
+[[nodiscard]] pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
+                                                   Problems& problems);
 
 /// Whether the text names a file, and not a ready pipeline or standard input. An inaccessible file counts,
 /// because opening it reports the reason.
@@ -55,11 +55,12 @@ bool is_pipeline_file(const std::string& pipeline);
 
 /// The text and name of a file, of standard input ("-"), or of a ready pipeline. Throws missing if it does
 /// not exist.
-std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);
+[[nodiscard]] std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);
 
 /// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Adds problems; throws
 /// missing for a file that cannot be read.
-pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems);
+[[nodiscard]] pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings,
+                                     Problems& problems);
 
 /// Whether there are errors. If so, prints all problems, and writes and names the reports of these plans as
 /// far as known; the exit code is usage.
@@ -78,9 +79,9 @@ void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions&
 /// Runs a plan with messages and progress. Writes the depfile on success. Returns the exit code.
 /// pipeline_file: the plan's file, for the depfile; empty if it has none. written: receives the outputs,
 /// except input files that already had the same bytes.
-int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
-                      const std::string& pipeline_file,
-                      std::vector<std::filesystem::path>* written = nullptr);
+[[nodiscard]] int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options,
+                                    const Console& console, const std::string& pipeline_file,
+                                    std::vector<std::filesystem::path>* written = nullptr);
 
 /// Plans each pipeline independently; params need no value. look: receives each plan without errors, and may
 /// throw for an invalid input. Finally calls settle for all problems.

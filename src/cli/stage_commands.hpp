@@ -16,6 +16,6 @@ bool names_result(const StageInfo& stage, const std::string& word);
 /// The command to type instead, for words that begin with a stage and continue with files and options as in
 /// other programs: "facetmill pipe load part.stl ! validate --closed; facetmill validate --help lists its
 /// options".
-std::string as_pipe(std::string_view stage, const std::vector<std::string>& words);
+[[nodiscard]] std::string as_pipe(std::string_view stage, const std::vector<std::string>& words);
 
 } // namespace facetmill::cli

@@ -15,6 +15,6 @@ struct Topic {
 };
 
 /// Guides, pages, commands and stages, in the order of the list; for equal names, the first wins.
-std::vector<Topic> topics();
+[[nodiscard]] std::vector<Topic> topics();
 
 } // namespace facetmill::cli

@@ -17,7 +17,7 @@ struct Job {
 
 /// Groups up to `size` jobs into a job, in order. A failing run does not stop the other runs of its group.
 /// Throws usage (E-EXPORT) for a job without outputs.
-std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size);
+[[nodiscard]] std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size);
 
 /// The resources of parallel jobs.
 struct Resources {
@@ -32,12 +32,12 @@ struct Lanes {
     std::size_t small = 1, large = 0;
     std::uint64_t small_up_to = 0; ///< bytes; jobs that need more are large
 };
-Lanes lanes_of(const std::vector<Job>& jobs, const Resources& resources);
+[[nodiscard]] Lanes lanes_of(const std::vector<Job>& jobs, const Resources& resources);
 
 /// Throws usage (E-EXPORT) for a job without outputs, and for a group whose command exceeds the shell's
 /// limit. Throws output (E-DEPFILE) for a name with a line break, which these engines cannot represent.
-std::string ninja_workflow(const std::vector<Job>& jobs, const Resources& resources);
-std::string make_workflow(const std::vector<Job>& jobs, const Resources& resources);
-std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources);
+[[nodiscard]] std::string ninja_workflow(const std::vector<Job>& jobs, const Resources& resources);
+[[nodiscard]] std::string make_workflow(const std::vector<Job>& jobs, const Resources& resources);
+[[nodiscard]] std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources);
 
 } // namespace facetmill::cli

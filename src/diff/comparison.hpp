@@ -75,25 +75,27 @@ struct Comparison {
 /// and by value if both have the same number of elements. Materials are compared by name, appearance and
 /// faces, parts by name. For glTF documents, contents other than meshes are compared too. In world space;
 /// both scenes must use the same convention.
-Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
+[[nodiscard]] Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
 
 /// {a, b, same, complete, left_out, sections: {counts: {same, decides, lines: [{name, a, b, same, compared,
 /// note}]}, ...}, geometry_of: {a, b}, deviation}.
-Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
+[[nodiscard]] Json to_json(const Comparison& comparison, const std::string& name_a,
+                           const std::string& name_b);
 /// A table; equal lines only with `all`.
-std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
-                    bool all);
+[[nodiscard]] std::string to_text(const Comparison& comparison, const std::string& name_a,
+                                  const std::string& name_b, bool all);
 /// A self-contained page with the verdict, and both scenes by the same camera with a slider. It shows both
 /// files side by side, added, removed and changed parts and materials, distances as colours, and the
 /// different lines. Files have the shortest names that distinguish them.
-std::string to_html(const Comparison& comparison, const std::string& path_a, const std::string& path_b,
-                    const ComparisonPictures& pictures);
+[[nodiscard]] std::string to_html(const Comparison& comparison, const std::string& path_a,
+                                  const std::string& path_b, const ComparisonPictures& pictures);
 /// "agree", "differ", "agree in everything that was compared".
-std::string verdict_of(const Comparison& comparison);
+[[nodiscard]] std::string verdict_of(const Comparison& comparison);
 /// "counts, geometry": the sections with a relevant difference.
-std::string differs_in(const Comparison& comparison);
+[[nodiscard]] std::string differs_in(const Comparison& comparison);
 /// Tables for the description of a change, with the same names as to_html.
-std::string to_markdown(const Comparison& comparison, const std::string& path_a, const std::string& path_b);
-Json comparison_schema();
+[[nodiscard]] std::string to_markdown(const Comparison& comparison, const std::string& path_a,
+                                      const std::string& path_b);
+[[nodiscard]] Json comparison_schema();
 
 } // namespace facetmill::report

@@ -17,6 +17,6 @@ struct Origin {
 /// that of A times 0.001 ...". Empty if the boxes are equal, or no such conversion makes them equal (corners
 /// within a hundredth of the diagonal). For conventions that a file does not state, the command line's value
 /// may be wrong, so the hint refers to the original files. O(faces).
-std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin);
+[[nodiscard]] std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin);
 
 } // namespace facetmill::report

@@ -34,7 +34,7 @@ struct FolderPair {
     std::string picture_a, picture_b;  ///< small PNGs in base64; empty: none
     std::vector<Diagnostic> not_drawn; ///< textures missing in pictures
 };
-const char* to_string(FolderPair::Outcome outcome);
+[[nodiscard]] const char* to_string(FolderPair::Outcome outcome);
 
 struct FolderComparison {
     std::vector<FolderPair> pairs; ///< by path
@@ -44,21 +44,24 @@ struct FolderComparison {
 /// The mesh files below both folders, sorted by path. Files with the same path are a pair. Remaining files
 /// whose paths differ only by suffix are pairs too (a.ply, a.glb), if each folder has only one. Does not
 /// follow links to folders. Throws missing (E-FILE) for an unreadable folder.
-std::vector<PairedPaths> pairs_in(const std::filesystem::path& a, const std::filesystem::path& b);
+[[nodiscard]] std::vector<PairedPaths> pairs_in(const std::filesystem::path& a,
+                                                const std::filesystem::path& b);
 
 /// Sets the pair's data for the index.
 void tell(const Comparison& comparison, FolderPair& pair);
 
 /// Indices of the pairs, the worst first: failures, then by deviation.
-std::vector<std::size_t> worst_first(const FolderComparison& comparison);
+[[nodiscard]] std::vector<std::size_t> worst_first(const FolderComparison& comparison);
 
-std::string to_text(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b,
-                    bool all);
-Json to_json(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b);
+[[nodiscard]] std::string to_text(const FolderComparison& comparison, const std::string& name_a,
+                                  const std::string& name_b, bool all);
+[[nodiscard]] Json to_json(const FolderComparison& comparison, const std::string& name_a,
+                           const std::string& name_b);
 /// A page with a row for each pair, linked to the pair's page.
-std::string to_html(const FolderComparison& comparison, const std::string& name_a, const std::string& name_b);
-std::string to_markdown(const FolderComparison& comparison, const std::string& name_a,
-                        const std::string& name_b);
-Json folder_comparison_schema();
+[[nodiscard]] std::string to_html(const FolderComparison& comparison, const std::string& name_a,
+                                  const std::string& name_b);
+[[nodiscard]] std::string to_markdown(const FolderComparison& comparison, const std::string& name_a,
+                                      const std::string& name_b);
+[[nodiscard]] Json folder_comparison_schema();
 
 } // namespace facetmill::report

@@ -16,11 +16,11 @@ struct ItemChange {
     std::string before, after; ///< description: "1,200 faces"; empty: missing
     std::string note;          ///< the difference of a changed item
 };
-const char* to_string(ItemChange::Change change);
+[[nodiscard]] const char* to_string(ItemChange::Change change);
 
 /// Parts first, each list in the order of the first scene, then items that only the second has. Two parts are
 /// equal if their counts match and no point moved farther than `most`, in world space. Two materials are
 /// equal if colour, sides and all glTF data match. O(n).
-std::vector<ItemChange> item_changes(const Scene& a, const Scene& b, double most);
+[[nodiscard]] std::vector<ItemChange> item_changes(const Scene& a, const Scene& b, double most);
 
 } // namespace facetmill::report

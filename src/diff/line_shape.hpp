@@ -22,6 +22,6 @@ struct LineShape {
 };
 
 /// The lines by material (none: without material). O(lines log materials).
-std::map<Index, LineShape> lines_by_material(const Scene& scene);
+[[nodiscard]] std::map<Index, LineShape> lines_by_material(const Scene& scene);
 
 } // namespace facetmill::report

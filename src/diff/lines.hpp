@@ -25,7 +25,8 @@ struct Comparing {
 };
 
 /// The lines of a section, in order.
-inline std::vector<const Difference*> of_section(const Comparison& comparison, const std::string& section) {
+[[nodiscard]] inline std::vector<const Difference*> of_section(const Comparison& comparison,
+                                                               const std::string& section) {
     std::vector<const Difference*> lines;
     for (const auto& d : comparison.lines)
         if (d.section == section) lines.push_back(&d);
@@ -35,10 +36,10 @@ inline std::vector<const Difference*> of_section(const Comparison& comparison, c
 using Limit = ComparisonSettings::Limit;
 
 /// Null for numbers that JSON does not have.
-inline Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+[[nodiscard]] inline Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 /// The maximum distance of the surfaces: as given, or, without any limit, the rounding error of float32.
-std::optional<Limit> maximum_of(const ComparisonSettings& settings);
+[[nodiscard]] std::optional<Limit> maximum_of(const ComparisonSettings& settings);
 
 /// The number of items, and their names in order.
 template <class List>

@@ -21,7 +21,7 @@ struct ComparisonPictures {
 
 /// Both use the camera of the first scene, or a camera that shows both if the second is larger. No distances
 /// if a scene is empty, or if nothing differs. Names: of the files as given. O((vertices + faces) log n).
-ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std::string& name_a,
-                                       const std::string& name_b);
+[[nodiscard]] ComparisonPictures comparison_pictures(const Scene& a, const Scene& b,
+                                                     const std::string& name_a, const std::string& name_b);
 
 } // namespace facetmill::report

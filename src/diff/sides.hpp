@@ -16,6 +16,6 @@ struct Turned {
 /// Compares the signs of volumes, and for open surfaces the sums of area vectors. It compares components
 /// (connected across edges, within a part) if both scenes have the same number, areas and positions in the
 /// same order. Otherwise it compares the whole scenes. O(n).
-Turned turned_round(const Scene& a, const Scene& b);
+[[nodiscard]] Turned turned_round(const Scene& a, const Scene& b);
 
 } // namespace facetmill::report

@@ -17,7 +17,7 @@ struct OptionRow {
     Dimension dimension = Dimension::none;
 };
 
-std::vector<OptionRow> rows(const Declaration& declaration);
+[[nodiscard]] std::vector<OptionRow> rows(const Declaration& declaration);
 /// A field of a result as people read it. Fields of an object or a list follow it.
 struct FieldRow {
     std::string name; ///< "parts[].before.area"
@@ -26,22 +26,22 @@ struct FieldRow {
     std::vector<Choice> choices;
 };
 
-std::vector<FieldRow> rows(const Fields& fields);
+[[nodiscard]] std::vector<FieldRow> rows(const Fields& fields);
 /// "at most one of ratio, faces", one per rule.
-std::vector<std::string> rules(const Declaration& declaration);
+[[nodiscard]] std::vector<std::string> rules(const Declaration& declaration);
 /// How the numbers of a dimension are spelled: "A length is ...", or empty.
-std::string spelling_help(Dimension dimension);
+[[nodiscard]] std::string spelling_help(Dimension dimension);
 /// spelling_help of every dimension that the rows use, once each.
-std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
+[[nodiscard]] std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
 
 /// Breaks text at blanks into lines of at most width characters, each indented by indent blanks. A longer
 /// word gets its own line; line breaks in the text are kept.
-std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
 
 /// The lines of each paragraph joined: help is written as raw strings of short lines.
-std::string joined_lines(std::string_view text);
+[[nodiscard]] std::string joined_lines(std::string_view text);
 
 /// A text as roff shows it: no requests, no escapes, hyphens that can be copied.
-std::string roff(std::string_view text);
+[[nodiscard]] std::string roff(std::string_view text);
 
 } // namespace facetmill::docs

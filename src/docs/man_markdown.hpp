@@ -8,6 +8,6 @@ namespace facetmill::docs {
 
 /// Converts a page with the macros that man/ uses: headings, paragraphs, lists of terms, examples, fonts.
 /// Bold and italic text is written in backticks.
-std::string markdown_of_man(std::string_view page);
+[[nodiscard]] std::string markdown_of_man(std::string_view page);
 
 } // namespace facetmill::docs

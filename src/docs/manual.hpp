@@ -19,6 +19,6 @@ const std::vector<ManualPage>& manual_pages();
 /// The roff manual page of pipeline files; its name is the page's name.
 const ManualPage& pipeline_man_page();
 /// The first line without the heading mark.
-std::string title_of(const ManualPage& page);
+[[nodiscard]] std::string title_of(const ManualPage& page);
 
 } // namespace facetmill::docs

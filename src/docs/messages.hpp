@@ -8,16 +8,16 @@
 namespace facetmill::docs {
 
 /// An id as people may type it: "w-units" -> "W-UNITS".
-std::string id_of(std::string text);
+[[nodiscard]] std::string id_of(std::string text);
 /// One line per id.
-std::string message_list();
+[[nodiscard]] std::string message_list();
 /// The page of one id: its meaning, its exit code, the remedy.
-std::string message_page(const MessageId& message);
+[[nodiscard]] std::string message_page(const MessageId& message);
 /// All ids, as one Markdown page.
-std::string messages_markdown();
+[[nodiscard]] std::string messages_markdown();
 /// All ids as a manual page, facetmill-messages(7).
-std::string messages_man();
+[[nodiscard]] std::string messages_man();
 /// The registry as JSON: id, severity, exit codes, meaning, hint.
-Json messages_json();
+[[nodiscard]] Json messages_json();
 
 } // namespace facetmill::docs

@@ -14,7 +14,7 @@ struct ReadyPipeline {
 
 /// Sorted by name.
 const std::vector<ReadyPipeline>& ready_pipelines();
-const ReadyPipeline* ready_pipeline(std::string_view name);
-std::vector<std::string> ready_names();
+[[nodiscard]] const ReadyPipeline* ready_pipeline(std::string_view name);
+[[nodiscard]] std::vector<std::string> ready_names();
 
 } // namespace facetmill::docs

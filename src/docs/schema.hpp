@@ -10,15 +10,15 @@ namespace facetmill::docs {
 /// value may also be an expression (${x}). The schema accepts everything that `facetmill check` accepts
 /// (except the ratio 1.0, which it cannot distinguish from 1), and more: check validates ranges of
 /// quantities and names.
-Json pipeline_schema();
+[[nodiscard]] Json pipeline_schema();
 
 /// The same schema in which each form has one type at most, as strict validators want it: {"type": ["a",
 /// "b"]} is written with anyOf.
-Json with_single_types(Json schema);
+[[nodiscard]] Json with_single_types(Json schema);
 
 /// The schema of info --json: report::info_schema(), with the kinds of faces.
-Json info_schema();
+[[nodiscard]] Json info_schema();
 /// The schema of a run's report: report::schema(), with the declared result of each stage.
-Json report_schema();
+[[nodiscard]] Json report_schema();
 
 } // namespace facetmill::docs

@@ -7,18 +7,18 @@
 namespace facetmill::docs {
 
 /// The paragraphs of a stage, including its treatment of self-intersecting faces.
-std::string details_of(const StageInfo& stage);
+[[nodiscard]] std::string details_of(const StageInfo& stage);
 /// One line per stage.
-std::string stage_list();
+[[nodiscard]] std::string stage_list();
 /// The page of one stage: its purpose, options, rules, spelling of quantities and examples.
-std::string stage_page(const StageInfo& stage);
+[[nodiscard]] std::string stage_page(const StageInfo& stage);
 /// All stages, as one Markdown page.
-std::string stages_markdown();
+[[nodiscard]] std::string stages_markdown();
 /// A table of name and purpose in Markdown, for the README.
-std::string stages_markdown_table();
+[[nodiscard]] std::string stages_markdown_table();
 /// All stages as a manual page, facetmill-stages(7).
-std::string stages_man();
+[[nodiscard]] std::string stages_man();
 /// The registry as JSON: name, about, details, examples and option rows.
-Json stages_json();
+[[nodiscard]] Json stages_json();
 
 } // namespace facetmill::docs

@@ -10,7 +10,7 @@ struct LibraryVersion {
     std::string_view name, version;
 };
 
-std::string_view release();
+[[nodiscard]] std::string_view release();
 const std::vector<LibraryVersion>& library_versions();
 
 } // namespace facetmill::docs

@@ -15,20 +15,20 @@ namespace facetmill::io {
 /// The role that glTF gives the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n), if
 /// components and type fit it. Otherwise integers of 16 bits and more are identifiers (Role::index) and
 /// other numbers are generic.
-Role role_of(const std::string& name, int components, const AttributeData& data);
+[[nodiscard]] Role role_of(const std::string& name, int components, const AttributeData& data);
 
 /// Adds the attribute under a unique name: "quality_2" if the domain already has a "quality". Names that the
 /// mesh reserves ("primitive") are changed too.
 void add_attribute(Mesh& mesh, Attribute attribute);
 
 /// The elements of three components as vectors, in parallel.
-std::vector<Vec3> to_vectors(const Attribute& attribute);
+[[nodiscard]] std::vector<Vec3> to_vectors(const Attribute& attribute);
 
 /// Gives the wedges after the first `vertices` the values of their vertices.
 void extend_to_wedges(Attribute& attribute, std::span<const Index> wedge_vertex, std::size_t vertices);
 
 /// The attribute with only the elements [kept], in that order.
-Attribute selected(const Attribute& attribute, std::span<const Index> kept);
+[[nodiscard]] Attribute selected(const Attribute& attribute, std::span<const Index> kept);
 
 /// NaN marks a missing value in generic attributes and stays; infinite values become NaN. In attributes that
 /// draw or move a surface, values that are not finite become 0. Warns of the changes (W-NAN).
@@ -39,7 +39,7 @@ using NanCounts = std::map<std::string, std::size_t>;
 /// Sets NaN attribute values to 0, for formats that cannot hold them.
 NanCounts zero_nan(Mesh& mesh);
 /// NaN values in attributes that primitives have, for formats that write attributes per primitive.
-NanCounts nan_of_primitives(const Mesh& mesh);
+[[nodiscard]] NanCounts nan_of_primitives(const Mesh& mesh);
 bool has_nan(const Mesh& mesh);
 /// Warns (W-NAN) of values that the format cannot hold.
 void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagnostic>& warnings);
@@ -57,7 +57,7 @@ struct Wedges {
 
 /// Wedge v is the first wedge of vertex v; further wedges follow in the order of their first corner.
 /// O(corners).
-Wedges make_wedges(std::size_t vertices, std::vector<Index> corner_vertex,
-                   std::span<const std::uint64_t> corner_key);
+[[nodiscard]] Wedges make_wedges(std::size_t vertices, std::vector<Index> corner_vertex,
+                                 std::span<const std::uint64_t> corner_key);
 
 } // namespace facetmill::io

@@ -19,17 +19,17 @@ namespace facetmill::io {
 using Bytes = std::vector<std::byte>;
 using Span = std::span<const std::byte>;
 
-inline std::string_view as_text(Span bytes) {
+[[nodiscard]] inline std::string_view as_text(Span bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-inline Bytes bytes_of_text(std::string_view text) {
+[[nodiscard]] inline Bytes bytes_of_text(std::string_view text) {
     const auto bytes = std::as_bytes(std::span(text));
     return {bytes.begin(), bytes.end()};
 }
 
 /// The number of so many bytes (at most 8) at a place that has them, the least significant first.
-inline std::uint64_t little_endian(Span bytes, std::size_t at, std::size_t size) {
+[[nodiscard]] inline std::uint64_t little_endian(Span bytes, std::size_t at, std::size_t size) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < size; ++i) value |= std::to_integer<std::uint64_t>(bytes[at + i]) << (8 * i);
     return value;

@@ -264,21 +264,22 @@ struct RegisterCodec {
 
 const std::vector<Codec>& codecs();
 /// The codec for a file name's extension (.gz and .zst ignored), or null.
-const Codec* codec_for(const std::filesystem::path& path);
+[[nodiscard]] const Codec* codec_for(const std::filesystem::path& path);
 /// The codec whose magic number the input begins with, or null. If several match, the file name decides.
-const Codec* sure_codec(const Input& input);
-const Codec* codec_named(std::string_view name);
+[[nodiscard]] const Codec* sure_codec(const Input& input);
+[[nodiscard]] const Codec* codec_named(std::string_view name);
 /// The names of all codecs that read, or that write, sorted.
-std::vector<std::string> names_of_readers();
-std::vector<std::string> names_of_writers();
+[[nodiscard]] std::vector<std::string> names_of_readers();
+[[nodiscard]] std::vector<std::string> names_of_writers();
 
 /// Reads a mesh file. A magic number decides the format, otherwise the extension does. Text may be UTF-8 or
 /// UTF-16. Throws as Codec::read, and usage (E-FORMAT) if no codec reads it. Positions that are not finite
 /// are malformed (E-NAN, with vertex and file) unless ReadSettings::drop_not_finite is set.
-Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log,
-                 const Codec* forced = nullptr);
+[[nodiscard]] Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log,
+                               const Codec* forced = nullptr);
 
 /// Detects the format of a file and reads its header. Throws as read_scene for errors in the header.
-FileHeader file_header(const Input& file, const ReadSettings& settings, const Codec* forced = nullptr);
+[[nodiscard]] FileHeader file_header(const Input& file, const ReadSettings& settings,
+                                     const Codec* forced = nullptr);
 
 } // namespace facetmill::io

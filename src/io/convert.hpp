@@ -20,7 +20,7 @@ struct Conversion {
 };
 
 /// A quarter turn about x that turns the axis `from` to `to`; identity if they are the same.
-Transform turn_up(UpAxis from, UpAxis to);
+[[nodiscard]] Transform turn_up(UpAxis from, UpAxis to);
 
 /// Converts the scene by changing the transforms of its parts; meshes stay unchanged. An unknown unit or
 /// axis in the target keeps the scene's. Skinned parts are moved in bind pose.

@@ -14,12 +14,12 @@ namespace facetmill::io {
 /// further columns, empty lines, text after #, and a first line that does not start with a number (a
 /// heading). If the heading has all of `names`, in any case, it selects the columns; otherwise the first
 /// columns are read. Returns the numbers row by row. Throws malformed (E-CSV) with the line.
-std::vector<double> read_table(const Input& input, std::size_t columns,
-                               std::span<const std::string_view> names = {});
+[[nodiscard]] std::vector<double> read_table(const Input& input, std::size_t columns,
+                                             std::span<const std::string_view> names = {});
 
 /// A number as the shortest text that reads back the same; empty when it is not finite.
-std::string csv_number(double x);
+[[nodiscard]] std::string csv_number(double x);
 /// A text, quoted if CSV requires it.
-std::string csv_text(const std::string& text);
+[[nodiscard]] std::string csv_text(const std::string& text);
 
 } // namespace facetmill::io

@@ -9,7 +9,7 @@ namespace facetmill::io {
 /// its mark or, without a mark, by a zero in every second byte at the start. Use it only for files without a
 /// magic number, because binary files may begin with any bytes. Throws malformed (E-ENCODING) with the
 /// offset for UTF-32 and for unpaired surrogates.
-Input in_utf8(const Input& input);
+[[nodiscard]] Input in_utf8(const Input& input);
 
 /// Whether in_utf8 returns the input unchanged. Looks only at its start.
 bool is_plain_utf8(const Input& input);

@@ -62,10 +62,10 @@ bool is_missed(const Attribute& attribute);
 void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format);
 
 /// A name that fits on a line: control characters become blanks.
-std::string one_line(std::string name);
+[[nodiscard]] std::string one_line(std::string name);
 
 /// Some of the names, and the number of others.
-std::string some_of(const std::vector<std::string>& names);
+[[nodiscard]] std::string some_of(const std::vector<std::string>& names);
 
 /// Writes numbers, text or bytes chunk by chunk in parallel and joins them in order. write(begin, end,
 /// std::string& out) appends the text of items [begin, end).

@@ -39,6 +39,6 @@ class MaterialDocument {
 
 /// The images that the document's materials name, each once, in the order in which a written document copies
 /// them.
-std::vector<std::size_t> images_of_materials(const Json& document);
+[[nodiscard]] std::vector<std::size_t> images_of_materials(const Json& document);
 
 } // namespace facetmill::io

@@ -13,7 +13,7 @@ inline constexpr const char* drop_not_finite_hint =
     "load: {not_finite: drop} leaves out such vertices and the faces at them";
 
 /// The next coordinate of the text: finite only, or any number if the caller checks it later.
-inline double coordinate(Text& text, const char* what, bool any) {
+[[nodiscard]] inline double coordinate(Text& text, const char* what, bool any) {
     return any ? text.real(what) : text.coordinate(what);
 }
 
@@ -25,6 +25,6 @@ struct NotFinite {
 
 /// Drops the part's vertices with coordinates that are not finite, and the faces and lines that use them.
 /// Everything else keeps its order and attributes. Copies nothing if all vertices are finite.
-NotFinite drop_not_finite(Part& part);
+[[nodiscard]] NotFinite drop_not_finite(Part& part);
 
 } // namespace facetmill::io

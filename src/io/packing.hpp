@@ -9,25 +9,25 @@ namespace facetmill::io {
 enum class Packing { none, gzip, zstd, deflate };
 
 /// The compression of the bytes, by their magic number.
-Packing packing_of(Span bytes);
+[[nodiscard]] Packing packing_of(Span bytes);
 /// The compression that a file name asks for: .gz, .zst.
-Packing packing_named(const std::filesystem::path& path);
+[[nodiscard]] Packing packing_named(const std::filesystem::path& path);
 /// The path without .gz or .zst.
-std::filesystem::path without_packing(const std::filesystem::path& path);
+[[nodiscard]] std::filesystem::path without_packing(const std::filesystem::path& path);
 /// The start of the names of an output's neighbours (.bin, .mtl, images). It is the output's stem, with _
 /// for backslashes, because readers take a backslash for a slash.
-std::string stem_of_neighbours(const std::filesystem::path& output);
+[[nodiscard]] std::string stem_of_neighbours(const std::filesystem::path& output);
 
 /// The maximum unpacked size of a compressed file: 64 MiB or 200 times its size, whichever is larger. Text
 /// meshes compress at most 50 times. Deflate can reach 1032, which only a decompression bomb does.
-std::size_t most_unpacked(std::size_t compressed);
+[[nodiscard]] std::size_t most_unpacked(std::size_t compressed);
 
 /// Unpacks a compressed file of one or more members. Memory grows with the output, up to the limit and
 /// most_unpacked(). Throws limit (E-SIZE) beyond these, malformed (E-GZIP, E-ZSTD) with the offset.
-Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string& name);
+[[nodiscard]] Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string& name);
 
 /// The bytes as a compressed file without name and time, so that equal bytes give equal files.
-Bytes packed(Span bytes, Packing packing);
+[[nodiscard]] Bytes packed(Span bytes, Packing packing);
 
 /// Throws limit (E-SIZE): the file, or its content, is larger than the limit.
 [[noreturn]] void too_large(const std::string& name, std::size_t limit);

@@ -17,7 +17,7 @@ struct VertexChanges {
 
 /// Compares the counts of vertices and of distinct positions. Equal part counts: part by part in the parts'
 /// spaces; otherwise for the whole scene in world space. O(n log n).
-VertexChanges vertex_changes(const Scene& before, const Scene& after);
+[[nodiscard]] VertexChanges vertex_changes(const Scene& before, const Scene& after);
 
 struct ReadBack {
     Scene scene; ///< the file as decoded
@@ -42,7 +42,7 @@ struct ReadBack {
 /// (E-READBACK) otherwise. Changes to closedness, manifoldness, orientation, and degenerate or duplicate
 /// faces are reported in `losses`, without an error. written: the codec's result; only faces it counts as
 /// dropped may be missing.
-ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
-                   const Written& written = {});
+[[nodiscard]] ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene,
+                                 const WriteSettings& settings, const Written& written = {});
 
 } // namespace facetmill::io

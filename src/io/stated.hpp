@@ -18,14 +18,15 @@ struct Stated : Convention {
 
 /// A comment for the scene's unit and a comment for its up axis, if known, each after `before`. With the
 /// default end and `before` "# ": "# unit: m\n# up: y\n".
-std::string stated_comments(const Scene& scene, std::string_view before, std::string_view after = "\n");
+[[nodiscard]] std::string stated_comments(const Scene& scene, std::string_view before,
+                                          std::string_view after = "\n");
 
 /// Takes the unit or axis that a comment states. The last statement wins; other comments are ignored.
 void take_comment(std::string_view comment, Stated& stated);
 
 /// The statements of the comments (#) at the start of a text, up to its first other line. If that line ends
 /// with `keyword` (ignoring a comment), the comments after it count too.
-Stated stated_in_lines(std::string_view text, std::string_view keyword = {});
+[[nodiscard]] Stated stated_in_lines(std::string_view text, std::string_view keyword = {});
 
 /// Sets the scene's unit and axis from the file's statements. Warns (W-UNITS, W-UP) of an invalid unit or
 /// axis, unless the load settings give it.
@@ -34,7 +35,7 @@ void take_stated(Scene& scene, const Stated& stated, const std::string& file, co
 void take_stated(FileHeader& header, const Convention& stated);
 
 /// W-OVERRIDDEN for the unit and for the axis, if the load settings differ from the file's statement.
-std::vector<ReadWarning> overridden(const std::string& file, const Convention& stated,
-                                    const ReadSettings& settings);
+[[nodiscard]] std::vector<ReadWarning> overridden(const std::string& file, const Convention& stated,
+                                                  const ReadSettings& settings);
 
 } // namespace facetmill::io

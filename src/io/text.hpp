@@ -23,7 +23,7 @@ namespace facetmill::io {
 /// character.
 bool scan_real(const char*& at, const char* end, double& value);
 /// Reads up to eight digits at `at`, moves past them, and returns their count.
-inline int take_digits(const char*& at, const char* end, std::uint64_t& value) {
+[[nodiscard]] inline int take_digits(const char*& at, const char* end, std::uint64_t& value) {
     constexpr std::uint64_t ones = 0x0101010101010101;
     if (std::endian::native != std::endian::little || end - at < 8) {
         int many = 0;
@@ -158,6 +158,6 @@ class Text {
 };
 
 /// A word for a message: in quotes, cut when long, control characters as dots.
-std::string in_quotes(std::string_view word);
+[[nodiscard]] std::string in_quotes(std::string_view word);
 
 } // namespace facetmill::io

@@ -9,7 +9,7 @@
 namespace facetmill {
 
 /// aspect_ratio of a triangle with edges of these lengths.
-inline double aspect_ratio(double x, double y, double z, double area) {
+[[nodiscard]] inline double aspect_ratio(double x, double y, double z, double area) {
     return area > 0 ? std::max({x, y, z}) * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
 }
 
@@ -17,7 +17,7 @@ inline double aspect_ratio(double x, double y, double z, double area) {
 /// * perimeter / (4 sqrt(3) * area). 1 for equal sides, infinite without area. This is the meaning of
 /// aspect_ratio everywhere (C. Stimpson, C. Ernst, P. Knupp, P. Pebay, D. Thompson, 'The Verdict Geometric
 /// Quality Library', 2007).
-inline double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
+[[nodiscard]] inline double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
     return aspect_ratio(length(b - a), length(c - b), length(a - c), length(cross(b - a, c - a)) / 2);
 }
 

@@ -74,6 +74,6 @@ T as_component(double x) {
 }
 
 /// The name of a domain as users see it.
-const char* to_string(Domain domain);
+[[nodiscard]] const char* to_string(Domain domain);
 
 } // namespace facetmill

@@ -18,11 +18,11 @@ struct AttributeChange {
 
     bool operator==(const AttributeChange&) const = default;
 };
-const char* to_string(AttributeChange::Kind kind);
+[[nodiscard]] const char* to_string(AttributeChange::Kind kind);
 using AttributeChanges = std::vector<AttributeChange>;
 
 /// All of the attributes, kept.
-AttributeChanges kept_changes(const std::vector<Attribute>& attributes);
+[[nodiscard]] AttributeChanges kept_changes(const std::vector<Attribute>& attributes);
 
 /// Adds the changes of a parallel or later operation. For an attribute in both lists, `more` wins unless it
 /// is kept. The order is by first mention.
@@ -30,7 +30,7 @@ void merge_changes(AttributeChanges& all, const AttributeChanges& more);
 
 /// The changes of two consecutive steps: the attributes of the second, in its order. Attributes that the
 /// second kept have their change in the first.
-AttributeChanges changes_in_sequence(const AttributeChanges& first, AttributeChanges second);
+[[nodiscard]] AttributeChanges changes_in_sequence(const AttributeChanges& first, AttributeChanges second);
 
 /// Removes the entries of the attribute: an attribute for internal use does not concern users.
 void forget_change(AttributeChanges& changes, std::string_view attribute);

@@ -34,17 +34,17 @@ struct Buckets {
 };
 
 /// The first of the high bits that select the bucket of a vertex: 11 bits, so at most 2048 buckets.
-inline int shift_of_buckets(std::size_t vertices) {
+[[nodiscard]] inline int shift_of_buckets(std::size_t vertices) {
     const auto bits = static_cast<int>(std::bit_width(vertices > 0 ? vertices - 1 : 0));
     return std::max(0, bits - 11);
 }
-inline std::size_t number_of_buckets(std::size_t vertices) {
+[[nodiscard]] inline std::size_t number_of_buckets(std::size_t vertices) {
     return vertices == 0 ? 0 : ((vertices - 1) >> shift_of_buckets(vertices)) + 1;
 }
 
 /// visit(f, emit) calls emit(vertex, item) for each contribution of face f.
 template <class Item, class Visit>
-Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visit) {
+[[nodiscard]] Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visit) {
     constexpr std::size_t chunk = std::size_t{1} << 15;
     Buckets<Item> result;
     result.shift = shift_of_buckets(vertices);
@@ -74,7 +74,7 @@ Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visi
     return result;
 }
 template <class Item, class Visit>
-Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
+[[nodiscard]] Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
     return fill_buckets<Item>(mesh.face_count(), mesh.vertex_count(), std::forward<Visit>(visit));
 }
 

@@ -10,7 +10,7 @@ namespace facetmill {
 /// the origin; negative where the faces face inwards. Exact up to rounding for a closed component; for an
 /// open component it depends on that corner. place(corner) returns the position of a corner.
 template <class Place>
-std::vector<double> six_volumes(const Mesh& mesh, const Components& components, Place&& place) {
+[[nodiscard]] std::vector<double> six_volumes(const Mesh& mesh, const Components& components, Place&& place) {
     std::vector<double> volumes(components.count, 0);
     std::vector<Index> first(components.count, none);
     for (Index f = 0; f < mesh.face_count(); ++f)
@@ -36,7 +36,7 @@ std::vector<double> six_volumes(const Mesh& mesh, const Components& components, 
     return volumes;
 }
 
-inline std::vector<double> six_volumes(const Mesh& mesh, const Components& components) {
+[[nodiscard]] inline std::vector<double> six_volumes(const Mesh& mesh, const Components& components) {
     return six_volumes(mesh, components, [&](Index c) { return mesh.point(c); });
 }
 

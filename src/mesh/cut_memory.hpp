@@ -44,6 +44,6 @@ struct CutMemory {
 };
 
 /// For each plane the number of the first one that is the same plane.
-std::vector<std::size_t> first_same_planes(std::span<const Plane> planes);
+[[nodiscard]] std::vector<std::size_t> first_same_planes(std::span<const Plane> planes);
 
 } // namespace facetmill

@@ -12,11 +12,11 @@ namespace facetmill {
 
 /// Alike for numbers that are equal, and for two that are no numbers (NaN) of the same bits, which have no
 /// order among the others and so cannot be keys themselves.
-std::uint64_t key_of(double number);
+[[nodiscard]] std::uint64_t key_of(double number);
 
 /// The keys of where the axes of a space point in the world, and how long they are: the same for spaces that
 /// differ by a move.
-std::array<std::uint64_t, 9> axes_in_world(const Transform& to_world);
+[[nodiscard]] std::array<std::uint64_t, 9> axes_in_world(const Transform& to_world);
 
 /// Parts whose meshes are equal to the bit, with attributes and primitives, wherever they are. O(data).
 struct DistinctParts {
@@ -41,6 +41,6 @@ struct DistinctParts {
 };
 
 /// ... which differ by a move only: in the world they have the same shape.
-DistinctParts distinct_shapes(const Scene& scene);
+[[nodiscard]] DistinctParts distinct_shapes(const Scene& scene);
 
 } // namespace facetmill

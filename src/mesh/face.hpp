@@ -6,14 +6,18 @@
 namespace facetmill {
 
 /// The corners after and before c in a face of the corners [begin, end).
-inline Index next_corner(Index c, Index begin, Index end) { return c + 1 == end ? begin : c + 1; }
-inline Index previous_corner(Index c, Index begin, Index end) { return c == begin ? end - 1 : c - 1; }
+[[nodiscard]] inline Index next_corner(Index c, Index begin, Index end) {
+    return c + 1 == end ? begin : c + 1;
+}
+[[nodiscard]] inline Index previous_corner(Index c, Index begin, Index end) {
+    return c == begin ? end - 1 : c - 1;
+}
 
 /// The corners after and before c in face f, which has it.
-inline Index next_corner(const Mesh& mesh, Index f, Index c) {
+[[nodiscard]] inline Index next_corner(const Mesh& mesh, Index f, Index c) {
     return next_corner(c, mesh.face_begin(f), mesh.face_end(f));
 }
-inline Index previous_corner(const Mesh& mesh, Index f, Index c) {
+[[nodiscard]] inline Index previous_corner(const Mesh& mesh, Index f, Index c) {
     return previous_corner(c, mesh.face_begin(f), mesh.face_end(f));
 }
 
@@ -21,7 +25,7 @@ inline Index previous_corner(const Mesh& mesh, Index f, Index c) {
 /// R. F. Sproull and R. A. Schumacker, "A characterization of ten hidden-surface algorithms", 1974).
 /// place(corner) returns the position of a corner.
 template <class Place>
-Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
+[[nodiscard]] Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
     Vec3 sum;
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     const Vec3 first = place(begin);
@@ -29,12 +33,12 @@ Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
     return sum;
 }
 
-inline Vec3 area_vector(const Mesh& mesh, Index f) {
+[[nodiscard]] inline Vec3 area_vector(const Mesh& mesh, Index f) {
     return area_vector_at(mesh, f, [&](Index c) { return mesh.point(c); });
 }
 
 /// In world space (a mirroring transform reverses it).
-inline Vec3 area_vector(const Mesh& mesh, Index f, const Transform& to_world) {
+[[nodiscard]] inline Vec3 area_vector(const Mesh& mesh, Index f, const Transform& to_world) {
     const Vec3& first = mesh.point(mesh.face_begin(f));
     return area_vector_at(mesh, f, [&](Index c) { return to_world.vector(mesh.point(c) - first); });
 }
@@ -45,17 +49,19 @@ inline bool exceeds_feature_angle(double dot_product, double cosine) { return do
 
 /// The sum of the corners of face f. place(corner) returns the position of a corner.
 template <class Place>
-Vec3 corner_sum_at(const Mesh& mesh, Index f, Place&& place) {
+[[nodiscard]] Vec3 corner_sum_at(const Mesh& mesh, Index f, Place&& place) {
     Vec3 sum;
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += place(c);
     return sum;
 }
 
 /// The mean of the corners of face f, at points[vertex].
-inline Vec3 corner_mean(const Mesh& mesh, Index f, const std::vector<Vec3>& points) {
+[[nodiscard]] inline Vec3 corner_mean(const Mesh& mesh, Index f, const std::vector<Vec3>& points) {
     return corner_sum_at(mesh, f, [&](Index c) { return points[mesh.vertex(c)]; }) / mesh.face_size(f);
 }
-inline Vec3 corner_mean(const Mesh& mesh, Index f) { return corner_mean(mesh, f, mesh.positions); }
+[[nodiscard]] inline Vec3 corner_mean(const Mesh& mesh, Index f) {
+    return corner_mean(mesh, f, mesh.positions);
+}
 
 /// Widens the box by the corners of face f.
 inline void add_corners(Box& box, const Mesh& mesh, Index f) {

@@ -8,7 +8,7 @@ namespace facetmill {
 
 /// The box around the finite points among n points at(i), in parallel; empty if no point is finite.
 template <class At>
-Box box_of_finite(std::size_t n, const At& at) {
+[[nodiscard]] Box box_of_finite(std::size_t n, const At& at) {
     return parallel_reduce(
         n, Box{},
         [&](std::size_t begin, std::size_t end) {

@@ -11,7 +11,7 @@ namespace facetmill {
 /// number, the same for equal items; equal(i, j): whether two items are equal. Expected O(count), with 8 to
 /// 16 bytes an item in addition to the result, which depends on equal alone.
 template <class Hash, class Equal>
-std::vector<Index> first_of_equal(std::size_t count, Hash&& hash, Equal&& equal) {
+[[nodiscard]] std::vector<Index> first_of_equal(std::size_t count, Hash&& hash, Equal&& equal) {
     std::vector<Index> first(count), slots(std::bit_ceil(2 * count + 1), none);
     const std::size_t mask = slots.size() - 1;
     for (Index i = 0; i < count; ++i) {

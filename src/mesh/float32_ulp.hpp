@@ -10,7 +10,7 @@
 namespace facetmill {
 
 /// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box, and for one at the origin.
-inline double float32_ulp(const Box& bounds) {
+[[nodiscard]] inline double float32_ulp(const Box& bounds) {
     if (bounds.empty()) return 0;
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i)

@@ -9,7 +9,7 @@ namespace facetmill {
 /// The numbers below n for which is_wanted(number), ascending. The predicate is called once for each, from
 /// several threads.
 template <class IsWanted>
-std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
+[[nodiscard]] std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
     std::vector<std::vector<Index>> parts((n + default_chunk - 1) / default_chunk);
     parallel_chunks(n, [&](std::size_t begin, std::size_t end) {
         std::vector<Index>& part = parts[begin / default_chunk];

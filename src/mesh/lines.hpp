@@ -22,13 +22,13 @@ struct Lines {
 };
 
 /// The lines of the part in world space, under its name. O(n).
-Lines lines_of(const Part& part);
+[[nodiscard]] Lines lines_of(const Part& part);
 
 /// [vertices] 1 where a line of the mesh uses the vertex. O(n).
-std::vector<std::uint8_t> marked_ends_of_lines(const Mesh& mesh);
+[[nodiscard]] std::vector<std::uint8_t> marked_ends_of_lines(const Mesh& mesh);
 
 /// Separates the lines of a mesh that also has faces or points. Returns the lines, with their vertices and
 /// attributes, without primitives. Vertices that only lines use are removed from the mesh. O(n).
-Mesh split_lines(Mesh& mesh);
+[[nodiscard]] Mesh split_lines(Mesh& mesh);
 
 } // namespace facetmill

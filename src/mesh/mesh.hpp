@@ -92,7 +92,7 @@ struct Mesh {
 };
 
 /// The box around points, in parallel.
-Box box_of(std::span<const Vec3> points);
+[[nodiscard]] Box box_of(std::span<const Vec3> points);
 
 /// Name of the face attribute (Role::index, uint32, 1 component) that indexes Mesh::primitives.
 inline constexpr std::string_view primitive_attribute = "primitive";
@@ -120,7 +120,7 @@ std::size_t weld_exact(Mesh& mesh);
 /// diagonal (ties: the diagonal at the first corner). Larger faces become a fan when convex from some
 /// corner, else ears are clipped in the plane of the polygon's normal. Face attributes are copied, wedges
 /// untouched. Faces of fewer than three corners are dropped. The triangulate stage offers more.
-Mesh triangulated(const Mesh& mesh);
+[[nodiscard]] Mesh triangulated(const Mesh& mesh);
 
 /// Appends b to a: vertices, wedges, faces, lines, primitives. Attributes that one has none of: see
 /// append.cpp.

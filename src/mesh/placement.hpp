@@ -6,11 +6,11 @@
 namespace facetmill {
 
 /// The world position of a point of the part.
-inline Vec3 in_world(const Part& part, const Vec3& p) { return part.transform.point(p); }
+[[nodiscard]] inline Vec3 in_world(const Part& part, const Vec3& p) { return part.transform.point(p); }
 
 /// Only the positions and faces, with the same numbers of vertices, wedges, corners and faces; without
 /// attributes and primitives. O(n).
-inline Mesh bare(const Mesh& mesh) {
+[[nodiscard]] inline Mesh bare(const Mesh& mesh) {
     Mesh out;
     out.positions = mesh.positions;
     out.wedge_vertex = mesh.wedge_vertex;
@@ -21,7 +21,7 @@ inline Mesh bare(const Mesh& mesh) {
 
 /// The bare mesh of a part in world space; the faces of a mirrored part are reversed, so that they keep
 /// their front. O(n).
-inline Mesh in_world(const Part& part) {
+[[nodiscard]] inline Mesh in_world(const Part& part) {
     Mesh out = bare(part.mesh);
     apply(out, part.transform);
     return out;

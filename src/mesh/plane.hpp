@@ -21,7 +21,7 @@ struct Plane {
 /// doubles decides almost always; else the sum is evaluated as an expansion (J. R. Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997), and in integers where
 /// that would overflow or underflow. Finite numbers of any size.
-double side(const Plane& plane, const Vec3& p);
+[[nodiscard]] double side(const Plane& plane, const Vec3& p);
 
 /// Whether they are one set of points, exactly: whatever the length and the sense of their normals, and
 /// however they are written. Exact under the same conditions as side.
@@ -31,10 +31,10 @@ bool same_plane(const Plane& a, const Plane& b);
 /// plane, up to rounding of the new coefficients. The identity returns the same plane. normal and through
 /// are mapped, so that axis-aligned planes stay axis-aligned through a point; a singular map moves the
 /// offset instead.
-Plane pulled_back(const Plane& plane, const Transform& to_world);
+[[nodiscard]] Plane pulled_back(const Plane& plane, const Transform& to_world);
 
 /// The only axis along which the normal is not zero, or -1.
-int axis_of(const Plane& plane);
+[[nodiscard]] int axis_of(const Plane& plane);
 
 /// Throws usage (E-PLANE) for a normal that is zero or not finite, and for a point or offset that is not
 /// finite.

@@ -22,7 +22,7 @@ using FloatBits = std::array<std::uint32_t, 3>;
 
 /// A well-mixed number of the coordinates. Products of 128 bits are folded to 64 together with their
 /// factors, so that a factor 0 does not cancel the other (after Y. Wang et al., "wyhash", 2019).
-inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+[[nodiscard]] inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     __extension__ using Wide = unsigned __int128;
     const auto mixed = [](std::uint64_t x, std::uint64_t y) {
         const Wide product = Wide{x} * y;
@@ -31,9 +31,9 @@ inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t 
     constexpr std::uint64_t keys[] = {0xa0761d6478bd642f, 0xe7037ed1a0b428db, 0x8ebc6af09c88c6e3};
     return mixed(mixed(a ^ keys[0], b ^ keys[1]) ^ keys[2], c ^ keys[1]);
 }
-inline std::uint64_t place_hash(const FloatBits& p) { return place_hash(p[0], p[1], p[2]); }
+[[nodiscard]] inline std::uint64_t place_hash(const FloatBits& p) { return place_hash(p[0], p[1], p[2]); }
 /// The same for -0 and 0.
-inline std::uint64_t place_hash(const Vec3& p) {
+[[nodiscard]] inline std::uint64_t place_hash(const Vec3& p) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
     return place_hash(bits(p.x), bits(p.y), bits(p.z));
 }

@@ -24,24 +24,24 @@ struct PowerScale {
 
 /// Brings the longest side of the box to about 1, every axis alike: for lengths and areas. None while it is
 /// between about 1e-30 and 1e30, where sums of fifth powers have room enough.
-PowerScale even_scale(const Box& box);
+[[nodiscard]] PowerScale even_scale(const Box& box);
 
 /// Brings each side of the box to about 1 by its own power, for volumes and moments; none while all are
 /// within that range. A side of length zero stays.
-PowerScale axis_scale(const Box& box);
+[[nodiscard]] PowerScale axis_scale(const Box& box);
 
 /// x / 2^power: infinite or zero when beyond the range of doubles.
-double unscaled(double x, int power);
+[[nodiscard]] double unscaled(double x, int power);
 
 /// length(v), also where the square of it would overflow or vanish.
-double scaled_length(const Vec3& v);
+[[nodiscard]] double scaled_length(const Vec3& v);
 /// The same, scaled only where that is needed.
-inline double safe_length(const Vec3& v) {
+[[nodiscard]] inline double safe_length(const Vec3& v) {
     const double plain = length(v);
     return plain > 1e-140 && plain < 1e140 ? plain : scaled_length(v);
 }
 
 /// The length of the box's diagonal, also where the square of it would overflow or vanish; 0 when empty.
-double diagonal(const Box& box);
+[[nodiscard]] double diagonal(const Box& box);
 
 } // namespace facetmill

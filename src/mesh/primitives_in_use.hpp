@@ -10,6 +10,6 @@ namespace facetmill {
 
 /// [primitives] whether faces or lines are of the primitive; each is, where the mesh has only points. O(faces
 /// + lines).
-std::vector<bool> primitives_in_use(const Mesh& mesh);
+[[nodiscard]] std::vector<bool> primitives_in_use(const Mesh& mesh);
 
 } // namespace facetmill

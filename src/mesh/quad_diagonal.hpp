@@ -17,7 +17,7 @@ struct QuadDiagonals {
 };
 
 /// Face f must have four corners.
-QuadDiagonals quad_diagonals(const Mesh& mesh, Index f);
+[[nodiscard]] QuadDiagonals quad_diagonals(const Mesh& mesh, Index f);
 
 /// The diagonal of every quad, 1: from its second corner. Each is the one of quad_diagonals, unless
 /// that joins two vertices that an edge or an earlier quad's diagonal joins already while the other one is
@@ -26,6 +26,6 @@ struct QuadCuts {
     std::vector<std::uint8_t> at_second; ///< [faces]
     std::size_t coinciding = 0;
 };
-QuadCuts quad_cuts(const Mesh& mesh);
+[[nodiscard]] QuadCuts quad_cuts(const Mesh& mesh);
 
 } // namespace facetmill

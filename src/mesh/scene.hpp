@@ -14,12 +14,12 @@ enum class Unit { unknown, um, mm, cm, m, km, inch, foot };
 enum class UpAxis { unknown, y, z };
 
 /// Metres per unit; 0 for unknown.
-double metres(Unit unit);
+[[nodiscard]] double metres(Unit unit);
 /// "mm", "in", "unknown", ...
-const char* to_string(Unit unit);
-const char* to_string(UpAxis up);
+[[nodiscard]] const char* to_string(Unit unit);
+[[nodiscard]] const char* to_string(UpAxis up);
 /// The unit of that spelling, or none.
-std::optional<Unit> unit_named(std::string_view text);
+[[nodiscard]] std::optional<Unit> unit_named(std::string_view text);
 
 /// A glTF file as it was: the parsed document is the truth, and writing patches meshes, accessors,
 /// bufferViews and buffers in it and leaves all else alone.

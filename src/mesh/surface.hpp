@@ -30,25 +30,25 @@ struct Surface {
 /// The mesh in its own space, with its own vertices. Polygons are cut as `triangulated` does, so
 /// self-crossing polygons become overlapping fans (geometry/triangulate/crossing_faces.hpp has
 /// filled_surface).
-Surface surface_of(const Mesh& mesh);
+[[nodiscard]] Surface surface_of(const Mesh& mesh);
 
 using SurfaceOfMesh = Surface (*)(const Mesh&);
 /// The part in world space.
-Surface surface_of(const Part& part, SurfaceOfMesh of_mesh = surface_of);
+[[nodiscard]] Surface surface_of(const Part& part, SurfaceOfMesh of_mesh = surface_of);
 /// These parts, or all of a scene, in world space. Throws limit (E-LIMIT) when the vertices of all cannot be
 /// numbered.
-Surface surface_of(std::span<const Part* const> parts, SurfaceOfMesh of_mesh = surface_of);
-Surface surface_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
+[[nodiscard]] Surface surface_of(std::span<const Part* const> parts, SurfaceOfMesh of_mesh = surface_of);
+[[nodiscard]] Surface surface_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
 
 /// The vertices that no face uses, of all parts in world space, each as a triangle of one point without a
 /// face, so that distances work as for a surface. In the order of parts and vertices. Throws limit (E-LIMIT)
 /// when they cannot be numbered.
-Surface isolated_vertices_of(const Scene& scene);
+[[nodiscard]] Surface isolated_vertices_of(const Scene& scene);
 
 /// The basis of distances of a scene: its surface or, without faces, its points. Throws as above.
-Surface surface_or_points_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
+[[nodiscard]] Surface surface_or_points_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
 
 /// Both surfaces merged. Throws as above.
-Surface joined(Surface a, const Surface& b);
+[[nodiscard]] Surface joined(Surface a, const Surface& b);
 
 } // namespace facetmill

@@ -26,10 +26,10 @@ struct EdgeTable {
 };
 
 /// Builds the edge table; parallel radix sort, O(corners). The same for any number of threads.
-EdgeTable build_edges(const Mesh& mesh);
+[[nodiscard]] EdgeTable build_edges(const Mesh& mesh);
 
 /// The face of each corner.
-std::vector<Index> corner_faces(const Mesh& mesh);
+[[nodiscard]] std::vector<Index> corner_faces(const Mesh& mesh);
 
 /// An edge of exactly one face.
 struct BoundaryEdge {
@@ -37,13 +37,13 @@ struct BoundaryEdge {
     Index from, to;     ///< its vertices, as the face runs
 };
 /// In the order of the edge table: by (low vertex, high vertex).
-std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh);
+[[nodiscard]] std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh);
 /// The edges of exactly one face, and the edges of three, five ... faces, where all faces except one may
 /// pair up: one entry for each face. In the order of the edge table.
-std::vector<BoundaryEdge> odd_edges(const Mesh& mesh);
+[[nodiscard]] std::vector<BoundaryEdge> odd_edges(const Mesh& mesh);
 
 /// For each vertex the lowest one at exactly the same position (-0 is 0).
-std::vector<Index> lowest_at_place(const Mesh& mesh);
+[[nodiscard]] std::vector<Index> lowest_at_place(const Mesh& mesh);
 
 /// Lists per vertex in compressed form: items[offsets[v] .. offsets[v+1]].
 struct VertexLists {
@@ -55,7 +55,7 @@ struct VertexLists {
 };
 
 /// The corners at each vertex, ascending.
-VertexLists corners_at_vertices(const Mesh& mesh);
+[[nodiscard]] VertexLists corners_at_vertices(const Mesh& mesh);
 
 /// Component of each face (faces are connected when they share an edge or, with by_vertex, a vertex),
 /// numbered by first face; and their number.
@@ -63,11 +63,11 @@ struct Components {
     std::vector<Index> of_face;
     std::size_t count = 0;
 };
-Components face_components(const Mesh& mesh, bool by_vertex = true);
+[[nodiscard]] Components face_components(const Mesh& mesh, bool by_vertex = true);
 /// Components of faces connected over edges.
-Components face_components(const Mesh& mesh, const EdgeTable& edges);
+[[nodiscard]] Components face_components(const Mesh& mesh, const EdgeTable& edges);
 /// face_components(mesh).count, without the numbering.
-std::size_t component_count(const Mesh& mesh);
+[[nodiscard]] std::size_t component_count(const Mesh& mesh);
 
 /// Sets that are joined from several threads at once. A root only ever points to a lower one, so the root of
 /// a finished set is its lowest member, whatever the order of the joins.

@@ -10,10 +10,10 @@
 namespace facetmill {
 
 /// The inverse of an affine map; none when it is singular.
-std::optional<Transform> inverse(const Transform& t);
+[[nodiscard]] std::optional<Transform> inverse(const Transform& t);
 
 /// Transforms a normal direction: the cofactors times it.
-inline Vec3 moved_normal(const Transform& t, const Vec3& n) {
+[[nodiscard]] inline Vec3 moved_normal(const Transform& t, const Vec3& n) {
     const Vec3 x{t.m[0][0], t.m[0][1], t.m[0][2]}, y{t.m[1][0], t.m[1][1], t.m[1][2]},
         z{t.m[2][0], t.m[2][1], t.m[2][2]};
     return {dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n)};
@@ -21,21 +21,21 @@ inline Vec3 moved_normal(const Transform& t, const Vec3& n) {
 
 /// The vector turned about a unit axis, in radians, anticlockwise seen against the axis. After O. Rodrigues,
 /// "Des lois geometriques qui regissent les deplacements d'un systeme solide dans l'espace" (1840).
-inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
+[[nodiscard]] inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
     const double c = cosine(angle), s = sine(angle);
     return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
 }
 
 /// The cube root of the growth of volumes: the growth of lengths under a rotation and a uniform scale, and
 /// its geometric mean under others. 1 for a transform that flattens.
-inline double mean_stretch(const Transform& t) {
+[[nodiscard]] inline double mean_stretch(const Transform& t) {
     const double volume = std::abs(t.determinant());
     return volume > 0 && std::isfinite(volume) && volume != 1 ? exponential(logarithm(volume) / 3) : 1;
 }
 
 /// The greatest growth of any length: exact for similarities, else at most sqrt(3) times as much. 1 for a
 /// transform that flattens to a point.
-inline double greatest_stretch(const Transform& t) {
+[[nodiscard]] inline double greatest_stretch(const Transform& t) {
     const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
     const double xx = dot(x, x), sum = xx + dot(y, y) + dot(z, z), slack = 1e-9 * sum;
     const bool similar = std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&

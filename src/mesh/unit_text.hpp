@@ -6,6 +6,8 @@
 namespace facetmill {
 
 /// The unit to print after a length: "mm", or "scene units" if unknown.
-inline const char* unit_text(Unit unit) { return unit == Unit::unknown ? "scene units" : to_string(unit); }
+[[nodiscard]] inline const char* unit_text(Unit unit) {
+    return unit == Unit::unknown ? "scene units" : to_string(unit);
+}
 
 } // namespace facetmill

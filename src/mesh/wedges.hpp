@@ -6,8 +6,8 @@
 namespace facetmill {
 
 /// [wedges] -> vertex, also where the mesh has no seams.
-std::vector<Index> explicit_wedges(const Mesh& mesh);
+[[nodiscard]] std::vector<Index> explicit_wedges(const Mesh& mesh);
 /// [faces + 1] -> the first corner, also where all faces are triangles.
-std::vector<Index> explicit_offsets(const Mesh& mesh);
+[[nodiscard]] std::vector<Index> explicit_offsets(const Mesh& mesh);
 
 } // namespace facetmill

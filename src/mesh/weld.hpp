@@ -6,6 +6,6 @@
 namespace facetmill {
 
 /// For each vertex the lowest at the same position (-0 is 0); empty where each is the only one. Parallel.
-std::vector<Index> first_at_position(const std::vector<Vec3>& positions);
+[[nodiscard]] std::vector<Index> first_at_position(const std::vector<Vec3>& positions);
 
 } // namespace facetmill

@@ -176,14 +176,15 @@ struct NamedChoice {
     std::string help;
 };
 
-Json choice_schema(const std::vector<Choice>& choices);
+[[nodiscard]] Json choice_schema(const std::vector<Choice>& choices);
 /// Which of the option's choices the value spells (0 for a deferred value); none after adding a problem.
-std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems);
+[[nodiscard]] std::optional<std::size_t> choice_index(const Option& option, const Value& value,
+                                                      Problems& problems);
 
 /// The offset in bytes of a member in the object. Only the offset of a member is stored, so that the code
 /// that reads it is compiled once a type instead of once a member.
 template <class S, class T>
-std::size_t offset_of(const S& object, T S::*member) {
+[[nodiscard]] std::size_t offset_of(const S& object, T S::*member) {
     const auto address = [](const auto& thing) {
         return reinterpret_cast<const std::byte*>(std::addressof(thing));
     };
@@ -203,7 +204,7 @@ const T& member_at(const void* record, std::size_t offset) {
 /// Adds an option to those of a declaration.
 Option& start_option(Declaration& owner, std::string_view name, OptionKind kind, std::string_view help);
 /// The declaration, owned.
-std::shared_ptr<const Declaration> shared(Declaration&& declaration);
+[[nodiscard]] std::shared_ptr<const Declaration> shared(Declaration&& declaration);
 /// Adds the options of a struct that lies at the offset within the one that is parsed.
 void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset);
 

@@ -109,9 +109,9 @@ template <class T>
 struct Inner<std::optional<T>> : Inner<T> {};
 
 /// The JSON Schemas of plain values, and of a list of such; may_be_null: its items.
-Json schema_of_type(const char* type);
-Json schema_of_count();
-Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> size = {});
+[[nodiscard]] Json schema_of_type(const char* type);
+[[nodiscard]] Json schema_of_count();
+[[nodiscard]] Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> size = {});
 } // namespace fields
 
 /// The text, schema and JSON of the C++ type of a field. Each specialisation has name, schema() and json().
@@ -230,13 +230,13 @@ FieldRef list_field(Fields& fields, std::string_view name, std::string_view help
 /// Adds the fields of a nested record: within() of the outer record.
 void embed(Fields& fields, const Fields& inner, const Function<const void*(const void*)>& within);
 /// The fields, owned.
-std::shared_ptr<const Fields> shared(Fields&& fields);
+[[nodiscard]] std::shared_ptr<const Fields> shared(Fields&& fields);
 
 /// Adds a member to an object that has none of this name: the names of a record's fields differ.
 void add_member(Json& object, const std::string& name, Json value);
 
 template <class T, class ToJson>
-Json inner_json(const T& value, const ToJson& json) {
+[[nodiscard]] Json inner_json(const T& value, const ToJson& json) {
     if constexpr (is_optional<T>)
         return value ? Json(json(*value)) : Json(nullptr);
     else
@@ -258,7 +258,7 @@ void put_value(const Field& field, const T& value, const ToJson& json, Json& obj
 
 /// The printable value for the terminal; none when it is empty, or neither number nor text.
 template <class T>
-std::optional<Printable> told_value(const T& value) {
+[[nodiscard]] std::optional<Printable> told_value(const T& value) {
     if constexpr (is_optional<T>)
         return value ? told_value(*value) : std::nullopt;
     else if constexpr (std::unsigned_integral<T>)
@@ -461,7 +461,7 @@ class DeclareFields {
 
 /// A getter of records that are one of several structs (std::variant): the member, where the record is an A.
 template <class A, class T>
-auto where_it_is(T A::*member) {
+[[nodiscard]] auto where_it_is(T A::*member) {
     return [member](const auto& either) {
         const A* a = std::get_if<A>(&either);
         return a ? std::optional<T>(a->*member) : std::nullopt;
@@ -470,7 +470,7 @@ auto where_it_is(T A::*member) {
 
 /// The fields of the record R, as `fill` declares them.
 template <class R, class Fill>
-Fields fields_of(Fill fill) {
+[[nodiscard]] Fields fields_of(Fill fill) {
     DeclareFields<R> d;
     fill(d);
     return std::move(d.fields);

@@ -10,13 +10,13 @@ namespace facetmill {
 /// Parses a scalar's text as a list. Its items have the scalar's mark, and no blanks around them. Items are
 /// separated by commas and may be lists in brackets; semicolons separate rows. A text without these is a
 /// list of one item, "[]" is empty. None when brackets do not match.
-std::optional<Value> list_in_text(const Value& text);
+[[nodiscard]] std::optional<Value> list_in_text(const Value& text);
 
 /// The items between the commas of "a, b" or "[a, b]", whatever else they hold: names may have brackets and
 /// semicolons. All have the mark.
-Value list_of_words(std::string_view text, const Mark& mark);
+[[nodiscard]] Value list_of_words(std::string_view text, const Mark& mark);
 
 /// The value, or for a scalar the list in its text.
-Value listed(const Value& value);
+[[nodiscard]] Value listed(const Value& value);
 
 } // namespace facetmill

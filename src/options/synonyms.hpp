@@ -23,17 +23,19 @@ struct KnownName {
 bool has_word(std::string_view words, std::string_view word);
 
 /// The known names that other programs call by this word, in alphabetical order.
-std::vector<std::string> options_called(std::string_view word, const std::vector<KnownName>& known);
+[[nodiscard]] std::vector<std::string> options_called(std::string_view word,
+                                                      const std::vector<KnownName>& known);
 
 /// The same without names whose value means something else, such as ratio for reduction.
-std::vector<std::string> options_of_same_value(std::string_view word, const std::vector<KnownName>& known);
+[[nodiscard]] std::vector<std::string> options_of_same_value(std::string_view word,
+                                                             const std::vector<KnownName>& known);
 
 /// Whether other programs call a report by this word. Here a report is an option of the command.
 bool means_report(std::string_view option);
 
 /// A hint for a word that is no known name: the name here, the nearest name, or `otherwise`. Without
 /// `otherwise`: the list of all names.
-std::string hint_for_option(std::string_view word, const std::vector<KnownName>& known,
-                            std::string otherwise = {});
+[[nodiscard]] std::string hint_for_option(std::string_view word, const std::vector<KnownName>& known,
+                                          std::string otherwise = {});
 
 } // namespace facetmill

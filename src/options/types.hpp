@@ -37,7 +37,7 @@ enum class OptionKind {
     corners
 };
 /// As help and the manual call it: "bool", "integer".
-std::string_view to_string(OptionKind kind);
+[[nodiscard]] std::string_view to_string(OptionKind kind);
 /// Whether a value may be a map, or a list, in YAML. (For a group its declaration decides.)
 bool may_be_map(OptionKind kind);
 bool may_be_list(OptionKind kind);
@@ -55,7 +55,7 @@ struct Range {
 };
 
 /// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.
-std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text);
+[[nodiscard]] std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text);
 /// Adds E-TYPE at the value, "expected ..., found ..."; false.
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint = {});
 

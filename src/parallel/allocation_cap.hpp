@@ -20,6 +20,6 @@ class AllocationCap {
 };
 
 /// How many requests this thread has made to operator new: work that tests can count.
-std::size_t allocations_of_thread();
+[[nodiscard]] std::size_t allocations_of_thread();
 
 } // namespace facetmill

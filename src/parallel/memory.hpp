@@ -8,17 +8,17 @@
 namespace facetmill {
 
 /// available_memory(), and 4 GiB where the system does not say.
-std::uint64_t memory_there();
+[[nodiscard]] std::uint64_t memory_there();
 
 /// From now on the process is meant to take no more bytes than that (0: no limit). Call it once, at the
 /// start.
 void set_memory_limit(std::uint64_t bytes);
 /// As available_memory, and no more than what that limit leaves beside what is in use.
-std::optional<std::uint64_t> memory_left();
+[[nodiscard]] std::optional<std::uint64_t> memory_left();
 
 /// The bytes, or what is there where they are more; a few hundred MiB are taken to be there, since to ask the
 /// system costs a tenth of a millisecond.
-std::uint64_t at_most_memory_there(std::uint64_t bytes);
+[[nodiscard]] std::uint64_t at_most_memory_there(std::uint64_t bytes);
 
 /// Whether so many bytes may be more than are there; fewer are taken to be there.
 bool is_much_memory(double bytes);

@@ -20,7 +20,7 @@ namespace facetmill {
 /// Sets the number of threads for everything from now on; 0: all cores. Call it once, at the start. Throws
 /// std::bad_alloc when there is no room for the scheduler.
 void set_threads(int count);
-int threads();
+[[nodiscard]] int threads();
 
 inline constexpr std::size_t default_chunk = 8192;
 

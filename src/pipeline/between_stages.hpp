@@ -7,7 +7,7 @@
 namespace facetmill::pipeline {
 
 /// "their names: a, b", of all parts.
-std::string names_hint(const Scene& scene);
+[[nodiscard]] std::string names_hint(const Scene& scene);
 /// Warns (W-ONLY) if the step's `only` selects no part.
 void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context);
 

@@ -22,7 +22,7 @@ struct CellPlan {
 
 /// Decides by the headers and sizes of the inputs. Throws usage (E-CELLS), with a way out, when the mesh
 /// needs cells but a stage, an option or a file does not support them.
-CellPlan plan_cells(const Plan& plan, const CellSettings& settings);
+[[nodiscard]] CellPlan plan_cells(const Plan& plan, const CellSettings& settings);
 
 /// Throws usage (E-EXPORT) if a run cannot be divided into jobs, because no step simplifies in cells, or an
 /// earlier stage creates new cells.
@@ -34,6 +34,6 @@ struct CellJobs {
     std::vector<std::filesystem::path> inputs, outputs; ///< of the run
 };
 /// count: number of simplifying jobs; 0: suited to the inputs. Throws like require_jobs.
-CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count);
+[[nodiscard]] CellJobs plan_cell_jobs(const Plan& plan, const CellSettings& settings, std::size_t count);
 
 } // namespace facetmill::pipeline

@@ -12,8 +12,8 @@ Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems);
 
 /// YAML that parse_yaml reads back with the same content; lists of stages in block style, small maps in
 /// braces.
-std::string emit_yaml(const Value& value);
+[[nodiscard]] std::string emit_yaml(const Value& value);
 /// The same on one line, in braces.
-std::string emit_flow(const Value& value);
+[[nodiscard]] std::string emit_flow(const Value& value);
 
 } // namespace facetmill::pipeline

@@ -28,13 +28,13 @@ struct Variable {
 
 using Scope = std::vector<Variable>;
 
-const Variable* find_variable(const Scope& scope, std::string_view name);
+[[nodiscard]] const Variable* find_variable(const Scope& scope, std::string_view name);
 bool is_variable_name(std::string_view text);
 
 /// The value with all its expressions replaced. A scalar that is exactly "${x}" becomes x's value of any
 /// type; within a text, x becomes its text; $${ is a literal ${. An option whose value is exactly an optional
 /// parameter without a value is dropped. Adds E-VARIABLE and E-EXPRESSION.
-Value resolved(const Value& value, const Scope& scope, Problems& problems);
+[[nodiscard]] Value resolved(const Value& value, const Scope& scope, Problems& problems);
 
 /// True if the value is exactly "${x}", and x is a name that was found in a file.
 bool is_name_from_file(const Value& value, const Scope& scope);
@@ -44,12 +44,12 @@ bool is_deferred(const Value& value);
 
 /// The position of the first occurrence of piece within the mark, at least `from` bytes after its start.
 /// Without one on its line, the mark itself.
-Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from = 0);
+[[nodiscard]] Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from = 0);
 
 /// The stem of the path's file name (without .gz or .zst), and its suffix.
-std::string stem_of(const std::string& path);
-std::string extension_of(const std::string& path);
+[[nodiscard]] std::string stem_of(const std::string& path);
+[[nodiscard]] std::string extension_of(const std::string& path);
 /// A name that is safe as part of a file name on any system: without separators, control or shell characters.
-std::string safe_name(const std::string& name);
+[[nodiscard]] std::string safe_name(const std::string& name);
 
 } // namespace facetmill::pipeline

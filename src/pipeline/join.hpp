@@ -14,9 +14,9 @@ struct NamedScene {
 /// Joins all parts, in order. Common materials and documents are kept once. A part whose name is already used
 /// gets the name of its arm appended. A part at the node of an earlier part gets a new node. Unit and up axis
 /// come from the first scene that has them.
-Scene joined(std::vector<NamedScene> scenes);
+[[nodiscard]] Scene joined(std::vector<NamedScene> scenes);
 
 /// Replaces each part by the results of its arms (results[i] for part i); parts without arms stay.
-Scene with_parts_replaced(Scene scene, std::vector<std::vector<NamedScene>> results);
+[[nodiscard]] Scene with_parts_replaced(Scene scene, std::vector<std::vector<NamedScene>> results);
 
 } // namespace facetmill::pipeline

@@ -27,7 +27,7 @@ void watch_console(Engine& engine);
 /// Shared by pictures and deviations: observes references of arms, failures of contracts, and the final
 /// scene.
 void watch_results(Engine& engine, report::Page& page, const char* scene_for);
-report::PageStep page_step(const Step& step);
+[[nodiscard]] report::PageStep page_step(const Step& step);
 /// makes_page: true if the run creates a page; the other: true if it has a report in this format.
 bool makes_page(const Engine& engine);
 bool has_report(const Engine& engine, std::string_view suffix);

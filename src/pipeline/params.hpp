@@ -8,19 +8,21 @@ namespace facetmill::pipeline {
 
 /// The variables that `params` declares, with their values from -D or their defaults. json receives the
 /// values for the report. Adds E-PARAM and the problems of the values' types.
-Scope read_params(const Value* params, const PlanSettings& settings, Json& json, Problems& problems);
+[[nodiscard]] Scope read_params(const Value* params, const PlanSettings& settings, Json& json,
+                                Problems& problems);
 
 /// The same for an included document: its params with the given values (a map), else their defaults.
-Scope fragment_params(const Value& document, const Value& given, const PlanSettings& settings,
-                      Problems& problems);
+[[nodiscard]] Scope fragment_params(const Value& document, const Value& given, const PlanSettings& settings,
+                                    Problems& problems);
 
 /// The types of a param except list, which are also the types of a list's values.
-std::vector<std::string> single_param_types();
+[[nodiscard]] std::vector<std::string> single_param_types();
 
 /// A mark on the command line: "-D keep=10%" with the caret under it.
-Mark command_line_mark(const std::string& option, const std::string& text, std::size_t from = 0);
+[[nodiscard]] Mark command_line_mark(const std::string& option, const std::string& text,
+                                     std::size_t from = 0);
 
 /// Scalars as typed JSON, other values unchanged.
-Json value_json(const Value& value);
+[[nodiscard]] Json value_json(const Value& value);
 
 } // namespace facetmill::pipeline

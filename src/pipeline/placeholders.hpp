@@ -17,7 +17,7 @@ struct Placeholder {
 
 /// The first probable placeholder in the text: it names a variable, a property of a file name (.stem), or a
 /// common placeholder of other programs (name, stem, index ...). Ignores texts inside expressions.
-std::optional<Placeholder> placeholder_in(const std::string& text, const Scope& scope);
+[[nodiscard]] std::optional<Placeholder> placeholder_in(const std::string& text, const Scope& scope);
 
 /// Warns (W-PLACEHOLDER) if an output path of the stage has a placeholder. given: the stage's options with
 /// unresolved expressions.

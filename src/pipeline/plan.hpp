@@ -105,25 +105,25 @@ void add_preset(const std::filesystem::path& file, PlanSettings& settings, Probl
 
 /// Plans a parsed document. Adds all problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...).
 /// Run the plan only if there are no errors among them.
-Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
+[[nodiscard]] Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
 /// Parses and plans a pipeline; messages use settings.name for its text.
-Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems);
+[[nodiscard]] Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems);
 /// A pipeline as text, to plan once or for many assets.
 struct PipelineSource {
     std::string text;
     std::filesystem::path file; ///< "-": standard input; empty: none
 };
 /// Reads a pipeline file ("-": standard input). An unreadable file throws missing.
-PipelineSource read_pipeline(const std::filesystem::path& file);
+[[nodiscard]] PipelineSource read_pipeline(const std::filesystem::path& file);
 /// Plans a pipeline; its inputs are relative to its file, which is an input itself.
-Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& problems);
+[[nodiscard]] Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& problems);
 /// Reads and plans a pipeline.
-Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
+[[nodiscard]] Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
 
 /// The known files of these steps in order (globs expanded), without files of steps that will be skipped.
-std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places);
+[[nodiscard]] std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places);
 /// The folders, besides a file's own, in which loaded files may refer to files.
-std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Folders& places);
+[[nodiscard]] std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Folders& places);
 /// Checks for conflicts between files. Adds E-DUPLICATE-OUTPUT for two writes to the same path (ignoring
 /// case), E-OVERWRITE for an output that is also an input, and E-DUPLICATE-INPUT for reading standard input
 /// twice. Returns true if there is no conflict.
@@ -131,7 +131,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
 /// The same, with the files of a foreach over parts, once the names of the parts are known.
 void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& problems);
 /// An E-FILE for every missing input, at its mark; exit code 3. run_plan calls it first.
-std::vector<Diagnostic> missing_inputs(const Plan& plan);
+[[nodiscard]] std::vector<Diagnostic> missing_inputs(const Plan& plan);
 
 /// An input and its header.
 struct InputHeader {
@@ -160,30 +160,32 @@ struct Headers {
 /// Reports unit errors (E-UNIT, usage) of lengths and of a stage's option `unit`, if the first input has no
 /// unit. Skips streams and compressed files, because they would have to be read completely. Images that a
 /// stage changes are unknown here (images_change).
-Headers read_headers(const Plan& plan);
+[[nodiscard]] Headers read_headers(const Plan& plan);
 /// Errors of the inputs before the run: an E-FILE for every pattern without matches, because its files are
 /// unknown, and the errors of the headers.
-std::vector<Error> input_errors(const Plan& plan, const Headers& headers);
+[[nodiscard]] std::vector<Error> input_errors(const Plan& plan, const Headers& headers);
 
 /// The files that the plan reads and writes, as far as known before it runs (with expanded globs and the
 /// headers' data). Includes and presets are the last inputs; reports are outputs.
-std::vector<std::filesystem::path> planned_inputs(const Plan& plan, const Headers& headers = {});
+[[nodiscard]] std::vector<std::filesystem::path> planned_inputs(const Plan& plan,
+                                                                const Headers& headers = {});
 /// The inputs that stages name: without textures, includes and presets.
-std::vector<std::filesystem::path> inputs_of_steps(const Plan& plan);
-std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Headers& headers = {});
+[[nodiscard]] std::vector<std::filesystem::path> inputs_of_steps(const Plan& plan);
+[[nodiscard]] std::vector<std::filesystem::path> planned_outputs(const Plan& plan,
+                                                                 const Headers& headers = {});
 /// The wildcard patterns of inputs.
-std::vector<std::filesystem::path> planned_patterns(const Plan& plan);
+[[nodiscard]] std::vector<std::filesystem::path> planned_patterns(const Plan& plan);
 /// W-NOTHING, at the last stage, if a run would have no effect: no file, no check that can fail, no report.
-std::optional<Diagnostic> without_effect(const Plan& plan);
+[[nodiscard]] std::optional<Diagnostic> without_effect(const Plan& plan);
 /// The diagnostic with the plan's first input in its message ("scan.ply: ..."), unless its text or mark
 /// already names one. In a log of many runs this identifies the asset.
-Diagnostic about_input(const std::vector<std::filesystem::path>& inputs, Diagnostic diagnostic);
+[[nodiscard]] Diagnostic about_input(const std::vector<std::filesystem::path>& inputs, Diagnostic diagnostic);
 /// Describes the resolved plan with the data of input headers: for `facetmill plan`, as text and as JSON.
-std::string describe(const Plan& plan, const Headers& headers = {});
+[[nodiscard]] std::string describe(const Plan& plan, const Headers& headers = {});
 /// The defaults, in pipeline syntax, of the options that a stage was not given.
-std::map<std::string, std::string> default_texts(const Step& step);
+[[nodiscard]] std::map<std::string, std::string> default_texts(const Step& step);
 /// The effective options of a stage: given, else the default.
-Json options_json(const Step& step);
-Json describe_json(const Plan& plan, const Headers& headers = {});
+[[nodiscard]] Json options_json(const Step& step);
+[[nodiscard]] Json describe_json(const Plan& plan, const Headers& headers = {});
 
 } // namespace facetmill::pipeline

@@ -92,12 +92,12 @@ class Planner {
 };
 
 /// The common key `when`: a truth value, a comparison of expressions, or predicates on the scene.
-Condition read_condition(const Value& value, const Scope& scope, Problems& problems);
+[[nodiscard]] Condition read_condition(const Value& value, const Scope& scope, Problems& problems);
 
 /// Checks the format, `requires` and the keys of a file of stages.
 void check_head(const Value& document, const std::vector<std::string>& keys, Problems& problems);
 
 /// True if the version satisfies a range such as ">=0.3,<2"; none for an invalid range.
-std::optional<bool> satisfies(const std::string& version, const std::string& range);
+[[nodiscard]] std::optional<bool> satisfies(const std::string& version, const std::string& range);
 
 } // namespace facetmill::pipeline

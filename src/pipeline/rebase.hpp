@@ -22,6 +22,6 @@ void rebase_inputs(Value& document, const std::filesystem::path& from, const std
 void rebase(Value& path, const std::filesystem::path& prefix, RunTimePaths run_time);
 
 /// The relative path from a folder to another: "../scans"; "." for the same folder.
-std::filesystem::path way(const std::filesystem::path& from, const std::filesystem::path& to);
+[[nodiscard]] std::filesystem::path way(const std::filesystem::path& from, const std::filesystem::path& to);
 
 } // namespace facetmill::pipeline

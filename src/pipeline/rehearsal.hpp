@@ -9,6 +9,6 @@ namespace facetmill::pipeline {
 /// read_headers, with the exact additional output files. If stages change images (Headers::images_change), it
 /// runs the relevant stages without writing, which takes their time. If that is impossible, an input is
 /// missing, or the mesh exceeds memory, it keeps the file names without those stages.
-Headers rehearsed_headers(const Plan& plan);
+[[nodiscard]] Headers rehearsed_headers(const Plan& plan);
 
 } // namespace facetmill::pipeline

@@ -34,15 +34,16 @@ struct RunSettings {
 };
 
 /// The error (E-STRICT) that --strict makes of a warning; none if it does not apply.
-std::optional<Diagnostic> strict_failure(const Diagnostic& warning, const std::vector<std::string>& strict);
+[[nodiscard]] std::optional<Diagnostic> strict_failure(const Diagnostic& warning,
+                                                       const std::vector<std::string>& strict);
 
 /// Writes the reports of a pipeline that cannot run because of these problems (exit code 2). Do not call it
 /// for a plan with file collisions, because a report may be involved. Returns their paths, relative to the
 /// output folder. Throws output when a report cannot be written.
-std::vector<std::string> report_refusal(const Plan& plan, const Problems& problems);
+[[nodiscard]] std::vector<std::string> report_refusal(const Plan& plan, const Problems& problems);
 
 /// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record with
 /// exit_code and errors. Throws only for bugs.
-report::RunRecord run_plan(const Plan& plan, const RunSettings& settings);
+[[nodiscard]] report::RunRecord run_plan(const Plan& plan, const RunSettings& settings);
 
 } // namespace facetmill::pipeline

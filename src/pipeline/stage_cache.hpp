@@ -20,7 +20,7 @@
 namespace facetmill::pipeline {
 
 /// The key of a stage's result, given the key of its input: 64 digits.
-std::string key_after(const std::string& key, const Step& step);
+[[nodiscard]] std::string key_after(const std::string& key, const Step& step);
 
 class StageCache {
   public:

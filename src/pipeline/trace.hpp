@@ -28,8 +28,8 @@ using Trace = std::vector<TracedStep>;
 /// A line for each step: "simplify reruns: ratio 0.5 -> 0.4". Compares with the last run of this pipeline
 /// file with the same outputs, as far as the store has it. pipeline_file: empty for a ready pipeline or a
 /// one-liner.
-std::vector<std::string> explained(const Trace& trace, const Plan& plan, const std::string& pipeline_file,
-                                   cache::Store& store);
+[[nodiscard]] std::vector<std::string> explained(const Trace& trace, const Plan& plan,
+                                                 const std::string& pipeline_file, cache::Store& store);
 /// Stores the run as the last run of this pipeline file with these outputs. whole: it was complete; otherwise
 /// the data of steps that it did not reach stays.
 void remember(const Trace& trace, const Plan& plan, const std::string& pipeline_file, bool whole,

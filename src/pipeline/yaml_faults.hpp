@@ -21,13 +21,13 @@ struct ReadSoFar {
 };
 
 /// The position after the closing quote of the quoted text at `at`; none if it is never closed.
-std::optional<std::size_t> end_of_quoted(const std::string& all, std::size_t at);
+[[nodiscard]] std::optional<std::size_t> end_of_quoted(const std::string& all, std::size_t at);
 
 /// E-YAML for a parser failure at byte `at`: yaml-cpp's message, rewritten if it is unclear, and a hint.
-Diagnostic yaml_fault(const SourceIndex& source, std::size_t at, const std::string& said,
-                      const ReadSoFar& read);
+[[nodiscard]] Diagnostic yaml_fault(const SourceIndex& source, std::size_t at, const std::string& said,
+                                    const ReadSoFar& read);
 
 /// A hint for a tag without meaning, which was intended as text (only: !name).
-std::string tag_hint(const std::string& tag);
+[[nodiscard]] std::string tag_hint(const std::string& tag);
 
 } // namespace facetmill::pipeline

@@ -30,24 +30,26 @@ class SourceIndex {
 };
 
 /// A hint if the name of an invalid pipeline file is the name of a mesh; else empty.
-std::string hint_for_no_pipeline(const std::string& name);
+[[nodiscard]] std::string hint_for_no_pipeline(const std::string& name);
 
 /// Checks that the text is UTF-8, without control characters and not too large; adds E-YAML at the first
 /// error. YAML forbids control characters, and some parsers silently stop at a NUL or EOT.
 bool check_text(const SourceIndex& source, Problems& problems);
 
 /// The start of a node's content, after its anchor and tag.
-std::size_t content_at(const std::string& text, std::size_t at);
+[[nodiscard]] std::size_t content_at(const std::string& text, std::size_t at);
 
 /// The dash of an empty list item before `at`.
-Mark empty_item_mark(const SourceIndex& source, std::size_t at);
+[[nodiscard]] Mark empty_item_mark(const SourceIndex& source, std::size_t at);
 /// The alias at `at`.
-Mark alias_mark(const SourceIndex& source, std::size_t at);
+[[nodiscard]] Mark alias_mark(const SourceIndex& source, std::size_t at);
 /// The scalar at `at`, up to the end of its line; quoted unless plain.
-Mark scalar_mark(const SourceIndex& source, std::size_t at, const std::string& text, bool plain);
+[[nodiscard]] Mark scalar_mark(const SourceIndex& source, std::size_t at, const std::string& text,
+                               bool plain);
 
 /// The end of an unquoted expression that the parser read as the scalar `text`, ending with "$"; none if it
 /// is not an expression.
-std::optional<std::size_t> end_of_unquoted(const std::string& all, std::size_t at, const std::string& text);
+[[nodiscard]] std::optional<std::size_t> end_of_unquoted(const std::string& all, std::size_t at,
+                                                         const std::string& text);
 
 } // namespace facetmill::pipeline

@@ -9,11 +9,11 @@ namespace facetmill {
 
 /// The least of the memory that the machine has available, the cgroup allows (v1 and v2), and RLIMIT_AS
 /// allows. None if the system does not report it.
-std::optional<std::uint64_t> available_memory();
+[[nodiscard]] std::optional<std::uint64_t> available_memory();
 
 /// Physical memory in use by this process.
-std::uint64_t resident_memory();
+[[nodiscard]] std::uint64_t resident_memory();
 /// The maximum so far.
-std::size_t peak_memory();
+[[nodiscard]] std::size_t peak_memory();
 
 } // namespace facetmill

@@ -4,10 +4,10 @@
 namespace facetmill {
 
 /// The cores that the affinity of this process and the quotas of its cgroups (v1 and v2) allow, at least 1.
-int allowed_cores();
+[[nodiscard]] int allowed_cores();
 
 /// FACETMILL_JOBS if set, else allowed_cores(). Throws usage (E-ARGUMENT) unless it is a number from 1 to
 /// 4096.
-int default_threads();
+[[nodiscard]] int default_threads();
 
 } // namespace facetmill

@@ -50,9 +50,9 @@ struct OpenOptions {
 };
 
 /// Child processes do not inherit the file.
-Descriptor open_file(const std::filesystem::path& path, const OpenOptions& options = {});
+[[nodiscard]] Descriptor open_file(const std::filesystem::path& path, const OpenOptions& options = {});
 
 /// A second descriptor of the same open file, which shares its locks.
-Descriptor duplicate(const Descriptor& file);
+[[nodiscard]] Descriptor duplicate(const Descriptor& file);
 
 } // namespace facetmill

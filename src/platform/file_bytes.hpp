@@ -11,14 +11,14 @@
 namespace facetmill {
 
 /// Reads available bytes, at most the size of the span; 0 at the end. None, with errno, on failure.
-std::optional<std::size_t> read_some(const Descriptor& file, std::span<std::byte> to);
+[[nodiscard]] std::optional<std::size_t> read_some(const Descriptor& file, std::span<std::byte> to);
 /// Reads until the span is full, the file ends, or an error occurs; returns the number of bytes read.
-std::size_t read_whole(const Descriptor& file, std::span<std::byte> to);
+[[nodiscard]] std::size_t read_whole(const Descriptor& file, std::span<std::byte> to);
 /// The same from an offset. May be called from any thread.
-std::size_t read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> to);
+[[nodiscard]] std::size_t read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> to);
 
 /// Writes at least one byte; none, with errno, on failure.
-std::optional<std::size_t> write_some(const Descriptor& file, std::span<const std::byte> bytes);
+[[nodiscard]] std::optional<std::size_t> write_some(const Descriptor& file, std::span<const std::byte> bytes);
 /// Writes all bytes at an offset; false, with errno, on failure. May be called from any thread.
 bool write_at(const Descriptor& file, std::uint64_t offset, std::span<const std::byte> bytes);
 

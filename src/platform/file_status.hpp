@@ -36,15 +36,15 @@ struct FileStatus {
 };
 
 /// None, with errno, if the file does not exist.
-std::optional<FileStatus> status_of(const std::filesystem::path& path);
-std::optional<FileStatus> status_of(const Descriptor& file);
+[[nodiscard]] std::optional<FileStatus> status_of(const std::filesystem::path& path);
+[[nodiscard]] std::optional<FileStatus> status_of(const Descriptor& file);
 /// The status of a link itself.
-std::optional<FileStatus> status_of_link(const std::filesystem::path& path);
+[[nodiscard]] std::optional<FileStatus> status_of_link(const std::filesystem::path& path);
 
 /// Copies the permissions, and if allowed the owner, to an open file.
 void take_permissions(const Descriptor& file, const FileStatus& from);
 
 /// The current time of the clock that file times use: nanoseconds since 1970.
-std::int64_t nanoseconds_now();
+[[nodiscard]] std::int64_t nanoseconds_now();
 
 } // namespace facetmill

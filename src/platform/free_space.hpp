@@ -8,6 +8,6 @@
 namespace facetmill {
 
 /// The bytes that this user may still write in the folder. None if the system does not report it.
-std::optional<std::uint64_t> free_space(const std::filesystem::path& folder);
+[[nodiscard]] std::optional<std::uint64_t> free_space(const std::filesystem::path& folder);
 
 } // namespace facetmill

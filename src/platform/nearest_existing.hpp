@@ -6,7 +6,7 @@
 namespace facetmill {
 
 /// The path itself, or its nearest existing ancestor; "." for a relative path without one.
-inline std::filesystem::path nearest_existing(std::filesystem::path path) {
+[[nodiscard]] inline std::filesystem::path nearest_existing(std::filesystem::path path) {
     std::error_code ignored;
     while (!path.empty() && !std::filesystem::exists(path, ignored))
         path = path.has_relative_path() ? path.parent_path() : "/";

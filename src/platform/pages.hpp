@@ -10,7 +10,7 @@
 namespace facetmill {
 
 /// The system's page size in bytes.
-std::size_t page_size() noexcept;
+[[nodiscard]] std::size_t page_size() noexcept;
 
 /// Lets the system use pages of 2 MiB for large memory: allocating and freeing then takes a fifth of the time
 /// of 4 KiB pages (Linux, transparent huge pages). operator new calls it for all its memory.
@@ -29,7 +29,7 @@ void keep_freed_memory() noexcept;
 void give_back_freed_memory() noexcept;
 
 /// Maps the bytes of a file for sequential reading. Null when it cannot be mapped.
-std::shared_ptr<const void> map_file(const Descriptor& file, std::size_t bytes);
+[[nodiscard]] std::shared_ptr<const void> map_file(const Descriptor& file, std::size_t bytes);
 
 /// Releases the whole pages of a part of a mapped file. Reading them again loads them from the file.
 void release_pages(std::span<const std::byte> part) noexcept;

@@ -18,9 +18,9 @@ struct Protections {
 
 /// Supported by this kernel. None with AddressSanitizer, because its leak detection traces the process from
 /// another process.
-Protections offered_protections();
+[[nodiscard]] Protections offered_protections();
 /// Active in this process.
-Protections active_protections();
+[[nodiscard]] Protections active_protections();
 
 /// Files that stay accessible, besides open files, libraries and system information. A folder includes
 /// everything below it. Links are followed.
@@ -43,6 +43,6 @@ bool confine_files(const AllowedFiles& allowed);
 bool confine_calls();
 
 /// A hint if the sandbox refused the file instead of the file's permissions; else empty. error: an errno.
-std::string sandbox_hint(const std::filesystem::path& file, int error);
+[[nodiscard]] std::string sandbox_hint(const std::filesystem::path& file, int error);
 
 } // namespace facetmill

@@ -9,20 +9,20 @@
 namespace facetmill::report {
 
 /// The brief data of a scene, before or after a stage.
-Brief brief_of(const Scene& scene);
+[[nodiscard]] Brief brief_of(const Scene& scene);
 const Fields& brief_fields();
 
 /// The found value of a check in reports and baselines: a box is {min, max}, no value is null.
-Json found_json(const Found& found);
+[[nodiscard]] Json found_json(const Found& found);
 /// The inverse of found_json; none for other JSON.
-std::optional<Found> found_of(const Json& json);
+[[nodiscard]] std::optional<Found> found_of(const Json& json);
 /// {"amplitude": {"given": "0.2%", "is": 0.03}}
-Json resolved_json(const std::vector<ResolvedLength>& lengths);
+[[nodiscard]] Json resolved_json(const std::vector<ResolvedLength>& lengths);
 
 /// {min, max}; null for an empty box.
-Json box_json(const Box& box);
+[[nodiscard]] Json box_json(const Box& box);
 /// For a box that may be empty.
-Json box_schema();
+[[nodiscard]] Json box_schema();
 
 /// An attribute that at least one part has.
 struct AttributeEntry {
@@ -34,16 +34,16 @@ struct AttributeEntry {
     bool operator==(const AttributeEntry&) const = default;
 };
 /// Each attribute once, in order of first appearance.
-std::vector<AttributeEntry> attributes_of(const Scene& scene);
+[[nodiscard]] std::vector<AttributeEntry> attributes_of(const Scene& scene);
 const Fields& attribute_fields();
 /// "vertex", "wedge" and "face".
-std::vector<NamedChoice<Domain>> domain_choices();
+[[nodiscard]] std::vector<NamedChoice<Domain>> domain_choices();
 
 struct PartEntry {
     std::string name;
     std::size_t vertices = 0, wedges = 0, faces = 0;
 };
-std::vector<PartEntry> parts_of(const Scene& scene);
+[[nodiscard]] std::vector<PartEntry> parts_of(const Scene& scene);
 const Fields& part_fields();
 
 /// A component of a part.
@@ -52,17 +52,17 @@ struct Component {
     Properties properties;
 };
 /// The components with the most faces in a scene with these properties, the largest first.
-std::vector<Component> largest_components(const Scene& scene, const Properties& properties,
-                                          std::size_t limit);
+[[nodiscard]] std::vector<Component> largest_components(const Scene& scene, const Properties& properties,
+                                                        std::size_t limit);
 const Fields& component_fields();
 
 /// [{part, at, face}], with the keys that the entries have; null without evidence.
-Json evidence_json(const std::optional<CheckEvidence>& evidence);
-Json evidence_json(const EvidenceEntry& entry);
+[[nodiscard]] Json evidence_json(const std::optional<CheckEvidence>& evidence);
+[[nodiscard]] Json evidence_json(const EvidenceEntry& entry);
 
 /// The records of a list, by their declared fields.
 template <class Record>
-Json list_json(const std::vector<Record>& records, const Fields& fields) {
+[[nodiscard]] Json list_json(const std::vector<Record>& records, const Fields& fields) {
     Json list = Json::array();
     for (const Record& record : records) list.push_back(fields.json(&record));
     return list;

@@ -19,16 +19,16 @@ struct EarlierSurface {
 /// far off, only the rest, for better contrast. It is at least the rounding error of float32 positions.
 /// Distances beyond it have the colour of the end. most: the largest absolute distance. diagonal: of the
 /// scene.
-double colour_limit(const std::vector<float>& distances, double most, double diagonal);
+[[nodiscard]] double colour_limit(const std::vector<float>& distances, double most, double diagonal);
 
 /// A tree over an earlier surface for the about 100,000 distances of a page. bounds: of the surface, which
 /// must outlive the tree.
-FaceTree tree_of_earlier(const Surface& surface, const Box& bounds);
+[[nodiscard]] FaceTree tree_of_earlier(const Surface& surface, const Box& bounds);
 
 /// Both in world space and in the same pose. pictures: their size and camera; empty: only numbers. Throws
 /// like picture_of. O((vertices + faces) log n), for at most 20000 vertices or some tens of thousands of
 /// cells, and for cells around the worst position.
-DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
-                             const std::optional<PictureSettings>& pictures);
+[[nodiscard]] DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
+                                           const std::optional<PictureSettings>& pictures);
 
 } // namespace facetmill::report

@@ -12,22 +12,22 @@ struct ByteSum {
     std::uint64_t bytes = 0;
     io::ByteKinds kinds;
 };
-ByteSum sum_of(const std::vector<FileRecord>& files);
+[[nodiscard]] ByteSum sum_of(const std::vector<FileRecord>& files);
 
 /// "12.7 %": the share of the size before; "-" if that was zero.
-std::string part_of_before(std::uint64_t before, std::uint64_t after);
+[[nodiscard]] std::string part_of_before(std::uint64_t before, std::uint64_t after);
 
 /// After the first stage and after the last completed stage; empty without stages.
 struct FaceCounts {
     std::size_t first = 0, last = 0;
 };
-std::optional<FaceCounts> face_counts(const RunRecord& record);
+[[nodiscard]] std::optional<FaceCounts> face_counts(const RunRecord& record);
 
 /// The number of warnings of the run and its stages.
-std::size_t warning_count(const RunRecord& record);
+[[nodiscard]] std::size_t warning_count(const RunRecord& record);
 
 /// The largest deviation of the outputs from their references: "0.1 % of the diagonal, from the scene as
 /// loaded; ..."; empty without a measurement.
-std::string deviation_text(const RunRecord& record);
+[[nodiscard]] std::string deviation_text(const RunRecord& record);
 
 } // namespace facetmill::report

@@ -8,21 +8,21 @@
 namespace facetmill::report {
 
 /// The summary: faces, bytes, deviation, checks, warnings, and on request the time.
-std::string glance_section(const RunRecord& record, bool with_time);
+[[nodiscard]] std::string glance_section(const RunRecord& record, bool with_time);
 /// Each failed check with its margin and how to continue, and a table of all checks.
-std::string check_section(const RunRecord& record);
+[[nodiscard]] std::string check_section(const RunRecord& record);
 /// The outputs: their shape compared with the input, and their deviation from it.
-std::string output_sections(const RunRecord& record);
+[[nodiscard]] std::string output_sections(const RunRecord& record);
 /// The deviation of a scene from an earlier one: a coloured picture, a scale with a histogram, and the
 /// magnified worst location. id: of its pictures in the page. whole: the scene whose diagonal the view has,
 /// if different from the earlier scene.
-std::string deviation_html(const DeviationView& view, const std::string& id, const std::string& name,
-                           const std::string& whole = {});
+[[nodiscard]] std::string deviation_html(const DeviationView& view, const std::string& id,
+                                         const std::string& name, const std::string& whole = {});
 /// Inputs and outputs: bytes by kind, digests, the results of reading back.
-std::string file_sections(const RunRecord& record);
+[[nodiscard]] std::string file_sections(const RunRecord& record);
 /// Time and memory of each stage.
-std::string times_section(const RunRecord& record);
+[[nodiscard]] std::string times_section(const RunRecord& record);
 /// The pipeline's original text, and the command that runs it again.
-std::string source_section(const RunRecord& record);
+[[nodiscard]] std::string source_section(const RunRecord& record);
 
 } // namespace facetmill::report

@@ -8,9 +8,9 @@
 namespace facetmill::report {
 
 /// A section for each stage; empty when there are no stages.
-std::string stage_sections(const RunRecord& record);
+[[nodiscard]] std::string stage_sections(const RunRecord& record);
 
 /// Table rows (name, value) for the values of an object; nested objects as a.b. Skips lists of objects.
-std::string value_rows(const Json& object);
+[[nodiscard]] std::string value_rows(const Json& object);
 
 } // namespace facetmill::report

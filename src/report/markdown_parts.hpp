@@ -7,7 +7,7 @@
 namespace facetmill::report {
 
 /// A table under a heading; empty without rows. Cells are already Markdown.
-std::string markdown_table(const std::string& title, const std::vector<std::string>& heads,
-                           const std::vector<std::vector<std::string>>& rows);
+[[nodiscard]] std::string markdown_table(const std::string& title, const std::vector<std::string>& heads,
+                                         const std::vector<std::vector<std::string>>& rows);
 
 } // namespace facetmill::report

@@ -10,7 +10,7 @@ namespace facetmill::report {
 inline constexpr const char* failing_attribute = "failing";
 
 /// The scene with that attribute. The check must have evidence.
-Scene with_failing_faces(const Scene& scene, const Check& check);
+[[nodiscard]] Scene with_failing_faces(const Scene& scene, const Check& check);
 
 struct CloseView {
     Scene scene;
@@ -18,6 +18,6 @@ struct CloseView {
 };
 /// Magnifies the first location of the check. The first face of the check is seen from the front, and covers
 /// a sixth of the picture; faces in front of it are removed. marked: result of with_failing_faces. O(n).
-CloseView close_view(const Scene& marked, const Check& check, PictureSettings settings);
+[[nodiscard]] CloseView close_view(const Scene& marked, const Check& check, PictureSettings settings);
 
 } // namespace facetmill::report

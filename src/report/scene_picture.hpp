@@ -9,16 +9,17 @@
 namespace facetmill::report {
 
 /// Fast settings for pages with many pictures.
-PictureSettings page_settings();
+[[nodiscard]] PictureSettings page_settings();
 
 /// The picture as a PNG in base64.
-std::string page_text(const Picture& picture);
+[[nodiscard]] std::string page_text(const Picture& picture);
 
 /// A picture with textures, as a PNG in base64. Silently skips textures that cannot be drawn; the caller
 /// reports them (io::MaterialResolver).
-std::string scene_picture(const Scene& scene, PictureSettings settings, io::MaterialResolver& materials);
+[[nodiscard]] std::string scene_picture(const Scene& scene, PictureSettings settings,
+                                        io::MaterialResolver& materials);
 
 /// A picture for an index. Adds skipped textures to not_drawn.
-std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn);
+[[nodiscard]] std::string small_picture(const Scene& scene, std::vector<Diagnostic>& not_drawn);
 
 } // namespace facetmill::report

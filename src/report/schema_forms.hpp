@@ -8,26 +8,26 @@
 
 namespace facetmill::report {
 
-inline Json typed(const char* type, const char* about = nullptr) {
+[[nodiscard]] inline Json typed(const char* type, const char* about = nullptr) {
     Json schema = {{"type", type}};
     if (about) schema["description"] = about;
     return schema;
 }
 
-inline Json nullable(const char* type, const char* about = nullptr) {
+[[nodiscard]] inline Json nullable(const char* type, const char* about = nullptr) {
     Json schema = {{"type", Json::array({type, "null"})}};
     if (about) schema["description"] = about;
     return schema;
 }
 
-inline Json choice(std::initializer_list<const char*> names) {
+[[nodiscard]] inline Json choice(std::initializer_list<const char*> names) {
     Json all = Json::array();
     for (const char* name : names) all.push_back(name);
     return {{"enum", all}};
 }
 
 /// An object with exactly these keys.
-inline Json closed_object(Json properties) {
+[[nodiscard]] inline Json closed_object(Json properties) {
     Json required = Json::array();
     for (const auto& [name, schema] : properties.items()) required.push_back(name);
     return {{"type", "object"},
@@ -36,10 +36,10 @@ inline Json closed_object(Json properties) {
             {"additionalProperties", false}};
 }
 
-inline Json list_of(Json items, const char* about) {
+[[nodiscard]] inline Json list_of(Json items, const char* about) {
     return {{"type", "array"}, {"items", std::move(items)}, {"description", about}};
 }
-inline Json reference(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
+[[nodiscard]] inline Json reference(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
 
 inline constexpr const char* schema_dialect = "https://json-schema.org/draft/2020-12/schema";
 

@@ -21,6 +21,6 @@ struct BarChart {
 };
 
 /// <svg role="img"> with a title and a description, as wide as its container.
-std::string svg_of(const BarChart& chart);
+[[nodiscard]] std::string svg_of(const BarChart& chart);
 
 } // namespace facetmill::report

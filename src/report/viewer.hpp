@@ -59,6 +59,6 @@ class ViewedScenes {
 };
 
 /// The section of a page; empty for null.
-std::string viewer_section(const Json& viewed);
+[[nodiscard]] std::string viewer_section(const Json& viewed);
 
 } // namespace facetmill::report

@@ -25,6 +25,6 @@ struct PackedMesh {
 
 /// distances: [vertices] or empty; clamped to -most and most, in 15 bits. The same preview gives the same
 /// bytes.
-PackedMesh packed(const Preview& preview, const std::vector<float>& distances, double most);
+[[nodiscard]] PackedMesh packed(const Preview& preview, const std::vector<float>& distances, double most);
 
 } // namespace facetmill::report

@@ -5,6 +5,6 @@
 namespace facetmill::report {
 
 /// The text of viewer.js; cmake/Embed.cmake embeds it in the executable.
-std::string_view viewer_script();
+[[nodiscard]] std::string_view viewer_script();
 
 } // namespace facetmill::report

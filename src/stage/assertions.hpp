@@ -22,10 +22,10 @@ struct Assertion {
 };
 
 /// "true", "2", "at most 5".
-std::string expectation(const Bound& bound);
+[[nodiscard]] std::string expectation(const Bound& bound);
 bool holds(const Bound& bound, double value);
 /// In the syntax of pipelines: "true", "mm", "{max: 5mm}".
-std::string to_string(const Assertion& assertion);
+[[nodiscard]] std::string to_string(const Assertion& assertion);
 
 /// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}, in written order.
 struct Assertions {
@@ -43,7 +43,7 @@ struct Assertions {
 
 /// Converts the lengths to scene units; percentages refer to the input of the context's stage. Throws usage
 /// (E-UNIT) for a physical unit when the scene has none.
-Assertions resolved(Assertions assertions, const Scene& scene, Context& context);
+[[nodiscard]] Assertions resolved(Assertions assertions, const Scene& scene, Context& context);
 
 /// Reads assertions from a map value. Unknown properties are problems, and so are truth values in place of
 /// numbers or the reverse.
@@ -52,11 +52,11 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
 /// Adds E-MISSING unless at least one assertion or other key is given.
 void verify_any(bool any, const Value& given, std::string_view owner, Problems& problems);
 /// The JSON Schema of such a map.
-Json assertions_schema();
+[[nodiscard]] Json assertions_schema();
 /// The manual's text for a property: its help, and the unit if the type does not imply it.
-std::string help_of(const Property& property);
+[[nodiscard]] std::string help_of(const Property& property);
 /// The words of a property with their meanings; none for other kinds.
-std::vector<Choice> word_choices(const Property& property);
+[[nodiscard]] std::vector<Choice> word_choices(const Property& property);
 
 /// Declares one option per property of the table; each option used is added to the struct's assertions.
 template <class S>
@@ -87,10 +87,10 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
 
 /// One check per assertion, in order; lengths must be resolved. The check fails if the property does not
 /// apply (volume of an open mesh).
-std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
-                                    const std::string& stage);
+[[nodiscard]] std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
+                                                  const std::string& stage);
 /// True if the assertion holds; none when the property does not apply.
-std::optional<bool> holds(const Assertion& assertion, const Properties& properties);
+[[nodiscard]] std::optional<bool> holds(const Assertion& assertion, const Properties& properties);
 
 template <>
 struct OptionType<Assertions> {

@@ -35,7 +35,7 @@ struct ControlItem {
 /// branch, foreach, include.
 const std::vector<ControlItem>& control_items();
 /// Null for an unknown name.
-const ControlItem* control_item(std::string_view name);
+[[nodiscard]] const ControlItem* control_item(std::string_view name);
 inline bool is_control_item(std::string_view name) { return control_item(name) != nullptr; }
 
 } // namespace facetmill

@@ -34,11 +34,11 @@ struct Contract {
     LimitMarks deviation_at{};
 };
 bool parse_contract(const Value& value, Contract& out, Problems& problems);
-Json contract_schema();
+[[nodiscard]] Json contract_schema();
 /// The schema of the data that a deviation contract adds to its stage's result, under "deviation".
-Json contract_result_schema();
+[[nodiscard]] Json contract_result_schema();
 /// "max 0.5%, rms 0.1%", for plans.
-std::string to_string(const DeviationLimits& limits);
+[[nodiscard]] std::string to_string(const DeviationLimits& limits);
 
 /// Measures the deviation of the scene from `before`, and makes a check of every limit, with the position of
 /// the maximum as evidence. Stores the complete measurement in the stage's result under "deviation".

@@ -9,7 +9,7 @@ namespace facetmill {
 
 /// Like the other perform. surfaces: of the scene, if known; replaced by the result's surfaces, or none. Also
 /// none if this throws.
-Scene perform(const Stage& stage, Scene scene, Context& context,
-              std::optional<std::vector<PartSurface>>& surfaces);
+[[nodiscard]] Scene perform(const Stage& stage, Scene scene, Context& context,
+                            std::optional<std::vector<PartSurface>>& surfaces);
 
 } // namespace facetmill

@@ -135,18 +135,18 @@ struct RegisterStage {
 
 /// All stages, sorted by name.
 const std::vector<StageInfo>& stages();
-const StageInfo* stage_named(std::string_view name);
-std::vector<std::string> stage_names();
+[[nodiscard]] const StageInfo* stage_named(std::string_view name);
+[[nodiscard]] std::vector<std::string> stage_names();
 
 /// The stage with this name in other programs, or null.
-const StageInfo* stage_called(std::string_view other_name);
+[[nodiscard]] const StageInfo* stage_called(std::string_view other_name);
 /// A hint for an operation of other programs that needs several stages (remesh); empty for other words.
-std::string_view chain_called(std::string_view other_name);
+[[nodiscard]] std::string_view chain_called(std::string_view other_name);
 /// A hint for an unknown stage name: the stage with this meaning, or the most similar name.
-std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names);
+[[nodiscard]] std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names);
 
 /// Prepares faces for the stage (crossing_faces), runs it, and warns about lost surface.
-Scene perform(const Stage& stage, Scene scene, Context& context);
+[[nodiscard]] Scene perform(const Stage& stage, Scene scene, Context& context);
 
 template <class OptionsOfStage>
 class StageWith : public Stage {
@@ -191,7 +191,7 @@ constexpr bool is_own(Own, Default) {
 }
 
 template <class S>
-StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options>&)) {
+[[nodiscard]] StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options>&)) {
     info.options = Lazy<Declaration>([declare] {
         Declare<typename S::Options> d;
         declare(d);
@@ -206,8 +206,8 @@ StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options
 }
 
 template <class S>
-StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options>&),
-                     void (*declare_report)(DeclareFields<typename S::Report>&)) {
+[[nodiscard]] StageInfo make_stage(StageInfo info, void (*declare)(Declare<typename S::Options>&),
+                                   void (*declare_report)(DeclareFields<typename S::Report>&)) {
     info.result = Lazy<Fields>([declare_report] { return fields_of<typename S::Report>(declare_report); });
     return make_stage<S>(std::move(info), declare);
 }

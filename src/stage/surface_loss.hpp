@@ -31,8 +31,8 @@ struct PartSurface {
 };
 /// The surface of each part. O(corners), parallel. For instances with non-uniform scale, the area is
 /// estimated, in the same way before and after a stage. sizes: [parts] known sizes, or empty.
-std::vector<PartSurface> surfaces_of_parts(const Scene& scene,
-                                           std::span<const std::optional<SurfaceSize>> sizes = {});
+[[nodiscard]] std::vector<PartSurface>
+surfaces_of_parts(const Scene& scene, std::span<const std::optional<SurfaceSize>> sizes = {});
 
 /// Warns (W-SURFACE-LOST) about a larger loss than allowed: all faces, or too much area. It compares part by
 /// part if the parts are the same before and after; else the whole scene. Infinite and zero areas are

@@ -6,7 +6,7 @@
 namespace facetmill {
 
 /// A scene of one part without a transform, with the cells' box in the world.
-inline Scene world_outline(const CellFlow& flow) {
+[[nodiscard]] inline Scene world_outline(const CellFlow& flow) {
     Scene outline = flow.outline();
     Part& part = outline.parts.front();
     part.transform = {};

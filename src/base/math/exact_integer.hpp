@@ -7,9 +7,9 @@
 namespace facetmill {
 
 /// x in units of the smallest double, 2^-1074: an integer for every finite number, and 0 for the others.
-mpz_class exact_integer(double x);
+[[nodiscard]] mpz_class exact_integer(double x);
 
 /// The double nearest to n * 2^-power, or an adjacent one. It has n's sign, is finite, and is 0 only if n is.
-double rounded(const mpz_class& n, int power);
+[[nodiscard]] double rounded(const mpz_class& n, int power);
 
 } // namespace facetmill

@@ -12,15 +12,15 @@ namespace facetmill {
 
 /// The number that the whole text represents ("1", "-2.5e3", "+4"), or none. Accepts neither nan nor inf nor
 /// hexadecimal.
-std::optional<double> parse_real(std::string_view text);
+[[nodiscard]] std::optional<double> parse_real(std::string_view text);
 /// The decimal integer that the whole text represents, or none (also when out of range). "010" is ten.
-std::optional<std::int64_t> parse_integer(std::string_view text);
+[[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view text);
 /// x rounded to float32. Never inline, on purpose: GCC 12 drops the conversion there and back when it
 /// vectorises two of them side by side (seen at -O2 and -O3).
-double as_float32(double x);
+[[nodiscard]] double as_float32(double x);
 /// The same for each coordinate.
-Vec3 as_float32(const Vec3& p);
+[[nodiscard]] Vec3 as_float32(const Vec3& p);
 /// The shortest spelling that reads back as the same double.
-std::string to_string(double value);
+[[nodiscard]] std::string to_string(double value);
 
 } // namespace facetmill

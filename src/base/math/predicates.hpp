@@ -16,7 +16,7 @@ inline constexpr double orientation_smallest = 1e-290;
 /// finite coordinates of any size: a floating-point filter, then exact expansions (J. R. Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997), and integers where those
 /// would overflow or underflow.
-int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
+[[nodiscard]] int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
 
 /// True when the three points are collinear (or two coincide), exactly: their three axis projections are.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
@@ -29,6 +29,6 @@ constexpr bool is_level(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t
 /// The side of the plane through a, b, c that contains d. It is 1 for the side that (b - a) x (c - a) points
 /// to, -1 for the opposite side, 0 on the plane. Exact for finite coordinates of any size, with the same
 /// method as orientation_2d.
-int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+[[nodiscard]] int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 } // namespace facetmill

@@ -9,12 +9,14 @@ namespace facetmill {
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
-inline Float4 load(const float (&four)[4]) { return Float4{four[0], four[1], four[2], four[3]}; }
-inline Float4 greater(const Float4& a, const Float4& b) { return a > b ? a : b; }
-inline Float4 lesser(const Float4& a, const Float4& b) { return a < b ? a : b; }
+[[nodiscard]] inline Float4 load(const float (&four)[4]) {
+    return Float4{four[0], four[1], four[2], four[3]};
+}
+[[nodiscard]] inline Float4 greater(const Float4& a, const Float4& b) { return a > b ? a : b; }
+[[nodiscard]] inline Float4 lesser(const Float4& a, const Float4& b) { return a < b ? a : b; }
 
 /// One bit for each lane of a comparison, the first lane lowest.
-inline unsigned bits_of(const Int4& truths) {
+[[nodiscard]] inline unsigned bits_of(const Int4& truths) {
 #if defined(__SSE__)
     return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<const Float4&>(truths)));
 #else

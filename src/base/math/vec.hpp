@@ -42,20 +42,20 @@ constexpr Vec3 operator*(Vec3 a, double s) { return a *= s; }
 constexpr Vec3 operator*(double s, Vec3 a) { return a *= s; }
 constexpr Vec3 operator/(const Vec3& a, double s) { return {a.x / s, a.y / s, a.z / s}; }
 
-constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+[[nodiscard]] constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+[[nodiscard]] constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 /// a scaled to unit length; the zero vector stays zero.
-inline Vec3 normalised(const Vec3& a) {
+[[nodiscard]] inline Vec3 normalised(const Vec3& a) {
     const double l = length(a);
     return l > 0 ? a / l : a;
 }
 
 /// The point at parameter t between a (t = 0, exactly a) and b (t = 1, exactly b).
-constexpr Vec3 mix(const Vec3& a, const Vec3& b, double t) { return a * (1 - t) + b * t; }
+[[nodiscard]] constexpr Vec3 mix(const Vec3& a, const Vec3& b, double t) { return a * (1 - t) + b * t; }
 
 inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);

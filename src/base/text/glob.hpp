@@ -22,6 +22,6 @@ bool glob_matches_path(const std::filesystem::path& pattern, const std::filesyst
 /// number of directories, and at the end all files below. Hidden files only match a pattern that starts with
 /// a dot. A path without patterns returns itself, whether it exists or not, and so does the name of an
 /// existing file ("[a].ply").
-std::vector<std::filesystem::path> expand_glob(const std::filesystem::path& pattern);
+[[nodiscard]] std::vector<std::filesystem::path> expand_glob(const std::filesystem::path& pattern);
 
 } // namespace facetmill

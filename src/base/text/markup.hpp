@@ -8,19 +8,19 @@ namespace facetmill {
 
 /// The text with & < > and both quotes as entities. Control characters and invalid UTF-8 bytes, which XML
 /// forbids, each become U+FFFD.
-std::string escaped(std::string_view text);
+[[nodiscard]] std::string escaped(std::string_view text);
 
 /// A name or a path, escaped, with line breaks allowed after slashes and underscores, because browsers would
 /// otherwise break words.
-std::string escaped_path(std::string_view path);
+[[nodiscard]] std::string escaped_path(std::string_view path);
 
 /// Escapes the text for a paragraph or a cell of Markdown (GitHub's), so that none of it is markup: on one
 /// line, with a backslash before Markdown characters, and HTML characters as in escaped().
-std::string markdown_escaped(std::string_view text);
+[[nodiscard]] std::string markdown_escaped(std::string_view text);
 
 /// Makes the text safe for a terminal, which would interpret control characters (in a mesh's names, or a
 /// source line). Each becomes '?', except line ends and tabs; so do C1 controls and invalid UTF-8.
-std::string for_terminal(std::string_view text);
+[[nodiscard]] std::string for_terminal(std::string_view text);
 
 /// A text for a terminal: everything added is escaped as by for_terminal(), and parts may be coloured.
 class Painted {
@@ -38,6 +38,6 @@ class Painted {
 };
 
 /// The text as one word for sh: unchanged if it has no special characters, else in single quotes.
-std::string for_shell(std::string_view text);
+[[nodiscard]] std::string for_shell(std::string_view text);
 
 } // namespace facetmill

@@ -11,7 +11,7 @@ namespace facetmill {
 
 /// The shortest text that reads back as the same number. Whole numbers of up to 15 digits have no exponent:
 /// 100000, not the shorter 1e+05.
-inline std::string plain_number(double x) {
+[[nodiscard]] inline std::string plain_number(double x) {
     return x == std::floor(x) && std::abs(x) < 1e15 ? std::to_string(static_cast<std::int64_t>(x))
                                                     : to_string(x);
 }

@@ -9,24 +9,25 @@
 
 namespace facetmill {
 
-std::string grouped(std::uint64_t count); ///< 1234567 -> "1,234,567"
-std::string sized(std::uint64_t bytes);   ///< 12345 -> "12.3 kB"
-std::string timed(double seconds);        ///< 0.1234 -> "0.12 s"
+[[nodiscard]] std::string grouped(std::uint64_t count); ///< 1234567 -> "1,234,567"
+[[nodiscard]] std::string sized(std::uint64_t bytes);   ///< 12345 -> "12.3 kB"
+[[nodiscard]] std::string timed(double seconds);        ///< 0.1234 -> "0.12 s"
 
 /// Rounded to this many digits, thousands without an exponent: 12.3456 -> "12.3 %", 40712 -> "40,700 %".
 /// Numbers below 0.0001 or with more than twelve integer digits have an exponent: "1.23e-05 %".
-std::string percentage(double percent, int digits = 3);
+[[nodiscard]] std::string percentage(double percent, int digits = 3);
 
 /// Six digits, or "out of range".
-std::string readable(double number);
+[[nodiscard]] std::string readable(double number);
 /// Six digits and at least three decimals, so that a position far from the origin can be found:
 /// "5334630.125".
-std::string readable_coordinate(double x);
-std::string readable(const Vec3& point, const char* between = " "); ///< "0.5 1 2", as readable_coordinate
-std::string readable_pair(double x, double y);                      ///< "0.5, 1", a place in a plane
+[[nodiscard]] std::string readable_coordinate(double x);
+[[nodiscard]] std::string readable(const Vec3& point,
+                                   const char* between = " "); ///< "0.5 1 2", as readable_coordinate
+[[nodiscard]] std::string readable_pair(double x, double y);   ///< "0.5, 1", a place in a plane
 /// The same, and "-" for none.
 template <class T>
-std::string readable(const std::optional<T>& value) {
+[[nodiscard]] std::string readable(const std::optional<T>& value) {
     return value ? readable(*value) : "-";
 }
 

@@ -7,11 +7,11 @@
 namespace facetmill {
 
 /// The last component of a path, ignoring a trailing slash; "standard input" for "-".
-std::string short_name(const std::string& path);
+[[nodiscard]] std::string short_name(const std::string& path);
 
 /// The shortest names that distinguish two files or folders: their last components or, if these are equal,
 /// the last differing components before them: "old/.../a.glb" and "new/.../a.glb". The same file twice has
 /// one name.
-std::pair<std::string, std::string> short_names(const std::string& a, const std::string& b);
+[[nodiscard]] std::pair<std::string, std::string> short_names(const std::string& a, const std::string& b);
 
 } // namespace facetmill

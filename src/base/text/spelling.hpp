@@ -8,22 +8,22 @@
 namespace facetmill {
 
 /// Lower-cases A to Z; other bytes stay, so that UTF-8 stays valid.
-std::string lower_case(std::string text);
+[[nodiscard]] std::string lower_case(std::string text);
 /// Whether the texts are equal, ignoring the case of A to Z.
 bool same_word(std::string_view a, std::string_view b);
 
 /// The number of single-character insertions, deletions, replacements and swaps of neighbours between a and
 /// b.
-std::size_t edit_distance(std::string_view a, std::string_view b);
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate nearest to the word (the first of ties), or empty if none is near enough.
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "did you mean 'x'?" if a candidate is near enough, else otherwise.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
-                         std::string otherwise = {});
+[[nodiscard]] std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                                       std::string otherwise = {});
 
 /// "did you mean 'x'?" if a candidate is near enough, else "expected one of: a, b, c".
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+[[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace facetmill

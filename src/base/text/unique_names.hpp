@@ -10,7 +10,7 @@ namespace facetmill {
 
 /// The name if it is free, else the first free one of NAME_2, NAME_3 ...: for which taken(name) is false.
 template <class Taken>
-std::string free_name(const std::string& wanted, Taken&& taken) {
+[[nodiscard]] std::string free_name(const std::string& wanted, Taken&& taken) {
     std::string name = wanted;
     for (int n = 2; taken(name); ++n) name = fmt::format("{}_{}", wanted, n);
     return name;

@@ -23,18 +23,18 @@ struct HierarchyResult {
 };
 
 /// The reason why these settings need the whole mesh at once, for messages; none if they do not.
-std::optional<std::string> why_not_in_cells(const SimplifySettings& settings);
+[[nodiscard]] std::optional<std::string> why_not_in_cells(const SimplifySettings& settings);
 
 /// The minimum memory in bytes, with one worker, to simplify a mesh of `faces` faces in cells to `target`
 /// faces.
-std::uint64_t memory_for_cells(std::uint64_t faces, std::uint64_t target);
+[[nodiscard]] std::uint64_t memory_for_cells(std::uint64_t faces, std::uint64_t target);
 /// The memory to do the same in memory, with loading and writing.
-std::uint64_t memory_in_core(std::uint64_t faces);
+[[nodiscard]] std::uint64_t memory_in_core(std::uint64_t faces);
 
 /// Simplifies the cells to the settings' faces or ratio. Throws limit (E-MEMORY) if memory_for_cells exceeds
 /// the available memory; output (E-SCRATCH, E-SPACE).
-HierarchyResult simplify_cells(const Partition& partition, const SimplifySettings& settings,
-                               const CellResources& means, const Transform& transform = {});
+[[nodiscard]] HierarchyResult simplify_cells(const Partition& partition, const SimplifySettings& settings,
+                                             const CellResources& means, const Transform& transform = {});
 
 /// Does the part of simplify_cells that belongs to means.job, and writes its stamp to means.kept. Throws as
 /// simplify_cells.

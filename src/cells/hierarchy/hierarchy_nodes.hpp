@@ -19,17 +19,17 @@ struct Station {
 };
 
 /// Each station follows its children; the root is last.
-std::vector<Station> hierarchy_nodes_of(const Partition& partition);
+[[nodiscard]] std::vector<Station> hierarchy_nodes_of(const Partition& partition);
 /// The same, except that all leaves below a node form a single station if they have at most `together`
 /// faces. In a tree of odd height the root joins two stations, so that stations below join four.
-std::vector<Station> hierarchy_nodes_of(const Partition& partition, std::uint64_t together);
+[[nodiscard]] std::vector<Station> hierarchy_nodes_of(const Partition& partition, std::uint64_t together);
 
-std::size_t levels_of(const std::vector<Station>& hierarchy_nodes);
+[[nodiscard]] std::size_t levels_of(const std::vector<Station>& hierarchy_nodes);
 
 /// The stations that a simplifying job processes: [stations], each with all stations below it. Jobs have
 /// similar numbers of faces, and the last run processes the stations above all jobs.
-std::vector<std::uint8_t> hierarchy_nodes_of_job(const std::vector<Station>& hierarchy_nodes,
-                                                 const CellJob& job);
+[[nodiscard]] std::vector<std::uint8_t> hierarchy_nodes_of_job(const std::vector<Station>& hierarchy_nodes,
+                                                               const CellJob& job);
 
 /// Processes these stations, except the root, each after its children, with as many in parallel as threads
 /// and memory allow. wanted: [stations]. bytes_of(station): the memory needed; it is called after the

@@ -13,9 +13,9 @@ struct CellJob {
 };
 
 /// A name that distinguishes simplifying jobs.
-std::string name_of(const CellJob& job);
+[[nodiscard]] std::string name_of(const CellJob& job);
 /// The stamp file of a finished simplifying job. Its stations depend on the mesh and the number of jobs
 /// alone.
-std::string stamp_of(const CellJob& job);
+[[nodiscard]] std::string stamp_of(const CellJob& job);
 
 } // namespace facetmill::cells

@@ -11,8 +11,9 @@ namespace facetmill::cells {
 /// and options (means.key); otherwise makes it, and keeps it in that folder if set. A simplifying job
 /// (means.job) makes none: it throws output (E-SCRATCH), see make_cells_due. It checks cells only when it
 /// reads them.
-std::unique_ptr<Partition> kept_partition(std::shared_ptr<FaceSource> source, const CellResources& means,
-                                          std::uint64_t most = faces_of_cell);
+[[nodiscard]] std::unique_ptr<Partition> kept_partition(std::shared_ptr<FaceSource> source,
+                                                        const CellResources& means,
+                                                        std::uint64_t most = faces_of_cell);
 
 /// The files of a kept partition.
 inline constexpr std::array<const char*, 3> kept_files{"facetmill-cells.json", "facetmill-cells.records",

@@ -19,8 +19,8 @@ struct Owned {
 };
 
 /// The number of buckets of keys such that each fits into memory. estimate: the number of keys.
-std::uint64_t buckets_of_keys(std::uint64_t estimate, std::uint64_t memory);
-std::uint64_t bucket_of_key(std::uint64_t key, std::uint64_t buckets);
+[[nodiscard]] std::uint64_t buckets_of_keys(std::uint64_t estimate, std::uint64_t memory);
+[[nodiscard]] std::uint64_t bucket_of_key(std::uint64_t key, std::uint64_t buckets);
 
 class NumberOwners {
   public:

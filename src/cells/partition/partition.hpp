@@ -86,10 +86,10 @@ class Partition {
 };
 
 /// Joins the cells and merges the vertices that they share. depth: of the node that they form together.
-Cell joined(std::vector<Cell> cells, std::uint8_t depth);
+[[nodiscard]] Cell joined(std::vector<Cell> cells, std::uint8_t depth);
 
 /// The cell after processing: the mesh, with the names and homes of its shared vertices. sources: [vertices
 /// of the mesh] the cell's vertices, or none.
-Cell reduced(Mesh mesh, const std::vector<Index>& sources, const Cell& from);
+[[nodiscard]] Cell reduced(Mesh mesh, const std::vector<Index>& sources, const Cell& from);
 
 } // namespace facetmill::cells

@@ -20,7 +20,7 @@ struct Collar {
 /// part: [faces] nonzero for faces of the part; the mesh also has all other faces with a vertex of these.
 /// sheet: [faces] for the others, the number of their component over edges of the rest. If the rest does not
 /// meet the part, the collar is a separate tetrahedron.
-Collar border_closure_of(const Mesh& mesh, const std::vector<std::uint8_t>& part,
-                         const std::vector<std::uint32_t>& sheet);
+[[nodiscard]] Collar border_closure_of(const Mesh& mesh, const std::vector<std::uint8_t>& part,
+                                       const std::vector<std::uint32_t>& sheet);
 
 } // namespace facetmill::cells

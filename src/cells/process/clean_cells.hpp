@@ -13,7 +13,7 @@
 namespace facetmill::cells {
 
 /// The reason why these settings need the whole mesh at once, for messages; none if they do not.
-std::optional<std::string> why_not_in_cells(const CleanSettings& settings);
+[[nodiscard]] std::optional<std::string> why_not_in_cells(const CleanSettings& settings);
 
 struct CleanedCells {
     CleanResult result;                     ///< without the mesh
@@ -23,8 +23,8 @@ struct CleanedCells {
 /// Cleans the cells. Faces, vertices and counts equal clean() in memory, except that cells have no vertices
 /// without faces. The order of the faces changes if some faces changed. Throws limit (E-MEMORY) if the faces
 /// at such positions exceed memory; usage (E-CELLS) if vertices would get several sets of attributes.
-CleanedCells clean_cells(std::unique_ptr<Partition>& partition, const CleanSettings& settings,
-                         const CellResources& means, const Transform& transform,
-                         std::uint64_t most = faces_of_cell);
+[[nodiscard]] CleanedCells clean_cells(std::unique_ptr<Partition>& partition, const CleanSettings& settings,
+                                       const CellResources& means, const Transform& transform,
+                                       std::uint64_t most = faces_of_cell);
 
 } // namespace facetmill::cells

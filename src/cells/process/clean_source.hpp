@@ -9,12 +9,12 @@ namespace facetmill::cells {
 
 /// The faces of a source with their numbers, the last 32 bits of each record. by_place: merge vertices at
 /// the same position; else use the source's vertices.
-std::shared_ptr<FaceSource> numbered_source(std::shared_ptr<FaceSource> plain, bool by_place);
+[[nodiscard]] std::shared_ptr<FaceSource> numbered_source(std::shared_ptr<FaceSource> plain, bool by_place);
 
 /// The numbers in the records of a numbered source.
-std::vector<std::uint32_t> numbers_in(const FaceSource& numbered, io::Span records);
+[[nodiscard]] std::vector<std::uint32_t> numbers_in(const FaceSource& numbered, io::Span records);
 /// The same records without numbers, as the plain source has them.
-io::Bytes plain_records(const FaceSource& numbered, io::Span records);
+[[nodiscard]] io::Bytes plain_records(const FaceSource& numbered, io::Span records);
 
 struct Replacement {
     std::vector<std::uint32_t> gone; ///< numbers of faces, ascending
@@ -24,7 +24,7 @@ struct Replacement {
 
 /// The remaining faces of a numbered source of `faces` faces, then the new faces. Vertices are identified as
 /// in a Piece.
-std::shared_ptr<FaceSource> replaced_source(std::shared_ptr<FaceSource> numbered, std::uint32_t faces,
-                                            Replacement by);
+[[nodiscard]] std::shared_ptr<FaceSource> replaced_source(std::shared_ptr<FaceSource> numbered,
+                                                          std::uint32_t faces, Replacement by);
 
 } // namespace facetmill::cells

@@ -14,12 +14,13 @@ bool inspects(const Property& property);
 
 /// The bounding box of the transformed cells. If the transform maps axes to axes, it follows from their own
 /// box; otherwise the cells are read.
-Box box_of_cells(const Partition& partition, const Transform& transform);
+[[nodiscard]] Box box_of_cells(const Partition& partition, const Transform& transform);
 
 /// The supported properties of the transformed cells; others have the values of an empty mesh. Area and
 /// volume are summed in cell order, so the last digits may differ from the mesh in memory. Throws output
 /// (E-SCRATCH); limit (E-MEMORY) if the faces at borders exceed memory, for example at a vertex of a million
 /// faces.
-Properties inspect_cells(const Partition& partition, const Transform& transform, const CellResources& means);
+[[nodiscard]] Properties inspect_cells(const Partition& partition, const Transform& transform,
+                                       const CellResources& means);
 
 } // namespace facetmill::cells

@@ -20,16 +20,17 @@ struct FaceCut {
 /// The pieces of the source's faces, in order, with attributes: the same as a single pass of split. A new
 /// vertex is named after the ends of its edge, so cells agree on shared vertices. Returns the source itself
 /// if the grid is 1. The grid must be at most FaceCut::most.
-std::shared_ptr<FaceSource> split_source(std::shared_ptr<FaceSource> whole, const FaceCut& how = {});
+[[nodiscard]] std::shared_ptr<FaceSource> split_source(std::shared_ptr<FaceSource> whole,
+                                                       const FaceCut& how = {});
 
 /// Throws limit (E-LIMIT) for more faces than formats can count.
 void require_countable(const char* stage, double faces, const char* hint);
 
 /// Spots where faces share two edges, so that their new edges coincide: SplitResult::shared of a pass.
 /// Throws as walk_cell_borders.
-std::size_t shared_spots(const Partition& partition, const CellResources& means);
+[[nodiscard]] std::size_t shared_spots(const Partition& partition, const CellResources& means);
 
 /// The longest edge and the smallest angle of all transformed cells.
-FacetShape shape_of_cells(const Partition& partition, const Transform& transform);
+[[nodiscard]] FacetShape shape_of_cells(const Partition& partition, const Transform& transform);
 
 } // namespace facetmill::cells

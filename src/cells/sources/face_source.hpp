@@ -80,13 +80,13 @@ class FaceSource {
 
 /// Maps the file unless it is small, so that only accessed parts use memory. The file must not be
 /// compressed.
-io::Input open_mapped(const std::filesystem::path& path);
+[[nodiscard]] io::Input open_mapped(const std::filesystem::path& path);
 
 /// Opens an inspected file for reading. Throws missing; malformed (E-CHANGED) if its path now names another
 /// file, or if its contents changed.
-FaceSource::File open_again(const io::Input& input);
+[[nodiscard]] FaceSource::File open_again(const io::Input& input);
 /// Opens a file for inspection and reading. Throws as io::Input::open and open_again.
-FaceSource::File open_input(const std::filesystem::path& path);
+[[nodiscard]] FaceSource::File open_input(const std::filesystem::path& path);
 
 /// Throws malformed (E-CHANGED) if a file, its times, or the target of its path changed since it was opened.
 void require_as_opened(const std::vector<FaceSource::File>& files);
@@ -95,10 +95,10 @@ void require_unchanged(const std::vector<FaceSource::File>& files);
 
 /// The reason why a file cannot be read face by face, for messages; none if it can. Checks its first bytes
 /// and its name.
-std::optional<std::string> why_not_streamed(const std::filesystem::path& path);
+[[nodiscard]] std::optional<std::string> why_not_streamed(const std::filesystem::path& path);
 
 /// The approximate number of triangles in a file, from its header, else from its size. 0 if unknown.
-std::uint64_t estimated_faces(const std::filesystem::path& path);
+[[nodiscard]] std::uint64_t estimated_faces(const std::filesystem::path& path);
 
 /// Opens files, see scan(); files that are not already rows are read and converted here. Several files, and
 /// parts of a file, become a single mesh. Vertices at the same position are merged within a file and part if
@@ -106,8 +106,10 @@ std::uint64_t estimated_faces(const std::filesystem::path& path);
 /// temporary data. memory: limit in bytes until it returns. kept: later runs reuse the results and must not
 /// need temporary data, so files are read directly if possible. Throws as io::read_scene, and usage
 /// (E-CELLS) for files that why_not_streamed refuses or different units.
-std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
-                                       const io::ReadSettings& settings, const std::filesystem::path& scratch,
-                                       std::size_t memory = std::size_t{64} << 20, bool kept = false);
+[[nodiscard]] std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
+                                                     const io::ReadSettings& settings,
+                                                     const std::filesystem::path& scratch,
+                                                     std::size_t memory = std::size_t{64} << 20,
+                                                     bool kept = false);
 
 } // namespace facetmill::cells

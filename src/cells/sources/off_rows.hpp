@@ -6,8 +6,8 @@
 namespace facetmill::cells {
 
 /// The reason why an OFF file cannot be read face by face, for messages; none if it can. Throws malformed.
-std::optional<std::string> why_off_not_streamed(const io::Input& input);
+[[nodiscard]] std::optional<std::string> why_off_not_streamed(const io::Input& input);
 /// The count in the header. The file must be text.
-std::uint64_t off_faces(const io::Input& input);
+[[nodiscard]] std::uint64_t off_faces(const io::Input& input);
 
 } // namespace facetmill::cells

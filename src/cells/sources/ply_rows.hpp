@@ -7,12 +7,12 @@ namespace facetmill::cells {
 
 /// The reason why a PLY file cannot be read face by face, for messages; none if it can. Throws malformed for
 /// a bad header.
-std::optional<std::string> why_ply_not_streamed(const io::Input& input);
+[[nodiscard]] std::optional<std::string> why_ply_not_streamed(const io::Input& input);
 /// The count in the header.
-std::uint64_t ply_faces(const io::Input& input);
+[[nodiscard]] std::uint64_t ply_faces(const io::Input& input);
 bool is_text_ply(const io::Input& input);
 /// A binary file. Throws as open_faces.
-std::unique_ptr<FaceSource> open_ply(FaceSource::File file, const io::ReadSettings& settings,
-                                     FaceSource::Contents contents);
+[[nodiscard]] std::unique_ptr<FaceSource> open_ply(FaceSource::File file, const io::ReadSettings& settings,
+                                                   FaceSource::Contents contents);
 
 } // namespace facetmill::cells

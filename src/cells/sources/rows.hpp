@@ -37,7 +37,7 @@ struct Rows {
 };
 
 /// The bytes of a vertex row.
-std::size_t row_size(const std::vector<io::ply::Property>& properties);
+[[nodiscard]] std::size_t row_size(const std::vector<io::ply::Property>& properties);
 
 /// The offsets of the coordinates in a vertex row.
 class Coordinates {
@@ -58,8 +58,8 @@ inline constexpr const char* not_finite_hint =
 
 /// The position of a file's vertex; its number is for messages. Throws malformed (E-NAN) if it is not
 /// finite.
-Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uint64_t number,
-                  const std::string& file);
+[[nodiscard]] Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uint64_t number,
+                                const std::string& file);
 /// The corners of the next face; its number is for messages. Throws malformed (E-PLY).
 void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
                std::vector<std::uint32_t>& corners);
@@ -118,16 +118,16 @@ class RowReader {
 };
 
 /// Readers by format. why_not_streamed must accept the file.
-std::unique_ptr<RowReader> gltf_rows(const io::Input& input, const io::ReadSettings& settings);
-std::unique_ptr<RowReader> obj_rows(const io::Input& input, const io::ReadSettings& settings);
-std::unique_ptr<RowReader> off_rows(const io::Input& input, const io::ReadSettings& settings);
-std::unique_ptr<RowReader> ply_rows(const io::Input& input, const io::ReadSettings& settings);
+[[nodiscard]] std::unique_ptr<RowReader> gltf_rows(const io::Input& input, const io::ReadSettings& settings);
+[[nodiscard]] std::unique_ptr<RowReader> obj_rows(const io::Input& input, const io::ReadSettings& settings);
+[[nodiscard]] std::unique_ptr<RowReader> off_rows(const io::Input& input, const io::ReadSettings& settings);
+[[nodiscard]] std::unique_ptr<RowReader> ply_rows(const io::Input& input, const io::ReadSettings& settings);
 /// memory: limit in bytes. or_none: stop without a digest if faces of a binary file have attributes.
-std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings,
-                                    std::size_t memory, bool or_none);
+[[nodiscard]] std::unique_ptr<RowReader> stl_rows(const io::Input& input, const io::ReadSettings& settings,
+                                                  std::size_t memory, bool or_none);
 
 /// A source of rows. If the digest of the first file is unknown, the rows must be that file.
-std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,
-                                      const io::ReadSettings& settings);
+[[nodiscard]] std::unique_ptr<FaceSource> source_of(Rows rows, FaceSource::Contents contents,
+                                                    const io::ReadSettings& settings);
 
 } // namespace facetmill::cells

@@ -7,7 +7,7 @@ namespace facetmill::cells {
 
 bool is_text_stl(const io::Input& input);
 /// A binary file. Throws as open_faces.
-std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
-                                     FaceSource::Contents contents);
+[[nodiscard]] std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
+                                                   FaceSource::Contents contents);
 
 } // namespace facetmill::cells

@@ -25,7 +25,7 @@ void put_difference(std::uint64_t before, std::uint64_t number, Put&& put) {
 
 /// The number after `before`. next(): the next byte.
 template <class Next>
-std::uint64_t take_difference(std::uint64_t before, Next&& next) {
+[[nodiscard]] std::uint64_t take_difference(std::uint64_t before, Next&& next) {
     constexpr int most = 63;
     std::uint64_t difference = 0, byte = packed::more;
     for (int shift = 0; byte & packed::more && shift < most; shift += packed::digit) {
@@ -36,7 +36,7 @@ std::uint64_t take_difference(std::uint64_t before, Next&& next) {
 }
 
 /// Packs native 32-bit numbers. If that does not save space, the result is the numbers plus one byte.
-io::Bytes packed_numbers(io::Span numbers);
+[[nodiscard]] io::Bytes packed_numbers(io::Span numbers);
 /// Appends the unpacked numbers. False if the bytes are not valid packed numbers.
 bool unpack_numbers(io::Span packed, io::Bytes& to);
 

@@ -87,7 +87,7 @@ class RecordCache {
 };
 
 /// The records of these numbers, ascending, one after another.
-io::Bytes read_records(const ReadFile& file, std::uint64_t begin, std::size_t size,
-                       std::span<const std::uint32_t> numbers);
+[[nodiscard]] io::Bytes read_records(const ReadFile& file, std::uint64_t begin, std::size_t size,
+                                     std::span<const std::uint32_t> numbers);
 
 } // namespace facetmill::cells

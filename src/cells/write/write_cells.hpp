@@ -10,7 +10,8 @@
 namespace facetmill::cells {
 
 /// The reason why a file of that format cannot be written cell by cell, for messages; none if it can.
-std::optional<std::string> why_not_written(const io::Codec& codec, const io::WriteSettings& settings);
+[[nodiscard]] std::optional<std::string> why_not_written(const io::Codec& codec,
+                                                         const io::WriteSettings& settings);
 
 struct WritePlace {
     Transform transform; ///< from cell space to file space
@@ -19,13 +20,13 @@ struct WritePlace {
 };
 
 /// The largest displacement of a file coordinate by rounding to float32. Reads the cells.
-double rounding_of(const Partition& partition, const Transform& transform);
+[[nodiscard]] double rounding_of(const Partition& partition, const Transform& transform);
 
 /// Passes the file to put, piece by piece. It equals the codec's output, except that cells set the order,
 /// and a GLB has only positions. Reads the cells twice, for a GLB three times. Returns the largest
 /// displacement of a coordinate by rounding to float32. Throws stage (E-RANGE, as the codec), output
 /// (E-SCRATCH), and, before calling put, limit (E-SIZE) beyond the format's counts.
-double write_cells(const Partition& partition, const WritePlace& place, const io::Codec& codec,
-                   const io::WriteSettings& settings, const std::function<void(io::Span)>& put);
+[[nodiscard]] double write_cells(const Partition& partition, const WritePlace& place, const io::Codec& codec,
+                                 const io::WriteSettings& settings, const std::function<void(io::Span)>& put);
 
 } // namespace facetmill::cells

@@ -24,14 +24,14 @@ struct WrittenTiles {
 
 /// The minimum memory in bytes, with one worker, to make a tileset of a mesh of `faces` faces with tiles of
 /// `tile` faces.
-std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile);
+[[nodiscard]] std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile);
 
 /// Passes the tile files to put as they are made, one at a time, in any order. transform: from cell space to
 /// a z-up world in metres. The tiles have no materials, seams or textures. The tree depends on the mesh and
 /// the settings alone. Throws limit (E-MEMORY) if joined tiles exceed memory; stage (E-RANGE); output
 /// (E-SCRATCH, E-SPACE, and the errors of put).
-WrittenTiles write_tiles(const Partition& partition, const Transform& transform,
-                         const io::WriteSettings& settings, const CellResources& means,
-                         const std::function<void(const io::OutputFile&)>& put);
+[[nodiscard]] WrittenTiles write_tiles(const Partition& partition, const Transform& transform,
+                                       const io::WriteSettings& settings, const CellResources& means,
+                                       const std::function<void(const io::OutputFile&)>& put);
 
 } // namespace facetmill::cells

@@ -55,6 +55,6 @@ struct CombineResult {
 /// `append`. New corners interpolate within the face that they are cut from.
 ///
 /// Never throws for valid meshes. The same for any number of threads.
-CombineResult combine(std::vector<Mesh> meshes, const CombineSettings& settings);
+[[nodiscard]] CombineResult combine(std::vector<Mesh> meshes, const CombineSettings& settings);
 
 } // namespace facetmill

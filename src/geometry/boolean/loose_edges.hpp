@@ -64,6 +64,6 @@ class FaceSets {
 };
 
 /// Like face_components(mesh, build_edges(mesh)).
-Components face_components(const Mesh& mesh, const Rings& rings, const LooseEdges& edges);
+[[nodiscard]] Components face_components(const Mesh& mesh, const Rings& rings, const LooseEdges& edges);
 
 } // namespace facetmill::clean_steps

@@ -27,7 +27,7 @@ namespace facetmill::clean_steps {
 /// leaves is also in K. All other leaves are cut along all faces that they meet.
 ///
 /// Parallel; the same for any number of threads.
-std::vector<std::uint8_t> lost_faces(const Mesh& mesh, std::span<const std::uint8_t> second,
-                                     CombineOperation operation);
+[[nodiscard]] std::vector<std::uint8_t> lost_faces(const Mesh& mesh, std::span<const std::uint8_t> second,
+                                                   CombineOperation operation);
 
 } // namespace facetmill::clean_steps

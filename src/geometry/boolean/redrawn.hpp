@@ -22,8 +22,8 @@ namespace facetmill::clean_steps {
 /// the same nodes. (An uncut face never runs along an inner edge: it would meet the triangle elsewhere than
 /// in corners, and would have been cut.) Sheets that lose nodes are triangulated again between the remaining
 /// nodes. Returns pieces by triangle, ascending. uncut: the uncut faces that stay.
-std::vector<OuterPiece> redrawn(const Mesh& mesh, const std::vector<Index>& uncut,
-                                std::vector<OuterPiece> pieces, const Arrangement& arrangement,
-                                const TriangleFaces& triangles);
+[[nodiscard]] std::vector<OuterPiece> redrawn(const Mesh& mesh, const std::vector<Index>& uncut,
+                                              std::vector<OuterPiece> pieces, const Arrangement& arrangement,
+                                              const TriangleFaces& triangles);
 
 } // namespace facetmill::clean_steps

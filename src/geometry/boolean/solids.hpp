@@ -27,7 +27,7 @@ struct Solids {
 
 /// found: all pairs of intersecting faces. rings: of the mesh, if known. have_area: all faces are known to
 /// have an area.
-Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings = {},
-                   bool have_area = false);
+[[nodiscard]] Solids find_solids(const Mesh& mesh, const SelfIntersections& found, Rings rings = {},
+                                 bool have_area = false);
 
 } // namespace facetmill::clean_steps

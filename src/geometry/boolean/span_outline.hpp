@@ -14,7 +14,7 @@ namespace facetmill {
 /// length, or empty. Dihedral angles to these faces count as well. Outlines of more than a few hundred points
 /// first lose their smallest ears. Triangles without area are last choices. Ties go to the lower corner, so
 /// the same outline gives the same triangles. Parallel.
-std::vector<std::array<Index, 3>> span_outline(const std::vector<Vec3>& outline,
-                                               const std::vector<Vec3>& across = {});
+[[nodiscard]] std::vector<std::array<Index, 3>> span_outline(const std::vector<Vec3>& outline,
+                                                             const std::vector<Vec3>& across = {});
 
 } // namespace facetmill

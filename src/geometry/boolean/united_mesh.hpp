@@ -35,8 +35,8 @@ struct UnitedMesh {
 /// Builds the uncut faces, then the pieces. Vertices and wedges that lose their last face are removed. A new
 /// node that rounds to a vertex position, or is within tolerance of a vertex, merges with the lowest such
 /// vertex. Pieces that lose a corner by merging are dropped.
-UnitedMesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut,
-                       const std::vector<OuterPiece>& pieces, const Arrangement& arrangement,
-                       const TriangleFaces& triangles, const SnapTolerance& rounding);
+[[nodiscard]] UnitedMesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut,
+                                     const std::vector<OuterPiece>& pieces, const Arrangement& arrangement,
+                                     const TriangleFaces& triangles, const SnapTolerance& rounding);
 
 } // namespace facetmill::clean_steps

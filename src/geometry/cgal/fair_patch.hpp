@@ -20,7 +20,8 @@ struct HolePatch {
 /// in meshes", 2003) and faired (M. Botsch and O. Sorkine, "On linear variational surface deformation
 /// methods", 2008) so that it goes on from the faces around it with continuous tangents. As it was where the
 /// faces around are no manifold, or fairing fails. The same for the same input.
-HolePatch fair_patch(const std::vector<Vec3>& outline, const std::vector<std::array<Index, 3>>& triangles,
-                     const HolePatch& around);
+[[nodiscard]] HolePatch fair_patch(const std::vector<Vec3>& outline,
+                                   const std::vector<std::array<Index, 3>>& triangles,
+                                   const HolePatch& around);
 
 } // namespace facetmill

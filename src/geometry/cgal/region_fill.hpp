@@ -19,9 +19,9 @@ struct PlaneView {
 };
 
 /// The axes, from the one along which a plane is seen best by its normal as doubles.
-std::array<std::size_t, 3> axes_by(const Vec3& rough_normal);
+[[nodiscard]] std::array<std::size_t, 3> axes_by(const Vec3& rough_normal);
 /// The view of the plane of a triangle with area.
-PlaneView view_of(const std::array<Vec3, 3>& corners);
+[[nodiscard]] PlaneView view_of(const std::array<Vec3, 3>& corners);
 
 /// A region between points of the plane.
 struct FlatRegion {
@@ -44,15 +44,16 @@ using FlatTriangles = std::vector<std::array<Index, 3>>;
 /// by `is_left` for the few uncertain triangles. Returns none if the proof fails, which implies nothing
 /// about the region. The proof: all triangles turn left. Their edges pair up except border edges, so that
 /// they cover the region once. Each line is an edge, and each point a corner.
-std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
-                                            const std::function<bool(Index, Index, Index)>& is_left);
+[[nodiscard]] std::optional<FlatTriangles>
+proved_filling(const FlatRegion& region, const std::function<bool(Index, Index, Index)>& is_left);
 
 /// Likewise by exact numbers: `points` replace the region's points. Returns none only if the border does not
 /// close, or lines cross that must not.
-std::optional<FlatTriangles> exact_filling(const FlatRegion& region,
-                                           const std::vector<ExactKernel::Point_2>& points);
+[[nodiscard]] std::optional<FlatTriangles> exact_filling(const FlatRegion& region,
+                                                         const std::vector<ExactKernel::Point_2>& points);
 
 /// Likewise for a region of the arrangement; corners are nodes. Uses exact numbers if doubles prove nothing.
-std::optional<FlatTriangles> fill_region(const ExactNodes& nodes, const Arrangement::Region& region);
+[[nodiscard]] std::optional<FlatTriangles> fill_region(const ExactNodes& nodes,
+                                                       const Arrangement::Region& region);
 
 } // namespace facetmill

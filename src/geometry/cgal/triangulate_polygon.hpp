@@ -37,6 +37,6 @@ struct Filling {
 /// Constrained Delaunay triangulation with exact predicates. Requires finite coordinates. The boundary of
 /// the triangles is exactly the edges along their paths (coincident points counted as merged), whatever the
 /// input. Deterministic.
-Filling fill(const Contours& contours);
+[[nodiscard]] Filling fill(const Contours& contours);
 
 } // namespace facetmill

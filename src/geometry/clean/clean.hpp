@@ -119,12 +119,12 @@ struct CleanResult {
 /// changes anything, apart follows. Each setting documents its step; clean_steps.hpp has the details.
 ///
 /// Attributes are copied, and interpolated at new vertices. Never throws for a valid mesh.
-CleanResult clean(Mesh mesh, const CleanSettings& settings);
+[[nodiscard]] CleanResult clean(Mesh mesh, const CleanSettings& settings);
 
 /// The components of a mesh (faces connected across edges), where a cavity belongs to the solid around it. A
 /// cavity is a closed component with a negative volume. It joins the innermost closed outward component that
 /// contains it, if any. Containment is decided exactly, by a ray from one of its vertices. Components that
 /// are open or inconsistently oriented stay separate. Numbered by first face. O(n log n).
-Components solid_components(const Mesh& mesh);
+[[nodiscard]] Components solid_components(const Mesh& mesh);
 
 } // namespace facetmill

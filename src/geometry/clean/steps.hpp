@@ -88,8 +88,8 @@ bool move_apart(Work& work);
 /// The pairs of intersecting faces, for the two steps below. Vertices at the same position count as equal, so
 /// faces separated only by a split edge or vertex (split_non_manifold) do not intersect. Lists at most
 /// max_pairs, and none if more than max_box_pairs must be examined.
-SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
-                            std::size_t max_box_pairs = std::size_t(-1));
+[[nodiscard]] SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
+                                          std::size_t max_box_pairs = std::size_t(-1));
 /// place: result of lowest_at_place. True if all positions are distinct.
 bool are_distinct(const std::vector<Index>& place);
 struct CrossingsAndRings {
@@ -98,21 +98,21 @@ struct CrossingsAndRings {
 };
 /// Up to `limit` pairs, without pairs that contain a lost face (lost_faces). place: result of
 /// lowest_at_place.
-CrossingsAndRings crossings_and_rings(const Mesh& mesh, const std::vector<Index>& place, std::size_t limit,
-                                      const std::vector<std::uint8_t>& lost);
+[[nodiscard]] CrossingsAndRings crossings_and_rings(const Mesh& mesh, const std::vector<Index>& place,
+                                                    std::size_t limit, const std::vector<std::uint8_t>& lost);
 /// The same for a few flagged faces of a large mesh: examines only their surroundings.
-SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
-                                 std::size_t max_box_pairs = std::size_t(-1));
+[[nodiscard]] SelfIntersections crossings_near(const Mesh& mesh, const std::vector<std::uint8_t>& flags,
+                                               std::size_t max_box_pairs = std::size_t(-1));
 /// A mesh of the listed faces in that order, with the vertices that they use; no attributes.
-Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces);
+[[nodiscard]] Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces);
 inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// Pairs of faces, lower first, ascending, that connect all faces at edges around which the surface winds
 /// more than once. Solids overlap at such edges without intersecting, for example grids that cross along
 /// their lines.
-std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
+[[nodiscard]] std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
 /// The same; faster, given the rings and edges of the mesh.
-std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
-                                                       const LooseEdges& edges);
+[[nodiscard]] std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
+                                                                     const LooseEdges& edges);
 /// Replaces closed components that intersect each other or themselves by their union, by winding numbers (see
 /// unite). `found`: the intersections of the mesh; `overlaps`: the overlaps at edges. Closed surfaces stay
 /// closed. Intersections with components that are not closed stay. These, and solids that cannot be united,

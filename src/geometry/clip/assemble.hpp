@@ -13,7 +13,7 @@ struct ClippedSide {
 };
 
 /// side: 1 front, -1 back. Expects flat faces settled.
-ClippedSide assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
-                     const CapPaint& paint);
+[[nodiscard]] ClippedSide assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
+                                   const CapPaint& paint);
 
 } // namespace facetmill

@@ -30,6 +30,6 @@ struct Cap {
 /// The cap of one side. pieces are that side's pieces. Points that the cap puts on their edges are inserted,
 /// and whole faces that get such points become pieces (class bit replaced in cut). If no contour is open,
 /// the kept faces, pieces and cap together have no boundary in the plane.
-Cap make_cap(PlaneCut& cut, int side, Pieces& pieces);
+[[nodiscard]] Cap make_cap(PlaneCut& cut, int side, Pieces& pieces);
 
 } // namespace facetmill

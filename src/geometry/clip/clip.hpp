@@ -77,6 +77,6 @@ struct ClipResult {
 /// they are isolated on the kept side. Order: kept faces and pieces in the order of their faces, followed by
 /// the cap. Throws usage (E-PLANE) for an invalid plane, and for Keep::both with several planes without
 /// `convex`. After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
-ClipResult clip(Mesh mesh, const ClipSettings& settings);
+[[nodiscard]] ClipResult clip(Mesh mesh, const ClipSettings& settings);
 
 } // namespace facetmill

@@ -52,7 +52,7 @@ struct CropResult {
 };
 
 /// A point projected along an axis.
-Vec2 seen_along(std::size_t axis, const Vec3& p);
+[[nodiscard]] Vec2 seen_along(std::size_t axis, const Vec3& p);
 
 /// Crops a mesh. Cutting: a segment of the outline cuts every face that it enters along the segment's line,
 /// across the whole piece. So a face at a corner of the outline gets more pieces than necessary. A piece
@@ -71,10 +71,11 @@ Vec2 seen_along(std::size_t axis, const Vec3& p);
 /// Throws usage (E-FOOTPRINT) when inside_by needs a convex ring and the footprint has none, and stage
 /// (E-CROP-CAP) when a closed mesh cannot be closed. Inside tests after P. Bourke, "Determining if a point
 /// lies on the interior of a polygon" (1987).
-CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
+[[nodiscard]] CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
 
 /// The inside and the outside; ignores settings.keep. Their walls match even if snap must be disabled to
 /// close one of them.
-std::vector<CropResult> crop_both(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
+[[nodiscard]] std::vector<CropResult> crop_both(const Mesh& mesh, const Footprint& footprint,
+                                                const CropSettings& settings);
 
 } // namespace facetmill

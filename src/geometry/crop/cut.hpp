@@ -15,6 +15,6 @@ struct OutlineCut {
 
 /// Each segment cuts every face that it enters by more than rounding, along its line across the whole piece;
 /// neighbours get the points. memory: points known to be on planes; new ones are added.
-OutlineCut cut_at_outline(const Mesh& mesh, const CropView& view, CutMemory& memory);
+[[nodiscard]] OutlineCut cut_at_outline(const Mesh& mesh, const CropView& view, CutMemory& memory);
 
 } // namespace facetmill

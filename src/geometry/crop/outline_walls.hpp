@@ -7,7 +7,7 @@
 namespace facetmill {
 
 /// The plane through a segment of an outline, parallel to the axis; its normal points to the segment's left.
-Plane upright_plane(std::size_t axis, const Vec2& a, const Vec2& b);
+[[nodiscard]] Plane upright_plane(std::size_t axis, const Vec2& a, const Vec2& b);
 
 /// The outline as walls, and their common corners as posts. A post has the number of a wall that starts at
 /// it.

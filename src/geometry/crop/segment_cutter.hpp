@@ -41,7 +41,7 @@ struct CutFaces {
 
 /// Each segment cuts every face that it enters by more than rounding, along its line across the whole piece;
 /// neighbours get the points. on: the known planes of the vertices.
-CutFaces cut_along_segments(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
-                            const SegmentPlanes& segments, OnPlanes on);
+[[nodiscard]] CutFaces cut_along_segments(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
+                                          const SegmentPlanes& segments, OnPlanes on);
 
 } // namespace facetmill

@@ -16,10 +16,10 @@ void trace(Mesh& mesh, std::string_view attribute = trace_attribute);
 void untrace(Mesh& mesh, std::string_view attribute = trace_attribute);
 
 /// The listed faces in that order, with the vertices, wedges and attributes that they use.
-Mesh select_faces(const Mesh& mesh, std::span<const Index> faces);
+[[nodiscard]] Mesh select_faces(const Mesh& mesh, std::span<const Index> faces);
 
 /// Joins both meshes, b's faces after a's. Merges vertices with the same number and position, and wedges with
 /// the same number at such vertices. Both must be traced; the result still is.
-Mesh join_traced(Mesh a, const Mesh& b, std::string_view attribute = trace_attribute);
+[[nodiscard]] Mesh join_traced(Mesh a, const Mesh& b, std::string_view attribute = trace_attribute);
 
 } // namespace facetmill

@@ -20,7 +20,7 @@ class Inside {
 };
 
 /// The mean of a face's corners.
-inline Vec2 mean_of_corners(const std::vector<Vec2>& face) {
+[[nodiscard]] inline Vec2 mean_of_corners(const std::vector<Vec2>& face) {
     Vec2 sum;
     for (const Vec2& p : face) sum = sum + (p - face[0]);
     return face[0] + sum * (1 / static_cast<double>(face.size()));

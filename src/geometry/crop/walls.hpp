@@ -43,6 +43,6 @@ struct WalledCrop {
 /// Attributes: walls have their own, like caps of clip. In a mesh that was open, only edges on the outline
 /// count; contours that do not close are left open and reported. Throws UnclosedWalls (stage, E-CROP-CAP) if
 /// a closed mesh's walls cannot be completed.
-WalledCrop close_crop(Mesh kept, const Footprint& footprint, const WallSettings& settings);
+[[nodiscard]] WalledCrop close_crop(Mesh kept, const Footprint& footprint, const WallSettings& settings);
 
 } // namespace facetmill

@@ -12,7 +12,7 @@ namespace facetmill {
 
 /// A standard normal number, truncated at `truncate`, that is a pure function of its key. Numbers beyond the
 /// limit are drawn again, never clamped, so that none accumulate at the limit.
-double gaussian(std::uint64_t key, double truncate);
+[[nodiscard]] double gaussian(std::uint64_t key, double truncate);
 /// The same for each key, several side by side in the processor. The spans are of one length.
 void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<double> all);
 
@@ -23,8 +23,8 @@ enum class PositionRounding {
 };
 
 /// The key of the noise at a world position: equal for positions that round to the same (-0 is 0).
-std::uint64_t noise_key(std::uint64_t seed, const Vec3& world,
-                        PositionRounding rounding = PositionRounding::float32);
+[[nodiscard]] std::uint64_t noise_key(std::uint64_t seed, const Vec3& world,
+                                      PositionRounding rounding = PositionRounding::float32);
 
 /// Noise that is similar at neighbouring positions (value noise): normal numbers on the points of a lattice,
 /// mixed by smooth weights and scaled to deviation 1 everywhere. Each octave adds noise of twice the
@@ -91,13 +91,14 @@ struct CrumpleResult {
 /// clamped). With a frequency, neighbouring vertices move alike (see CorrelatedNoise). Throws usage
 /// (E-RANGE) for a setting out of range, stage (E-TRANSFORM) when to_world is singular, and stage (E-RANGE)
 /// when a vertex would exceed the range of float32. After P. Bourke, "Geometric Crumpling" (1994).
-CrumpleResult crumple(Mesh mesh, const CrumpleSettings& settings);
+[[nodiscard]] CrumpleResult crumple(Mesh mesh, const CrumpleSettings& settings);
 
 /// The first half of crumple: nothing moves yet.
-CrumpleMoves crumple_moves(const Mesh& mesh, const CrumpleSettings& settings);
+[[nodiscard]] CrumpleMoves crumple_moves(const Mesh& mesh, const CrumpleSettings& settings);
 
 /// The second half: positions before and after are compared, attributes settled.
-CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const Transform& to_world);
+[[nodiscard]] CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before,
+                                            const Transform& to_world);
 
 /// A mesh and how it is to move; several move together where they have keys in common.
 struct CrumpleSheet {
@@ -149,12 +150,12 @@ struct AvoidResult {
 /// Identical sheets are searched for crossings once before the move.
 /// Faces of different sheets may still meet. Throws limit (E-LIMIT) when more than max_pairs pairs of a
 /// sheet meet before the move, because not all could be exempt.
-AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look = false,
-                                std::size_t max_pairs = std::size_t{8} << 20,
-                                std::size_t max_open = max_open_triangles);
+[[nodiscard]] AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look = false,
+                                              std::size_t max_pairs = std::size_t{8} << 20,
+                                              std::size_t max_open = max_open_triangles);
 
 /// The approximate memory in bytes of avoid_intersections for sheets of so many triangles, without their
 /// meshes. largest: the triangles of the largest sheet.
-double avoid_intersections_memory(double triangles, double largest);
+[[nodiscard]] double avoid_intersections_memory(double triangles, double largest);
 
 } // namespace facetmill

@@ -9,7 +9,7 @@ namespace facetmill {
 /// the cubes that divide space) is tested at max_stretch, half of it and so on. It ends when at most an
 /// eighth of the sample intersects. Otherwise a round would lower most positions, after examining very many
 /// pairs. A pure function of the sheets.
-double first_stretch(std::span<const CrumpleSheet> sheets, const std::vector<TestSheet>& tests,
-                     const std::vector<std::uint8_t>& levels, std::size_t max_pairs);
+[[nodiscard]] double first_stretch(std::span<const CrumpleSheet> sheets, const std::vector<TestSheet>& tests,
+                                   const std::vector<std::uint8_t>& levels, std::size_t max_pairs);
 
 } // namespace facetmill

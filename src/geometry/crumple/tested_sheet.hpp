@@ -37,7 +37,9 @@ inline constexpr std::size_t pairs_a_round = 24;
 /// together.
 inline constexpr std::size_t times_before_a_round = 2;
 
-inline double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
+[[nodiscard]] inline double share_of(std::uint8_t level) {
+    return level == last_level ? 0 : 1.0 / (1 << level);
+}
 
 /// A sheet for tests: coincident vertices are merged. The search structure, about a hundred bytes a
 /// triangle, is built on request and dropped again unless it is kept open.
@@ -123,8 +125,9 @@ class TestSheet {
 
 /// All sheets, ready to be tested; identical sheets are searched once before they move. The first sheet
 /// stays open, and each sheet that has at most max_open triangles together with all before it.
-std::vector<TestSheet> tests_of(std::span<const CrumpleSheet> sheets, const CrumplePlaces& places,
-                                std::size_t max_pairs, std::size_t max_open = max_open_triangles);
+[[nodiscard]] std::vector<TestSheet> tests_of(std::span<const CrumpleSheet> sheets,
+                                              const CrumplePlaces& places, std::size_t max_pairs,
+                                              std::size_t max_open = max_open_triangles);
 
 /// Lowers the marked places by a step of levels; whether any was still above the last.
 inline bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels,

@@ -16,17 +16,17 @@ struct CapPaint {
 };
 
 /// The largest number in a face attribute; 0 without it.
-Index largest_number(const Mesh& mesh, std::string_view name);
+[[nodiscard]] Index largest_number(const Mesh& mesh, std::string_view name);
 
 /// [faces] whether the face closes a cut with a number above `last`; empty: none does. Faces that a boolean
 /// operation took from another part have such a number, too, but no group: they close nothing.
-std::vector<std::uint8_t> later_caps(const Mesh& mesh, Index last);
+[[nodiscard]] std::vector<std::uint8_t> later_caps(const Mesh& mesh, Index last);
 
 /// Whether a cap needs its own wedges: for normals, tangents or texture coordinates.
 bool caps_have_own_wedges(const Mesh& mesh);
 
 /// The sum of the area vectors of the triangles.
-Vec3 area_of_triangles(const Mesh& mesh, Index first_corner, Index last_corner);
+[[nodiscard]] Vec3 area_of_triangles(const Mesh& mesh, Index first_corner, Index last_corner);
 
 /// Faces from first to last, without last.
 struct FaceRange {

@@ -79,7 +79,7 @@ bool is_float32(const Vec3& p);
 /// coordinates show that no rounding happened. Then the largest coordinates are multiples of more, or
 /// coordinates along another axis with finer floats are multiples of as much. An example is a terrain of
 /// whole metres in UTM, whose floats are half a metre apart, or a metre far in the south.
-double float32_rounding(const Mesh& mesh);
+[[nodiscard]] double float32_rounding(const Mesh& mesh);
 
 /// Makes points where a plane crosses edges.
 class CrossingPoints {
@@ -97,12 +97,12 @@ class CrossingPoints {
 
 /// Classifies all elements and makes the points of the cut. Flat faces get no side yet. faces: 1 if the face
 /// may be cut; empty: all.
-PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},
-                      std::span<const std::uint8_t> faces = {});
+[[nodiscard]] PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},
+                                    std::span<const std::uint8_t> faces = {});
 
 /// The same where it is known already on which side each vertex counts to be.
-PlaneCut cut_by_signs(const Mesh& mesh, const Plane& plane, std::vector<std::int8_t> signs,
-                      std::span<const std::uint8_t> faces);
+[[nodiscard]] PlaneCut cut_by_signs(const Mesh& mesh, const Plane& plane, std::vector<std::int8_t> signs,
+                                    std::span<const std::uint8_t> faces);
 
 /// At every edge the directions of the faces cancel.
 bool is_closed(const Mesh& mesh);
@@ -135,7 +135,7 @@ struct Pieces {
 };
 
 /// The parts of the cut faces on a side.
-Pieces pieces_on_side(const PlaneCut& cut, int side);
+[[nodiscard]] Pieces pieces_on_side(const PlaneCut& cut, int side);
 
 /// The polygon of the passing face of that number, with the points on its edges.
 void passing_with_points(const PlaneCut& cut, std::size_t number, std::vector<Index>& polygon);

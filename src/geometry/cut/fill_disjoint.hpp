@@ -7,6 +7,6 @@ namespace facetmill {
 
 /// fill, with triangles without area between coincident points where needed. The boundary of all triangles
 /// is exactly the edges along their paths, with coincident points counted separately.
-Filling fill_disjoint(const Contours& contours);
+[[nodiscard]] Filling fill_disjoint(const Contours& contours);
 
 } // namespace facetmill

@@ -33,6 +33,6 @@ struct ScoreResult {
 /// Replaces each selected face with vertices strictly on both sides by its pieces, front first, cut as clip
 /// does. Other faces stay, but gain the points on their edges, so that no crack opens. Vertices and wedges
 /// keep their numbers, new elements follow. Attributes as for clip. memory: known points on planes; updated.
-ScoreResult score(const Mesh& mesh, const ScoreSettings& settings, CutMemory& memory);
+[[nodiscard]] ScoreResult score(const Mesh& mesh, const ScoreSettings& settings, CutMemory& memory);
 
 } // namespace facetmill

@@ -65,13 +65,14 @@ struct DeviationResult {
 /// Two-sided deviation. The samples depend only on the surface and the seed: the k-th is in the k-th of
 /// equal parts of the area, taken face by face. The result is the same for any number of threads. Triangles
 /// with coordinates that are not finite are ignored. O((samples + vertices) log n).
-DeviationResult deviation(const Surface& first, const Surface& second,
-                          const DeviationSettings& settings = {});
+[[nodiscard]] DeviationResult deviation(const Surface& first, const Surface& second,
+                                        const DeviationSettings& settings = {});
 /// In the meshes' own space, which must be the same for both.
-DeviationResult deviation(const Mesh& first, const Mesh& second, const DeviationSettings& settings = {});
+[[nodiscard]] DeviationResult deviation(const Mesh& first, const Mesh& second,
+                                        const DeviationSettings& settings = {});
 /// One way only, with a given tree; `bound` needs certify.
-DirectedDeviation deviation_to(const Surface& from, const FaceTree& to,
-                               const DeviationSettings& settings = {});
+[[nodiscard]] DirectedDeviation deviation_to(const Surface& from, const FaceTree& to,
+                                             const DeviationSettings& settings = {});
 
 /// A point of a surface.
 struct SurfaceSample {
@@ -79,15 +80,16 @@ struct SurfaceSample {
     Index triangle = none; ///< of the surface
 };
 /// `count` points spread over the area as described above; empty if the surface has no area.
-std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count, std::uint64_t seed);
+[[nodiscard]] std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count,
+                                                     std::uint64_t seed);
 
 /// Samples on triangles are rounded, and so are their closest points. Returns the distance below which such
 /// coordinates are indistinguishable (16 units of the last place).
-inline double distance_of_none(const Vec3& p) {
+[[nodiscard]] inline double distance_of_none(const Vec3& p) {
     return 16 * 2.220446049250313e-16 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 /// Sets such a distance to 0, so that a surface has distance 0 from itself.
-inline double told_from_zero(double distance, const Vec3& p) {
+[[nodiscard]] inline double told_from_zero(double distance, const Vec3& p) {
     return distance <= distance_of_none(p) ? 0 : distance;
 }
 

@@ -11,6 +11,6 @@ namespace facetmill {
 void declare_deviation_fields(DeclareFields<DeviationResult>& d);
 /// The declared fields of a deviation.
 const Fields& deviation_fields();
-Json deviation_json(const DeviationResult& deviation);
+[[nodiscard]] Json deviation_json(const DeviationResult& deviation);
 
 } // namespace facetmill

@@ -11,6 +11,7 @@ bool are_same(const Surface& first, const Surface& second);
 
 /// The one-way deviation from itself of a surface with finite coordinates: the counts of a measurement, and
 /// distance 0. Without the bound that certify requests. O(samples + vertices).
-DirectedDeviation deviation_from_itself(const Surface& surface, const DeviationSettings& settings);
+[[nodiscard]] DirectedDeviation deviation_from_itself(const Surface& surface,
+                                                      const DeviationSettings& settings);
 
 } // namespace facetmill

@@ -26,7 +26,7 @@ struct Beyond {
 /// about `most` remain. order: the triangles to test, with finite corners, each near the previous. near:
 /// [vertices] a triangle of `to` within the distance of each vertex, or none; or empty. The result is the
 /// same for any number of threads.
-Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
-                     std::span<const Index> near, double distance, std::size_t most);
+[[nodiscard]] Beyond pieces_beyond(const Surface& from, std::span<const Index> order, const FaceTree& to,
+                                   std::span<const Index> near, double distance, std::size_t most);
 
 } // namespace facetmill

@@ -28,7 +28,7 @@ class Attempts {
 
 /// Splits the items across the middle of the longest side of their box; returns the size of the first part.
 template <class T>
-std::size_t halved(std::span<T> some) {
+[[nodiscard]] std::size_t halved(std::span<T> some) {
     Box box;
     for (const T& item : some) box.add(item.point);
     const Vec3 sides = box.extent();

@@ -63,7 +63,9 @@ struct Farthest {
     double distance = -1;
     Index triangle = none; ///< the triangle of the sample; none for a vertex
 };
-inline Farthest farther_of(const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }
+[[nodiscard]] inline Farthest farther_of(const Farthest& a, const Farthest& b) {
+    return b.distance > a.distance ? b : a;
+}
 
 class SampleWalk {
   public:

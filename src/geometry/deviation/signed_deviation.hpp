@@ -29,7 +29,7 @@ struct SignedDeviationSettings {
 bool cut_large_faces(Scene& scene, double diagonal);
 
 /// The largest number of a cap in a scene: of the face attribute cut_id, 0 where nothing was capped.
-Index last_cap(const Scene& scene);
+[[nodiscard]] Index last_cap(const Scene& scene);
 
 /// Distances are positive outside: on the side that the nearest face of the reference faces.
 struct SignedDeviation {
@@ -52,7 +52,7 @@ struct SignedDeviation {
 /// Measures from the scene, in world space, to the reference, so parts of the reference missing in the scene
 /// have no effect. Empty if the reference or the scene is empty. The result is the same for any number of
 /// threads. O((vertices + samples) log n).
-SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
-                                 const SignedDeviationSettings& settings = {});
+[[nodiscard]] SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
+                                               const SignedDeviationSettings& settings = {});
 
 } // namespace facetmill

@@ -12,7 +12,7 @@ namespace facetmill {
 
 /// A point of the half plane, bounded by the line of the edge, in which the face of corner c starts from the
 /// edge at c. A vertex of the face when it is a triangle.
-inline Vec3 beside_edge(const Mesh& mesh, Index f, Index c) {
+[[nodiscard]] inline Vec3 beside_edge(const Mesh& mesh, Index f, Index c) {
     const Index next = next_corner(mesh, f, c);
     if (mesh.face_size(f) == 3) return mesh.point(next_corner(mesh, f, next));
     return mesh.point(c) + cross(normalised(area_vector(mesh, f)), mesh.point(next) - mesh.point(c));

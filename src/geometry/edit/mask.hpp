@@ -19,7 +19,8 @@ struct MaskSettings {
 /// or faces. Normalised integers count as fractions; other values are clamped to 0 .. 1. The face condition
 /// is true for vertices without faces. Empty settings give an empty vector: all 1. Throws stage (E-MASK)
 /// when the mesh has no such attribute or group attribute.
-std::vector<double> vertex_mask(const Part& part, const Scene& scene, const MaskSettings& settings);
+[[nodiscard]] std::vector<double> vertex_mask(const Part& part, const Scene& scene,
+                                              const MaskSettings& settings);
 
 /// Sets the share of each vertex of a cap to 0: of the faces that face attribute `cut_id` numbers, as clip,
 /// crop and tile do. Empty shares (all 1) stay empty when the mesh has no caps.

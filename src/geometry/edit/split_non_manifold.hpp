@@ -18,12 +18,12 @@ struct Fans {
 /// At an edge of more than two faces, faces with the inside of the surface between them stay together, by
 /// the exact order around the edge. Faces of sheets with a boundary come after all others. Each fan of faces
 /// around a vertex gets its own vertex.
-Fans disjoint_fans(const Mesh& mesh);
-Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges); ///< given its edges
+[[nodiscard]] Fans disjoint_fans(const Mesh& mesh);
+[[nodiscard]] Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges); ///< given its edges
 
 /// Gives each fan of disjoint_fans its own vertex; `parted`: how many vertices that adds. The edges of the
 /// result.
-EdgeTable part_fans(Mesh& mesh, std::size_t& parted);
+[[nodiscard]] EdgeTable part_fans(Mesh& mesh, std::size_t& parted);
 
 struct EdgeDivision {
     /// The first pair of faces also gets its own point, so that no point is in the middle of its edge.
@@ -48,9 +48,10 @@ struct DividedEdges {
 /// connect both ends. Every pair of faces except the first, and every face left over, gets a point in the
 /// middle of the edge, with interpolated attributes. If the point cannot be exactly on the edge, the first
 /// pair also gets a point at the same position, because no face may pass off another's corner.
-DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges, const EdgeDivision& how);
+[[nodiscard]] DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges,
+                                                const EdgeDivision& how);
 
 /// The mesh with its fans parted and the crowded edges that are left divided.
-Mesh split_non_manifold(Mesh mesh);
+[[nodiscard]] Mesh split_non_manifold(Mesh mesh);
 
 } // namespace facetmill

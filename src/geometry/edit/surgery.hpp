@@ -12,19 +12,20 @@ namespace facetmill {
 
 /// The mesh with only these faces, in this order. Vertices and wedges that lose their last face are removed;
 /// vertices and wedges without faces stay.
-Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);
+[[nodiscard]] Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);
 
 /// One mesh per label below count: the faces of that label in order, with the vertices and wedges that they
 /// use, in order of use. Isolated vertices go. O(corners), for any number of labels.
-std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face, std::size_t count);
+[[nodiscard]] std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face,
+                                          std::size_t count);
 
 /// The same, each mesh with a table of its own primitives, in the order of the original table. O(corners),
 /// also for meshes of many primitives.
-std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
-                                            std::size_t count);
+[[nodiscard]] std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
+                                                          std::size_t count);
 
 /// The faces whose flag is zero, ascending.
-std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags);
+[[nodiscard]] std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags);
 
 /// Vertex v becomes target[v] <= v, for which target[target[v]] == target[v]; the others keep their order.
 /// Wedges stay separate when the mesh has wedge attributes. Faces are kept, also faces that lose their area.
@@ -34,8 +35,8 @@ std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target);
 /// Corner c goes to vertex_of_corner[c]: its own vertex v, or a new vertex (numbered from the mesh's vertex
 /// count), where new vertex i is a copy of copies[i]. Wedges follow, and are copied where their corners
 /// separate.
-Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
-                  const std::vector<Index>& copies);
+[[nodiscard]] Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
+                                const std::vector<Index>& copies);
 
 /// A vertex to be put on the edge that starts at a corner.
 struct Insertion {
@@ -63,6 +64,7 @@ struct Patches {
     void add_face(std::span<const Index> wedges, Index source);
 };
 
-Mesh with_patches(const Mesh& mesh, const Patches& patches, AttributeChanges* changes = nullptr);
+[[nodiscard]] Mesh with_patches(const Mesh& mesh, const Patches& patches,
+                                AttributeChanges* changes = nullptr);
 
 } // namespace facetmill

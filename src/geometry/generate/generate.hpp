@@ -43,13 +43,13 @@ struct GenerateSettings {
 /// cut along the shorter diagonal. Noise is crumple's: the same for coincident vertices. Throws before
 /// building: usage (E-RANGE) for a setting out of range, limit (E-LIMIT) for more than 2^31 corners,
 /// (E-MEMORY) if memory is short.
-Mesh generate(const GenerateSettings& settings);
+[[nodiscard]] Mesh generate(const GenerateSettings& settings);
 
 /// How many faces generate would make, as a real number because it may be beyond any integer.
-double generate_face_estimate(const GenerateSettings& settings);
+[[nodiscard]] double generate_face_estimate(const GenerateSettings& settings);
 
 /// The shape with noise on x, y and z of each vertex, of that standard deviation: crumple's.
-Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed);
+[[nodiscard]] Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed);
 
 /// The segments and rings of a latitude-longitude sphere of about that many triangles, which is 2 segments
 /// (rings - 1). Candidates have at least 3 segments and 2 rings, and facets at the equator at most twice as
@@ -58,7 +58,7 @@ Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed);
 struct SphereBands {
     std::int64_t segments = 0, rings = 0;
 };
-SphereBands sphere_bands(std::int64_t faces);
+[[nodiscard]] SphereBands sphere_bands(std::int64_t faces);
 
 /// Throws usage (E-RANGE) when a setting is out of range; generate does it first of all.
 void check_generate_settings(const GenerateSettings& settings);

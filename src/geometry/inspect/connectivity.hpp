@@ -33,9 +33,9 @@ enum class Turn : std::uint8_t {
 };
 
 /// Counts all of it. O(corners log(faces at a vertex)), parallel, the same for any number of threads.
-Connectivity connectivity_of(const Mesh& mesh);
+[[nodiscard]] Connectivity connectivity_of(const Mesh& mesh);
 /// The vertices whose turn it is, and edges that have one of these and none of before. Loops, isolated
 /// vertices and duplicates are not counted. turns: [vertices].
-Connectivity connectivity_of(const Mesh& mesh, std::span<const Turn> turns);
+[[nodiscard]] Connectivity connectivity_of(const Mesh& mesh, std::span<const Turn> turns);
 
 } // namespace facetmill

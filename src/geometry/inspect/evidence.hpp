@@ -32,10 +32,10 @@ struct LocationQuery {
 /// face or vertex number: those that keep it from holding as a sound mesh has it. Of properties that each
 /// face has (min_angle), the worst faces whose value fails, the worst first; values are taken where the part
 /// stands. Empty for properties that are not about places. O(n log n).
-std::vector<Location> locations_against(const Mesh& mesh, const Property& property,
-                                        const LocationQuery& query = {});
-std::vector<Location> locations_against(const Part& part, const Property& property,
-                                        const LocationQuery& query);
+[[nodiscard]] std::vector<Location> locations_against(const Mesh& mesh, const Property& property,
+                                                      const LocationQuery& query = {});
+[[nodiscard]] std::vector<Location> locations_against(const Part& part, const Property& property,
+                                                      const LocationQuery& query);
 
 /// Edges of the boundary that hang together by their vertices: a loop, or several that touch.
 struct BoundaryChain {
@@ -45,7 +45,7 @@ struct BoundaryChain {
     Vec3 at;           ///< the middle of that edge
 };
 /// By their lowest vertex. O(n log n).
-std::vector<BoundaryChain> boundary_chains(const Mesh& mesh);
+[[nodiscard]] std::vector<BoundaryChain> boundary_chains(const Mesh& mesh);
 
 /// One thing that speaks against a property of a scene.
 struct Evidence {
@@ -65,17 +65,17 @@ struct EvidenceQuery {
 };
 
 /// The first evidence, as the property's row finds it.
-std::vector<Evidence> evidence_against(const Scene& scene, const EvidenceQuery& query);
+[[nodiscard]] std::vector<Evidence> evidence_against(const Scene& scene, const EvidenceQuery& query);
 
 /// Face f, in the middle of its corners.
-Location location_of(const Mesh& mesh, Index f);
+[[nodiscard]] Location location_of(const Mesh& mesh, Index f);
 /// The location as evidence, told where the part stands.
-Evidence evidence_of(const Part& part, Location location);
+[[nodiscard]] Evidence evidence_of(const Part& part, Location location);
 
 /// [of_face's numbers below count] The key of each component: the key of its lowest position (x first, then y
 /// and z).
-std::vector<std::uint64_t> keys_of_components(const Mesh& mesh, const std::vector<Index>& of_face,
-                                              std::size_t count);
+[[nodiscard]] std::vector<std::uint64_t>
+keys_of_components(const Mesh& mesh, const std::vector<Index>& of_face, std::size_t count);
 
 /// Whether face f has exactly zero area: all its corners on one line, decided exactly.
 bool is_degenerate(const Mesh& mesh, Index f);
@@ -84,9 +84,9 @@ bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// For each vertex, how many fans its faces form: faces at a vertex are in one fan when edges at it link
 /// them. Isolated vertices have none.
-std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges);
+[[nodiscard]] std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges);
 
 /// The faces that have the same set of vertices as an earlier face, ascending.
-std::vector<Index> duplicate_faces(const Mesh& mesh);
+[[nodiscard]] std::vector<Index> duplicate_faces(const Mesh& mesh);
 
 } // namespace facetmill

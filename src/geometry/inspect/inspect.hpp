@@ -65,15 +65,15 @@ struct InspectSettings {
 
 /// Properties of a mesh in its own space. O(n log n) at most, parallel, never throws for a valid mesh (NaN
 /// included).
-Properties inspect(const Mesh& mesh, const InspectSettings& settings = {});
+[[nodiscard]] Properties inspect(const Mesh& mesh, const InspectSettings& settings = {});
 /// Inspects a part in world space; its transform affects area, volume and bounds.
-Properties inspect(const Part& part, const InspectSettings& settings = {});
+[[nodiscard]] Properties inspect(const Part& part, const InspectSettings& settings = {});
 /// Of all parts in world space (closedness is a property of a part: docs/architecture.md, "What flows").
-Properties inspect(const Scene& scene, const InspectSettings& settings = {});
+[[nodiscard]] Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 
 /// Properties of the components of a mesh with most faces, in its own space, the largest first (of equal ones
 /// the one of the lowest face); isolated vertices belong to none. O(n log n).
-std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit);
+[[nodiscard]] std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit);
 
 /// The kind of a property's value, which decides its unit and the valid conditions.
 enum class PropertyKind {
@@ -88,7 +88,7 @@ enum class PropertyKind {
     box,    ///< two corners, in scene units
 };
 /// "degrees", "scene units"; empty where there is none.
-std::string_view unit_of(PropertyKind kind);
+[[nodiscard]] std::string_view unit_of(PropertyKind kind);
 
 /// How the values of parts are combined to the value of a scene.
 enum class Join {
@@ -164,17 +164,17 @@ struct Property {
 };
 
 /// In the order in which `info` and the report list them; see "The rooms" in docs/architecture.md.
-std::span<const Property> property_table();
-std::vector<Synonyms> synonyms_of(const Property& property);
+[[nodiscard]] std::span<const Property> property_table();
+[[nodiscard]] std::vector<Synonyms> synonyms_of(const Property& property);
 /// The names of all properties, for hints.
-std::vector<KnownName> known_properties();
+[[nodiscard]] std::vector<KnownName> known_properties();
 /// Null when there is none of that name.
-const Property* property_named(std::string_view name);
+[[nodiscard]] const Property* property_named(std::string_view name);
 
 /// [faces] The values of a property that faces have (Property::of_faces), of meshes of any size. Parallel.
-std::vector<double> face_values(const Mesh& mesh, const Property& property);
+[[nodiscard]] std::vector<double> face_values(const Mesh& mesh, const Property& property);
 
 /// The value for a mesh in world space of a property that is measured on request. Parallel.
-std::optional<double> measure(const Mesh& mesh, const Property& property);
+[[nodiscard]] std::optional<double> measure(const Mesh& mesh, const Property& property);
 
 } // namespace facetmill

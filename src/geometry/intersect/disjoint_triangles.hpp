@@ -11,7 +11,7 @@
 namespace facetmill {
 
 /// The sign of the product of two differences of given numbers less another; 0 when floating point is unsure.
-inline int sure_sign(double left, double right) {
+[[nodiscard]] inline int sure_sign(double left, double right) {
     const double det = left - right, size = std::abs(det);
     if (!(size > orientation_error * (std::abs(left) + std::abs(right)) && size > orientation_smallest))
         return 0;

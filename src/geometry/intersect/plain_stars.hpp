@@ -21,8 +21,8 @@ enum class Star : std::uint8_t {
 /// they share by its vertices; so they meet nowhere else in space either. Signs are those that floating point
 /// is sure of: of what is unknown nothing is said. Parallel.
 /// corners: three for each triangle, into positions.
-std::vector<Star> plain_stars(std::span<const Vec3> positions, std::span<const Index> corners);
-inline std::vector<Star> plain_stars(const Surface& surface) {
+[[nodiscard]] std::vector<Star> plain_stars(std::span<const Vec3> positions, std::span<const Index> corners);
+[[nodiscard]] inline std::vector<Star> plain_stars(const Surface& surface) {
     return plain_stars(surface.positions, surface.corners);
 }
 

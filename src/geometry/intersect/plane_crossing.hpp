@@ -12,10 +12,11 @@ namespace facetmill {
 /// towards zero from the true one, as rational numbers are made doubles; none where twice the bits of a
 /// double leave that open (of a plane across an axis exact signs then tell), or do not prove that p and q are
 /// on different sides. Exact, so always the same.
-std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& triangle);
+[[nodiscard]] std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q,
+                                                 const std::array<Vec3, 3>& triangle);
 
 /// The point that the planes of three triangles have in common, likewise; none where it is not proved that
 /// there is just one. On a plane across an axis, the coordinate is that of the plane.
-std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& triangles);
+[[nodiscard]] std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& triangles);
 
 } // namespace facetmill

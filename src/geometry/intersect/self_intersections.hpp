@@ -44,10 +44,11 @@ struct SelfIntersections {
 /// coordinates that are not finite. Polygons stand for their triangles (mesh/triangulated), which do not
 /// count among themselves. A tree of boxes is walked against itself: O(n log n) and the pairs there
 /// are. Parallel; the same for any number of threads.
-SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
+[[nodiscard]] SelfIntersections find_self_intersections(const Mesh& mesh,
+                                                        const SelfIntersectionSettings& settings = {});
 /// The same, of triangles that stand for so many faces.
-SelfIntersections find_self_intersections(Surface surface, std::size_t faces,
-                                          const SelfIntersectionSettings& settings);
+[[nodiscard]] SelfIntersections find_self_intersections(Surface surface, std::size_t faces,
+                                                        const SelfIntersectionSettings& settings);
 
 struct MeetingFaces {
     bool too_many = false;           ///< box pairs: the faces are left out

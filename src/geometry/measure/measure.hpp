@@ -23,7 +23,7 @@ struct Statistics {
 };
 
 /// Numbers that are not finite are left out. Parallel, and the same for any number of threads.
-Statistics statistics(std::vector<double> numbers);
+[[nodiscard]] Statistics statistics(std::vector<double> numbers);
 
 /// A symmetric 3 x 3 matrix.
 struct Symmetric {
@@ -42,10 +42,10 @@ struct Eigen3 {
 };
 /// By rotations: C. G. J. Jacobi, "Ueber ein leichtes Verfahren, die in der Theorie der Saecularstoerungen
 /// vorkommenden Gleichungen numerisch aufzuloesen" (1846).
-Eigen3 eigen(const Symmetric& m);
+[[nodiscard]] Eigen3 eigen(const Symmetric& m);
 
 /// The inertia tensor of mass that is spread like that: the integral of |r|^2 I - r r^T.
-Symmetric inertia_of(const Symmetric& spread);
+[[nodiscard]] Symmetric inertia_of(const Symmetric& spread);
 
 /// A surface without thickness.
 struct ShellMass {
@@ -65,8 +65,8 @@ struct SolidMass {
 };
 
 /// Of several together.
-ShellMass joined(const ShellMass& a, const ShellMass& b);
-SolidMass joined(const SolidMass& a, const SolidMass& b);
+[[nodiscard]] ShellMass joined(const ShellMass& a, const ShellMass& b);
+[[nodiscard]] SolidMass joined(const SolidMass& a, const SolidMass& b);
 
 struct MassResult {
     ShellMass shell;
@@ -78,7 +78,7 @@ struct MassResult {
 /// its volume those of the fan from its first corner, exact for planar faces, concave ones too. The area and
 /// the centroid of a planar face that crosses itself are those of what it winds around, each point counted
 /// once (covering_triangles); its volume is that of the fan, where it counts as often as it is wound around.
-MassResult measure_mass(const Mesh& mesh);
+[[nodiscard]] MassResult measure_mass(const Mesh& mesh);
 
 /// Angles in radians.
 struct EdgeResult {
@@ -94,7 +94,7 @@ struct EdgeSettings {
     double feature_angle = 0.5235987755982988; ///< 30 degrees
     double flat = 1e-6;
 };
-EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
+[[nodiscard]] EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
 /// One polygon in space, measured as P. Bourke, "Calculating the area and centroid of a polygon" (1988),
 /// measures polygons in the plane. Its frame is the frame of its plane (frame_of), with the normal's longest
@@ -117,7 +117,7 @@ struct PolygonResult {
     std::optional<polygon::Moments> moments;
 };
 /// At least three corners.
-PolygonResult measure_polygon(std::span<const Vec3> corners);
+[[nodiscard]] PolygonResult measure_polygon(std::span<const Vec3> corners);
 
 /// Inner angles at the corners of faces, and areas.
 struct FaceResult {
@@ -129,7 +129,7 @@ struct FaceResult {
     Vec3 signed_area;
     std::vector<double> areas; ///< per face
 };
-FaceResult measure_faces(const Mesh& mesh);
+[[nodiscard]] FaceResult measure_faces(const Mesh& mesh);
 
 /// Discrete curvature at vertices, after M. Meyer et al., "Discrete differential-geometry operators for
 /// triangulated 2-manifolds" (2003). It is the angle defect, and the turn of the edges, over a third of the
@@ -141,13 +141,14 @@ struct CurvatureResult {
     /// Euler's number of a manifold, whatever its shape.
     double total = 0;
 };
-CurvatureResult measure_curvature(const Mesh& mesh);
+[[nodiscard]] CurvatureResult measure_curvature(const Mesh& mesh);
 
 /// Both, with one look at how the surface turns at the edges where all faces are triangles.
 struct EdgesAndCurvature {
     EdgeResult edges;
     CurvatureResult curvature;
 };
-EdgesAndCurvature measure_edges_and_curvature(const Mesh& mesh, const EdgeSettings& settings = {});
+[[nodiscard]] EdgesAndCurvature measure_edges_and_curvature(const Mesh& mesh,
+                                                            const EdgeSettings& settings = {});
 
 } // namespace facetmill

@@ -40,21 +40,22 @@ struct FaceValues {
     FaceKinds kinds;
     Vec3 signed_area;
 };
-FaceValues face_values(const Mesh& mesh);
+[[nodiscard]] FaceValues face_values(const Mesh& mesh);
 
 struct EdgeValues {
     std::vector<double> length, turn; ///< [edges]
     EdgeResult counts;                ///< without statistics
 };
 /// turns: decide which edges count, as in connectivity_of; empty: all do. Others have no values.
-EdgeValues edge_values(const Mesh& mesh, const EdgeSettings& settings, std::span<const Turn> turns = {});
+[[nodiscard]] EdgeValues edge_values(const Mesh& mesh, const EdgeSettings& settings,
+                                     std::span<const Turn> turns = {});
 
 struct CurvatureValues {
     std::vector<double> gaussian, mean; ///< [vertices]
     double total = 0;
 };
 /// turns: vertices whose turn it is count; empty: all do. Others have no values.
-CurvatureValues curvature_values(const Mesh& mesh, std::span<const Turn> turns = {});
+[[nodiscard]] CurvatureValues curvature_values(const Mesh& mesh, std::span<const Turn> turns = {});
 
 // Takes the scale out again.
 void unscale(EdgeResult& r, const PowerScale& scale);

@@ -24,7 +24,7 @@ struct ShapeHistograms {
 };
 
 /// Of all faces in world space; what is not finite is left out. The same for any number of threads. O(n).
-ShapeHistograms shape_histograms(const Scene& scene);
+[[nodiscard]] ShapeHistograms shape_histograms(const Scene& scene);
 
 /// Leaves out bins at the ends that are empty in both, and joins neighbours until at most `most` are left.
 /// The histograms have the same limits. An empty histogram gets the limits of the other.

@@ -13,6 +13,6 @@ namespace facetmill {
 std::function<void(DeclareFields<Statistics>&)> statistics_fields(std::string unit = "", double factor = 1);
 
 /// "edges 0.1 to 2 (mean 1)", times the factor; empty when nothing was counted.
-std::string range_text(const char* name, const Statistics& s, double factor = 1);
+[[nodiscard]] std::string range_text(const char* name, const Statistics& s, double factor = 1);
 
 } // namespace facetmill

@@ -45,7 +45,7 @@ struct NormalSeams {
 /// any other attribute stay. feature_angle: radians; 0 changes nothing.
 ///
 /// Vertices that no face uses are dropped when something is merged. The tangent of the first wedge is taken.
-NormalSeams merge_normal_seams(Mesh& mesh, double feature_angle);
+[[nodiscard]] NormalSeams merge_normal_seams(Mesh& mesh, double feature_angle);
 
 /// Takes the normals away, and merges the wedges of a vertex that differ in nothing else but TANGENT (the
 /// first one's is taken). Returns how many wedges went. Vertices that no face uses are dropped then.

@@ -28,8 +28,10 @@ struct DecimationGoal {
 /// the constraints hold; in the order in which they are made. triangles: [3 faces] vertices. roles: per
 /// vertex. constraints.hausdorff: in the units of the positions. Degenerate faces and those that would make
 /// the surface non-manifold are left out, with their vertices untouched.
-std::vector<Decimation> decimate(std::span<const Vec3> positions, std::span<const Index> triangles,
-                                 std::span<const DecimatedVertex> roles,
-                                 const SimplifyConstraints& constraints, const DecimationGoal& goal);
+[[nodiscard]] std::vector<Decimation> decimate(std::span<const Vec3> positions,
+                                               std::span<const Index> triangles,
+                                               std::span<const DecimatedVertex> roles,
+                                               const SimplifyConstraints& constraints,
+                                               const DecimationGoal& goal);
 
 } // namespace facetmill

@@ -50,10 +50,10 @@ struct OrientResult {
 /// Edges of more than two faces part components. A component that cannot be oriented (a Moebius strip) is
 /// left as it was. Corners are reversed from the second on; wedge normals that then point against their faces
 /// are turned with them, and their tangents' handedness. O(n log n).
-OrientResult orient(Mesh mesh, const OrientSettings& settings);
+[[nodiscard]] OrientResult orient(Mesh mesh, const OrientSettings& settings);
 
 /// 1 for the faces that the method consistent turns round; the mesh stays as it is.
-std::vector<std::uint8_t> consistent_flips(const Mesh& mesh);
+[[nodiscard]] std::vector<std::uint8_t> consistent_flips(const Mesh& mesh);
 
 /// Turns the flagged faces round; orient documents the changes of attributes.
 AttributeChanges flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags);

@@ -30,15 +30,15 @@ struct CutTriangle {
 /// none, which says nothing. Triangles are anticlockwise, in no order. However they are found, these make
 /// them right: they turn left; their edges pair up but for those along the sides, so that they cover the
 /// triangle once; and each line is an edge. For a few points: none for more than 48.
-std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const CutTriangle& cut);
+[[nodiscard]] std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const CutTriangle& cut);
 
 /// The edges along the sides, anticlockwise, from point to point: those that sides tells, in an order that is
 /// sure; else none.
-std::optional<std::vector<std::array<Index, 2>>> certain_border(const CutTriangle& cut);
+[[nodiscard]] std::optional<std::vector<std::array<Index, 2>>> certain_border(const CutTriangle& cut);
 
 /// The pairs of lines that cross between their ends, lower one first, ascending, as signs prove for the true
 /// coordinates; none where they do not prove of every pair whether it does. Those along one side, and those
 /// with an end in common, do not cross.
-std::optional<std::vector<std::array<Index, 2>>> certain_crossings(const CutTriangle& cut);
+[[nodiscard]] std::optional<std::vector<std::array<Index, 2>>> certain_crossings(const CutTriangle& cut);
 
 } // namespace facetmill::polygon

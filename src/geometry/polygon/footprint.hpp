@@ -52,6 +52,6 @@ class Footprint {
 };
 
 /// Exact but for what OutlineMeeting says of concave faces and those seen edge-on.
-OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b);
+[[nodiscard]] OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b);
 
 } // namespace facetmill

@@ -23,9 +23,9 @@ struct Vec2 {
 constexpr Vec2 operator+(const Vec2& a, const Vec2& b) { return {a.x + b.x, a.y + b.y}; }
 constexpr Vec2 operator-(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
 constexpr Vec2 operator*(const Vec2& a, double s) { return {a.x * s, a.y * s}; }
-constexpr double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
-constexpr double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-inline double length(const Vec2& a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] constexpr double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
+[[nodiscard]] constexpr double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+[[nodiscard]] inline double length(const Vec2& a) { return std::sqrt(dot(a, a)); }
 
 namespace polygon {
 
@@ -37,11 +37,11 @@ using Rings = std::span<const Ring>;
 // --- Area, centroid, second moments
 
 /// A = 1/2 sum(x_i y_i+1 - x_i+1 y_i): positive when anticlockwise.
-double signed_area(Ring ring);
+[[nodiscard]] double signed_area(Ring ring);
 
 /// 1 anticlockwise, -1 clockwise, 0 without area: the sign of the ring's signed area, exact for any ring,
 /// concave too.
-int orientation(Ring ring);
+[[nodiscard]] int orientation(Ring ring);
 
 /// Second moments: x = integral of y^2 (about the x axis), y = of x^2, xy = of x y. Length to the fourth.
 struct SecondMoments {
@@ -64,37 +64,37 @@ struct Moments {
 /// Of a polygon with holes by orientation, summed over its rings; when the sum is clockwise all signs are
 /// turned, as P. Bourke, "Calculating the area and centroid of a polygon" (1988), requires. None when the
 /// area is zero. The rings must not cross themselves: see classify.
-std::optional<Moments> moments(Rings rings);
-std::optional<Moments> moments(Ring ring);
+[[nodiscard]] std::optional<Moments> moments(Rings rings);
+[[nodiscard]] std::optional<Moments> moments(Ring ring);
 
 /// From cos 2t = (Ix - Iy) / 2r, sin 2t = -Ixy / r, r^2 = ((Ix - Iy) / 2)^2 + Ixy^2; the x axis when all are
 /// equal.
-PrincipalAxes principal_axes(const SecondMoments& moments);
+[[nodiscard]] PrincipalAxes principal_axes(const SecondMoments& moments);
 
 // --- Polygons in space
 
 /// Half the sum of P_i x P_i+1 (Stokes): along the normal from which the corners run anticlockwise, as long
 /// as the area. The order P_i x P_i-1 of P. Bourke, "Calculating the area of a 3D polygon" (2000), gives the
 /// negative. For any closed polygon, planar or not.
-Vec3 area_vector(std::span<const Vec3> corners);
+[[nodiscard]] Vec3 area_vector(std::span<const Vec3> corners);
 
 /// |(P1 - P0) x (P2 - P0)| / 2 for a triangle. |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
 /// parallelogram of its edge midpoints). For more corners, the length of area_vector.
-double area(std::span<const Vec3> corners);
+[[nodiscard]] double area(std::span<const Vec3> corners);
 
 /// The largest distance of a corner from the plane through the mean of the corners across area_vector; 0 for
 /// triangles. For a polygon whose parts cancel in area: across that of its largest triangle; 0 on a line.
-double plane_deviation(std::span<const Vec3> corners);
+[[nodiscard]] double plane_deviation(std::span<const Vec3> corners);
 
 /// The unit normal of the polygon's plane, along area_vector. If the parts cancel in it to 1e-12 of the
 /// square of the polygon's size (a bow-tie), the normal of its largest triangle. Zero if all corners are on a
 /// line.
-Vec3 plane_normal(std::span<const Vec3> corners);
+[[nodiscard]] Vec3 plane_normal(std::span<const Vec3> corners);
 
 /// The corners seen along the coordinate axis nearest to the normal, mirrored so that the ring is
 /// anticlockwise when the normal points at the viewer. The coordinates are copied, not computed, so turns are
 /// those of the corners.
-std::vector<Vec2> flattened(std::span<const Vec3> corners);
+[[nodiscard]] std::vector<Vec2> flattened(std::span<const Vec3> corners);
 
 // --- Kinds
 
@@ -109,7 +109,7 @@ enum class Contact {
     crossing, ///< two edges cross in their interiors
 };
 /// Exact; O(n log n), however long and tangled the edges.
-Contact contact(Rings rings);
+[[nodiscard]] Contact contact(Rings rings);
 
 enum class Kind {
     triangle,
@@ -121,35 +121,35 @@ enum class Kind {
     degenerate,        ///< without area
 };
 inline constexpr int kinds = 7;
-const char* to_string(Kind kind);
+[[nodiscard]] const char* to_string(Kind kind);
 
 /// The types of P. Bourke, "Polygon types" (1993). Several rings (with holes by orientation) are complex or
 /// self-intersecting.
-Kind classify(Rings rings);
-Kind classify(Ring ring);
+[[nodiscard]] Kind classify(Rings rings);
+[[nodiscard]] Kind classify(Ring ring);
 
 // --- Containment
 
 enum class PointLocation { outside, inside, on_edge, on_vertex };
-const char* to_string(PointLocation place);
+[[nodiscard]] const char* to_string(PointLocation place);
 
 /// Crossing rule: a ray to the right crosses an odd number of edges; of each edge the lower end counts and
 /// the upper does not, so that shared ends count once. Holes are holes whatever their orientation. Exact.
-PointLocation locate(const Vec2& p, Rings rings);
-PointLocation locate(const Vec2& p, Ring ring);
+[[nodiscard]] PointLocation locate(const Vec2& p, Rings rings);
+[[nodiscard]] PointLocation locate(const Vec2& p, Ring ring);
 
 /// For a convex ring: on one side of all its edges. Exact.
-PointLocation locate_convex(const Vec2& p, Ring convex);
+[[nodiscard]] PointLocation locate_convex(const Vec2& p, Ring convex);
 
 /// The sum of the angles that the edges subtend at p: 2 pi times how often the ring goes round p. p is not on
 /// the ring.
-double angle_sum(const Vec2& p, Ring ring);
+[[nodiscard]] double angle_sum(const Vec2& p, Ring ring);
 /// By the sum over all rings (holes by orientation or by coincident edges); p is on none of them.
 bool inside_by_angles(const Vec2& p, Rings rings);
 
 /// The sum of the unsigned angles between neighbouring corners seen from q: 2 pi only when q is in the plane
 /// of a convex polygon and inside it, less the farther away.
-double angle_sum(const Vec3& q, std::span<const Vec3> convex);
+[[nodiscard]] double angle_sum(const Vec3& q, std::span<const Vec3> convex);
 /// On the polygon, as far as the angles tell: the sum falls short of 2 pi by at most tolerance (radians). A
 /// corner is inside.
 bool inside_by_angles(const Vec3& q, std::span<const Vec3> convex, double tolerance = 1e-9);
@@ -167,7 +167,8 @@ struct Interval {
 /// The parts of the segment inside (or outside) a polygon with holes, ascending: the crossings of the whole
 /// line, sorted, pair up from its far end, so that nothing need be known of where a lies. Sides are exact,
 /// and a corner on the line counts as left of it, so the crossings are always even in number.
-std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep keep = Keep::inside);
+[[nodiscard]] std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings,
+                                              Keep keep = Keep::inside);
 
 struct Segment {
     Vec2 a, b;
@@ -182,7 +183,7 @@ struct HatchSettings {
 
 /// Parallel lines clipped to the polygon with holes, every other one running back. They pass through
 /// multiples of spacing from the origin, so that neighbouring sections match. Throws limit (E-HATCH).
-std::vector<Segment> hatch(Rings rings, const HatchSettings& settings);
+[[nodiscard]] std::vector<Segment> hatch(Rings rings, const HatchSettings& settings);
 
 } // namespace polygon
 } // namespace facetmill

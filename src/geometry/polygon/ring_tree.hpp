@@ -8,7 +8,7 @@
 namespace facetmill::polygon {
 
 /// The side of the line a b on which c lies, exactly: 1 on its left, -1 on its right, 0 on it.
-inline int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+[[nodiscard]] inline int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
     return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
 
@@ -19,7 +19,7 @@ struct RingEdge {
 };
 
 /// The edges of the rings, one after the other.
-std::vector<RingEdge> ring_edges(Rings rings);
+[[nodiscard]] std::vector<RingEdge> ring_edges(Rings rings);
 
 class RingTree {
   public:

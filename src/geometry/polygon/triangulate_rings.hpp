@@ -28,17 +28,17 @@ struct Triangulation {
 /// Rings may touch, overlap and cross; corners may coincide. Exact predicates; where edges cross, exact
 /// constructions too. Any fill rule is a choice of windings: odd ones, all, the positive. Rings without area
 /// give no triangles.
-Triangulation triangulate_rings(Rings rings);
+[[nodiscard]] Triangulation triangulate_rings(Rings rings);
 
 /// The least and the largest winding number of any point that is not on the rings; 0 is always among them.
 /// Exact.
 struct WindingRange {
     int min = 0, max = 0;
 };
-WindingRange winding_range(Rings rings);
+[[nodiscard]] WindingRange winding_range(Rings rings);
 
 /// Of what a ring that may cross itself winds around, each point counted once, however often and whichever
 /// way (nonzero rule). None when that has no area.
-std::optional<Moments> moments_by_winding(Ring ring);
+[[nodiscard]] std::optional<Moments> moments_by_winding(Ring ring);
 
 } // namespace facetmill::polygon

@@ -14,8 +14,8 @@ struct PreviewAttributes {
     std::optional<Index> last_cap{}; ///< PreviewSettings::last_cap
 };
 /// The colours of a mesh, or null.
-const Attribute* colours_in(const Mesh& mesh);
-PreviewAttributes preview_attributes(const Scene& scene, const ResolvedMaterials* materials);
+[[nodiscard]] const Attribute* colours_in(const Mesh& mesh);
+[[nodiscard]] PreviewAttributes preview_attributes(const Scene& scene, const ResolvedMaterials* materials);
 
 /// Takes triangles, part by part, into one mesh.
 class Gatherer {

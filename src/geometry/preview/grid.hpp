@@ -10,6 +10,7 @@ namespace facetmill {
 /// comes once, in the order of their first. Corners of the mesh, three for each; points that are not finite
 /// have no cell. After J. Rossignac and P. Borrel, "Multi-resolution 3D approximations for rendering complex
 /// scenes" (1993). O(n).
-std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_world, double cell);
+[[nodiscard]] std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_world,
+                                                  double cell);
 
 } // namespace facetmill

@@ -15,7 +15,8 @@ struct LooseParts {
 
 /// Of the parts without faces; of each kind every n-th, so that there are at most so many. Those that are not
 /// finite are left out. The colours of mesh and material, or loose_colour.
-LooseParts loose_parts(const Scene& scene, const ResolvedMaterials* materials, std::size_t most);
+[[nodiscard]] LooseParts loose_parts(const Scene& scene, const ResolvedMaterials* materials,
+                                     std::size_t most);
 
 /// Appends them to the vertices of the preview.
 void append_loose(Preview& preview, const LooseParts& loose);

@@ -45,6 +45,6 @@ struct Preview {
 /// and their faces, are left out. Colours of faces stay apart. The same for any number of threads. About
 /// O(n); memory: as the mesh of the scene where it is not large, else a few times that of the preview and 8
 /// bytes for each vertex of the largest part.
-Preview preview_of(const Scene& scene, const PreviewSettings& settings = {});
+[[nodiscard]] Preview preview_of(const Scene& scene, const PreviewSettings& settings = {});
 
 } // namespace facetmill

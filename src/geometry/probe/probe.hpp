@@ -7,7 +7,7 @@
 namespace facetmill {
 
 enum class Side { inside, outside, on, unknown };
-const char* to_string(Side side);
+[[nodiscard]] const char* to_string(Side side);
 
 struct PointAnswer {
     Side side = Side::unknown; ///< unknown for open surfaces, unless on
@@ -21,11 +21,11 @@ struct PointSettings {
 };
 
 /// In parallel, the same for any number of threads. Inside is where the winding number is not zero.
-std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3> points,
-                                      const PointSettings& settings = {});
+[[nodiscard]] std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3> points,
+                                                    const PointSettings& settings = {});
 
 /// Of each line the first hit on a face that does not touch its start: what rays from the vertices of the
 /// surface itself meet. In parallel, the same for any number of threads.
-HitLists hits_away(const FaceTree& tree, std::span<const Line> lines);
+[[nodiscard]] HitLists hits_away(const FaceTree& tree, std::span<const Line> lines);
 
 } // namespace facetmill

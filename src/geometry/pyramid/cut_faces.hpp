@@ -25,6 +25,6 @@ struct FaceCuts {
 /// and so on, into as few leaves of at most `most` (1 or more) as there can be, each about as full. Most
 /// nodes have four children, so there are no more of them, and no more levels, than so many leaves need. Ties
 /// go by the order of the faces.
-FaceCuts cut_faces(const Mesh& mesh, std::size_t most);
+[[nodiscard]] FaceCuts cut_faces(const Mesh& mesh, std::size_t most);
 
 } // namespace facetmill

@@ -47,8 +47,8 @@ struct PyramidTile {
 /// uses are dropped. The same bytes for any number of threads. About O(n log n).
 ///
 /// held: [vertices] those that what stands beside this mesh has, too, which stay in every tile; empty: none.
-std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings,
-                                      const std::vector<std::uint8_t>& held = {});
+[[nodiscard]] std::vector<PyramidTile> make_pyramid(const Mesh& mesh, const PyramidSettings& settings,
+                                                    const std::vector<std::uint8_t>& held = {});
 
 /// A tile that represents finer tiles.
 struct CoarserTile {
@@ -59,7 +59,7 @@ struct CoarserTile {
 
 /// The tile above some that are joined to one mesh, the vertices made one that they have in common. held:
 /// [vertices] of it, those that tiles outside have. error_below: the largest of the tiles'.
-CoarserTile coarser_tile(const Mesh& joined, const std::vector<std::uint8_t>& held, double error_below,
-                         const PyramidSettings& settings);
+[[nodiscard]] CoarserTile coarser_tile(const Mesh& joined, const std::vector<std::uint8_t>& held,
+                                       double error_below, const PyramidSettings& settings);
 
 } // namespace facetmill

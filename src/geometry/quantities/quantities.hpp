@@ -28,21 +28,22 @@ struct Quantity {
 
 /// All of them, in the order of the help.
 const std::vector<Quantity>& quantities();
-std::vector<std::string> quantity_names();
+[[nodiscard]] std::vector<std::string> quantity_names();
 /// With what else people call them: for the nearest of a word.
-std::vector<std::string> quantity_words();
+[[nodiscard]] std::vector<std::string> quantity_words();
 /// Null when there is none of that name.
-const Quantity* quantity_named(std::string_view name);
+[[nodiscard]] const Quantity* quantity_named(std::string_view name);
 /// Also finds synonyms.
-const Quantity* quantity_called(std::string_view word);
+[[nodiscard]] const Quantity* quantity_called(std::string_view word);
 
 /// "mm", "1/mm^2", "degrees"; "scene units" and the like where the unit is unknown, empty for pure numbers.
-std::string unit_of(const Quantity& quantity, Unit unit);
+[[nodiscard]] std::string unit_of(const Quantity& quantity, Unit unit);
 
 /// The numbers of the part's faces or vertices, in world space and scene units; not a number where there is
 /// none. other: what quantities that compare are from, in world space; only these look at it. O(n log n); the
 /// same for any number of threads.
-std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other = nullptr);
+[[nodiscard]] std::vector<double> values_of(const Quantity& quantity, const Part& part,
+                                            const FaceTree* other = nullptr);
 
 /// Makes an attribute of the values and replaces any attribute of that name; missing values become `none`, if
 /// given.

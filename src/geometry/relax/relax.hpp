@@ -81,10 +81,10 @@ struct RelaxResult {
 /// until are measured in the world. Throws usage (E-RANGE) if a setting is out of range, stage (E-SOLVE) if
 /// the linear system cannot be solved. O(iterations * corners), parallel; the same bytes for any number of
 /// threads.
-RelaxResult relax(Mesh mesh, const RelaxSettings& settings = {});
+[[nodiscard]] RelaxResult relax(Mesh mesh, const RelaxSettings& settings = {});
 
 /// What is refused when a setting is out of range (E-RANGE); relax throws it first of all.
-std::optional<Refusal> check_relax_settings(const RelaxSettings& settings);
+[[nodiscard]] std::optional<Refusal> check_relax_settings(const RelaxSettings& settings);
 
 struct Neighbourhoods {
     VertexLists lists; ///< neighbours of each vertex, in a fixed order, each once; empty for fixed vertices
@@ -95,9 +95,9 @@ struct Neighbourhoods {
 
 /// Only neighbours, boundary, feature_angle, to_world and whether mask is 0 count. Parallel, O(corners) for
 /// faces of bounded size. Throws limit (E-LIMIT) for polygons whose neighbours cannot be counted.
-Neighbourhoods neighbourhoods(const Mesh& mesh, const RelaxSettings& settings);
+[[nodiscard]] Neighbourhoods neighbourhoods(const Mesh& mesh, const RelaxSettings& settings);
 
 /// One byte per vertex: 1 when it is the end of an edge that has exactly one face.
-std::vector<std::uint8_t> boundary_vertices(const Mesh& mesh);
+[[nodiscard]] std::vector<std::uint8_t> boundary_vertices(const Mesh& mesh);
 
 } // namespace facetmill

@@ -12,17 +12,18 @@ using RelaxStep = std::function<void(const std::vector<Vec3>& from, std::vector<
 
 /// The step of the settings' method. start: where the surface is before the first step (hc). What is given
 /// must outlive the step.
-RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSettings& settings,
-                     const std::vector<Vec3>& start);
+[[nodiscard]] RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near,
+                                   const RelaxSettings& settings, const std::vector<Vec3>& start);
 
 /// to = from moved by lambda (times the mask) towards the neighbours' mean.
 void umbrella_step(const std::vector<Vec3>& from, std::vector<Vec3>& to, const VertexLists& near,
                    double lambda, const std::vector<double>& mask);
 
-RelaxStep cotangent_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSettings& settings);
-RelaxStep implicit_step(const Neighbourhoods& near, const RelaxSettings& settings);
+[[nodiscard]] RelaxStep cotangent_step(const Mesh& mesh, const Neighbourhoods& near,
+                                       const RelaxSettings& settings);
+[[nodiscard]] RelaxStep implicit_step(const Neighbourhoods& near, const RelaxSettings& settings);
 
 /// The lambda that is used: the given one, or the method's own.
-double relax_lambda(const RelaxSettings& settings);
+[[nodiscard]] double relax_lambda(const RelaxSettings& settings);
 
 } // namespace facetmill

@@ -74,15 +74,16 @@ struct SampleBox {
 
 /// The first sample whose middle is not before x, and the last sample whose middle is not behind it, limited
 /// to low to high. NaN counts as low.
-inline double within(double x, int low, int high) { // NaN is outside of no range
+[[nodiscard]] inline double within(double x, int low, int high) { // NaN is outside of no range
     return x > low ? (x < high ? x : high) : low;
 }
-inline int first_sample(double x, int low, int high) { // rounding by conversion is faster than the library's
+[[nodiscard]] inline int first_sample(double x, int low,
+                                      int high) { // rounding by conversion is faster than the library's
     const double inside = within(x - 0.5, low, high);
     const int whole = static_cast<int>(inside);
     return whole < inside ? whole + 1 : whole;
 }
-inline int last_sample(double x, int low, int high) {
+[[nodiscard]] inline int last_sample(double x, int low, int high) {
     const double inside = within(x - 0.5, low, high);
     const int whole = static_cast<int>(inside);
     return whole > inside ? whole - 1 : whole;
@@ -90,7 +91,8 @@ inline int last_sample(double x, int low, int high) {
 
 /// Those in the box around a triangle, in the rows [first, last) of a canvas of that width. Corners that are
 /// not finite give any of them, or none.
-inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int first, int last, int width) {
+[[nodiscard]] inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int first,
+                                              int last, int width) {
     const auto lowest = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
     const auto highest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
     return {first_sample(lowest(a.x, b.x, c.x), 0, width), last_sample(highest(a.x, b.x, c.x), -1, width - 1),
@@ -145,12 +147,12 @@ struct EdgeLine {
 };
 
 /// Twice the area of a triangle on the canvas, positive when it is seen anticlockwise.
-inline double twice_area(const std::array<Vec3, 3>& p) {
+[[nodiscard]] inline double twice_area(const std::array<Vec3, 3>& p) {
     return (p[2].x - p[0].x) * (p[1].y - p[0].y) - (p[1].x - p[0].x) * (p[2].y - p[0].y);
 }
 
 /// The depth before which no sample of a triangle lies.
-inline double nearest_depth(const std::array<Vec3, 3>& p) {
+[[nodiscard]] inline double nearest_depth(const std::array<Vec3, 3>& p) {
     return std::max(std::max(p[0].z, p[1].z), p[2].z);
 }
 
@@ -180,7 +182,8 @@ struct CanvasTriangle {
 
 /// The samples of a row of the box that may lie between the lines of the triangle's edges: those there, and
 /// one more on either side, where the test of each sample decides. py: the row's.
-inline std::pair<int, int> row_between(const CanvasTriangle& t, double py, const SampleBox& box) {
+[[nodiscard]] inline std::pair<int, int> row_between(const CanvasTriangle& t, double py,
+                                                     const SampleBox& box) {
     constexpr double far = 0x1p40; // beyond, rounding might be a sample
     double low = box.left, high = box.right;
     for (const EdgeLine& e : t.edges) {

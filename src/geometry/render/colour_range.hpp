@@ -36,11 +36,12 @@ struct ValueRange {
 };
 
 /// The attribute of that name that has numbers at all: of faces, else of wedges, else of vertices; or null.
-const Attribute* attribute_to_show(const Mesh& mesh, const std::string& name);
+[[nodiscard]] const Attribute* attribute_to_show(const Mesh& mesh, const std::string& name);
 
 /// The range of the finite values of the attribute's first component over the parts that `shows` takes
 /// (empty: all), where it holds numbers, not identifiers. Each element counts once. O(n).
-ValueRange value_range(const Scene& scene, const std::string& attribute, const ColourRange& wanted,
-                       const std::function<bool(const Part&)>& shows);
+[[nodiscard]] ValueRange value_range(const Scene& scene, const std::string& attribute,
+                                     const ColourRange& wanted,
+                                     const std::function<bool(const Part&)>& shows);
 
 } // namespace facetmill

@@ -12,7 +12,7 @@ namespace facetmill {
 inline constexpr int letter_width = 6, letter_height = 7; ///< pixels, the gap after a letter included
 
 /// The bytes of the character at i of a text in UTF-8; 1 where there is none.
-inline std::size_t character_length(std::string_view text, std::size_t i) {
+[[nodiscard]] inline std::size_t character_length(std::string_view text, std::size_t i) {
     return std::max<std::size_t>(1, utf8_length(text, i));
 }
 

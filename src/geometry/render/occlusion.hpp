@@ -9,7 +9,7 @@ namespace facetmill {
 /// that turns from pixel to pixel in a pattern of four by four, and is mixed with those of the pattern around
 /// it that lie as deep (M. McGuire, M. Mara and D. Luebke, "Scalable Ambient Obscurance", 2012). radius: how
 /// far occluders matter, in samples. coarse: only every second pixel of every second row looks.
-std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, const Shader& shader,
-                            const View& view, double radius, bool coarse);
+[[nodiscard]] std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing,
+                                          const Shader& shader, const View& view, double radius, bool coarse);
 
 } // namespace facetmill

@@ -17,7 +17,8 @@ struct FacePlace {
 };
 
 /// The attribute's element at corner k of the place; none when it has none there.
-inline Index element_at(const Attribute& a, const Mesh& mesh, const FacePlace& place, std::size_t k) {
+[[nodiscard]] inline Index element_at(const Attribute& a, const Mesh& mesh, const FacePlace& place,
+                                      std::size_t k) {
     if (a.domain == Domain::face) return place.face;
     if (a.domain == Domain::wedge || place.wedges[k] == none) return place.wedges[k];
     return mesh.vertex_of_wedge(place.wedges[k]);
@@ -25,7 +26,7 @@ inline Index element_at(const Attribute& a, const Mesh& mesh, const FacePlace& p
 
 /// The first N components of an attribute, interpolated with the weights of a face position.
 template <std::size_t N>
-std::array<float, N> mixed(const Attribute& a, const Mesh& mesh, const FacePlace& place) {
+[[nodiscard]] std::array<float, N> mixed(const Attribute& a, const Mesh& mesh, const FacePlace& place) {
     std::array<float, N> sum{};
     for (std::size_t k = 0; k < 3; ++k) {
         const Index i = place.weights[k] == 0 ? none : element_at(a, mesh, place, k);

@@ -108,14 +108,14 @@ struct Picture {
 /// The same bytes for any number of threads and any processor. Memory: 64 bytes a pixel, 24 a vertex, the
 /// layers (Layers), and 4 bytes for each blending triangle and band of 16 pixel rows. Throws limit (E-MEMORY)
 /// if memory is short.
-Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
+[[nodiscard]] Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// The camera of picture_of, which sees all of the scene; empty where the scene is. With settings.camera: in
 /// its direction. O(vertices).
-Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
+[[nodiscard]] Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// Picture::scale without the picture, before zoom: beside the legend, where there is one.
-double fitting_scale(const Scene& scene, const PictureSettings& settings);
+[[nodiscard]] double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
 /// The position of most of a scene that is hardly visible because a few elements are far off.
 struct Crowd {
@@ -125,14 +125,14 @@ struct Crowd {
 };
 
 /// "most of the scene is 3 pixels wide in the picture, because something lies far off"
-std::string crowd_in_words(const Crowd& crowd);
+[[nodiscard]] std::string crowd_in_words(const Crowd& crowd);
 
 /// The box around the vertices of faces without the tenth at either end of each axis, where in the picture,
 /// before zoom, it is less than a hundredth of the longer side; else none. Of many vertices every n-th is
 /// looked at. O(n).
-std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings);
+[[nodiscard]] std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings);
 
 /// Pictures of one size in rows of so many columns; what is left of the last row is transparent.
-Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns);
+[[nodiscard]] Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns);
 
 } // namespace facetmill

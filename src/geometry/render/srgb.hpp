@@ -6,8 +6,8 @@
 namespace facetmill {
 
 /// Linear light, 0 to 1, of a byte in sRGB.
-float linear_of(std::uint8_t encoded);
+[[nodiscard]] float linear_of(std::uint8_t encoded);
 /// The byte of sRGB nearest to linear light; values below 0 or above 1 are clamped, NaN gives 0.
-std::uint8_t srgb_of(float linear);
+[[nodiscard]] std::uint8_t srgb_of(float linear);
 
 } // namespace facetmill

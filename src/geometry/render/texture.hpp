@@ -25,11 +25,11 @@ struct TextureImage {
 /// The image and its levels: each pixel is the mean over the area that it covers, in linear light, its
 /// colours weighted by alpha. Levels larger than max_side are not kept. rgba: 4 * width * height bytes, both
 /// at least 1.
-std::shared_ptr<const TextureImage> texture_image(int width, int height, std::vector<std::uint8_t> rgba,
-                                                  bool srgb, int max_side);
+[[nodiscard]] std::shared_ptr<const TextureImage>
+texture_image(int width, int height, std::vector<std::uint8_t> rgba, bool srgb, int max_side);
 
 /// TextureImage::bytes() of such an image, before there is one.
-std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side);
+[[nodiscard]] std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side);
 
 enum class TextureWrap { repeat, clamp, mirror };
 

@@ -30,6 +30,6 @@ struct View {
 };
 
 /// Of a canvas of so many samples.
-View view_of(const Scene& scene, const PictureSettings& settings, int width, int height);
+[[nodiscard]] View view_of(const Scene& scene, const PictureSettings& settings, int width, int height);
 
 } // namespace facetmill

@@ -63,6 +63,6 @@ class StackPlanes {
 
 /// The pieces of all faces, ordered by plane, then face. plane: in the mesh's space. Throws limit
 /// (E-SECTION).
-std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const Plane& plane);
+[[nodiscard]] std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const Plane& plane);
 
 } // namespace facetmill

@@ -28,7 +28,7 @@ struct SectionFrame {
 
 /// The frame of a plane: u is the axis after the normal's longest component (x for z), made square to the
 /// normal. For normals along an axis flat coordinates are world coordinates.
-SectionFrame frame_of(const Plane& plane);
+[[nodiscard]] SectionFrame frame_of(const Plane& plane);
 
 struct SectionSettings {
     Plane plane;                    ///< in world space
@@ -46,7 +46,7 @@ enum class ContourRole {
     inner,   ///< something on both sides: bodies that overlap
     open,    ///< not closed: the mesh has a boundary there
 };
-const char* to_string(ContourRole role);
+[[nodiscard]] const char* to_string(ContourRole role);
 
 struct Contour {
     Index begin = 0, end = 0; ///< into Section::points
@@ -88,7 +88,7 @@ struct Section {
 /// to rounding (64 units in the last place of the section's largest coordinate) are dropped. One pass over
 /// the vertices and faces, plus n log n in the points of each section. Parallel, the same bytes for any
 /// number of threads. Throws usage (E-PLANE) for a bad plane and limit (E-SECTION) beyond 2^31 segments.
-std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings);
+[[nodiscard]] std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings);
 
 /// Computes roles, parents, kinds and measures of the contours of a section whose points are set.
 void arrange(Section& section);
@@ -104,7 +104,7 @@ struct Extent {
 };
 
 /// Of all vertices of a mesh. Parallel.
-Extent extent_along(const Plane& plane, const Mesh& mesh, const Transform& to_world);
+[[nodiscard]] Extent extent_along(const Plane& plane, const Mesh& mesh, const Transform& to_world);
 
 struct Stack {
     std::vector<double> heights{0}; ///< ascending, from the plane
@@ -115,7 +115,8 @@ struct Stack {
 /// multiples from the plane, both ways, through the extent. With count alone: the middles of as many equal
 /// slices of the extent, so that areas times spacing is the midpoint rule for the volume. Throws limit
 /// (E-SECTION) beyond a hundred thousand planes.
-Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optional<std::int64_t> count);
+[[nodiscard]] Stack stack_of(const Extent& extent, std::optional<double> spacing,
+                             std::optional<std::int64_t> count);
 
 inline constexpr std::int64_t max_planes = 100000;
 

@@ -7,11 +7,11 @@ namespace facetmill::simplification {
 
 /// The attributes' part of the error; empty when no attribute is weighed. normals: false when the normals of
 /// the mesh carry no information.
-std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
-                                              const AttributeWeights& weights, bool normals);
+[[nodiscard]] std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
+                                                            const AttributeWeights& weights, bool normals);
 /// The attribute error of merging elements a and b at p, as a quadric of p. Its weight does not include the
 /// weight of the planes.
-Quadric residual(const AttributeError& error, Index a, Index b);
+[[nodiscard]] Quadric residual(const AttributeError& error, Index a, Index b);
 /// Adds the error sums of b to a.
 void join(AttributeError& error, Index a, Index b);
 
@@ -30,6 +30,6 @@ struct Finished {
 /// vertices merged into it. On a feature line it uses the nearest point of that line. So a texture cannot
 /// slide farther than the surface moves, and both sides of a seam are sampled at the same point. Repeated
 /// mixing does not blur the values either. (Mixing the two ends at every collapse drifted.)
-Finished finish(const Shape& shape, const Mesh& from, const Log* log);
+[[nodiscard]] Finished finish(const Shape& shape, const Mesh& from, const Log* log);
 
 } // namespace facetmill::simplification

@@ -80,6 +80,6 @@ enum class Attempt {
 };
 /// Collapses the edge of corner c if all guarantees hold, and updates the cost of every changed edge. around:
 /// scratch memory that also holds the territory.
-Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally);
+[[nodiscard]] Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally);
 
 } // namespace facetmill::simplification

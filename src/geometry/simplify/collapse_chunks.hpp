@@ -18,12 +18,12 @@ struct Candidate {
     bool operator<(const Candidate& other) const { return key < other.key; }
 };
 
-inline std::uint32_t bits_of(float cost) { return std::bit_cast<std::uint32_t>(cost); }
+[[nodiscard]] inline std::uint32_t bits_of(float cost) { return std::bit_cast<std::uint32_t>(cost); }
 /// Sorts by cost, then by a bijection of the corner, so that keys are distinct.
-std::uint64_t key_of(float cost, Index corner);
+[[nodiscard]] std::uint64_t key_of(float cost, Index corner);
 
 /// The number of low bits of a vertex number that give its position within a chunk of the curve.
-int stretch_bits(const State& s);
+[[nodiscard]] int stretch_bits(const State& s);
 
 /// The totals of a pass; the collapses are also added to the state's log and counts.
 struct PassTotals {
@@ -37,8 +37,8 @@ void join(State& s, Tally& tally, PassTotals& totals);
 /// Collapses the candidates, at most once per vertex. found: lists of candidates, with homes by stretch_bits.
 /// most: returns how many collapses the last worker may make; that worker handles the edges with distant
 /// surroundings.
-PassTotals collapse_in_chunks(State& s, std::span<const std::vector<Candidate>> found,
-                              const std::function<std::size_t()>& most);
+[[nodiscard]] PassTotals collapse_in_chunks(State& s, std::span<const std::vector<Candidate>> found,
+                                            const std::function<std::size_t()>& most);
 
 /// True if an edge is still to be collapsed: its face is alive, and the pass touched neither end.
 inline bool is_open(const State& s, Index corner) {

@@ -16,7 +16,7 @@ inline constexpr double doubtful = 4e-6;
 
 /// The quadrics of all vertices: the sum over their faces' planes and the planes that hold feature edges and
 /// sharp folds.
-std::vector<NearQuadric> vertex_quadrics(const State& s);
+[[nodiscard]] std::vector<NearQuadric> vertex_quadrics(const State& s);
 /// Sets the quadrics; also the fine quadrics if much of the surface is flat or nearly flat.
 void set_quadrics(State& s);
 
@@ -34,9 +34,9 @@ struct Placement {
     Quadric joined{};                             ///< sum of the quadrics of both ends, about `at`
 };
 /// Finds the point where the ends of a corner's edge should meet. flags: the corner's.
-Placement place(const State& s, Index corner, std::uint8_t flags);
+[[nodiscard]] Placement place(const State& s, Index corner, std::uint8_t flags);
 /// The cost of collapsing a corner's edge. The edge must be allowed by may_go.
-float cost_of(const State& s, Index corner, std::uint8_t flags);
+[[nodiscard]] float cost_of(const State& s, Index corner, std::uint8_t flags);
 
 /// An edge whose cost is to be computed.
 struct PricedEdge {

@@ -20,7 +20,7 @@ struct Bucket {
 };
 
 /// Sorts the buckets and merges equal numbers.
-inline std::vector<Bucket> gathered(std::vector<Bucket> filled) {
+[[nodiscard]] inline std::vector<Bucket> gathered(std::vector<Bucket> filled) {
     std::sort(filled.begin(), filled.end(),
               [](const Bucket& a, const Bucket& b) { return a.number < b.number; });
     std::size_t kept = 0;
@@ -35,7 +35,8 @@ inline std::vector<Bucket> gathered(std::vector<Bucket> filled) {
 
 /// The bits of a cost limit. At most `wanted` edges are below it, except that the first bucket is always
 /// included; no bucket after `last` is. filled: ascending, without empty buckets.
-inline std::uint32_t cost_limit(std::span<const Bucket> filled, std::size_t wanted, std::size_t last) {
+[[nodiscard]] inline std::uint32_t cost_limit(std::span<const Bucket> filled, std::size_t wanted,
+                                              std::size_t last) {
     std::size_t below = 0;
     for (const Bucket& b : filled) {
         if (below > 0 && (below + b.edges > wanted || b.number > last))

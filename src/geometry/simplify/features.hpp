@@ -11,7 +11,7 @@ namespace facetmill::simplification {
 void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock, std::optional<double> corner_angle = {});
 
 /// [corners of the mesh] 1 for corners whose edge is a feature now; empty if the mesh has no feature.
-std::vector<std::uint8_t> feature_corners(const State& s);
+[[nodiscard]] std::vector<std::uint8_t> feature_corners(const State& s);
 
 /// Open borders with exactly the same positions, for example of patches or parts that were never welded.
 /// Their vertices are joined during the work, and their wedges stay separate. So both borders collapse like

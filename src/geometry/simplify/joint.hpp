@@ -21,7 +21,7 @@ struct Contacts {
     std::vector<std::vector<std::uint8_t>> shared;
 };
 /// O(n log n) in the meshes whose bounding boxes overlap; other meshes cost nothing.
-Contacts find_contacts(std::span<const PlacedMesh> meshes);
+[[nodiscard]] Contacts find_contacts(std::span<const PlacedMesh> meshes);
 
 /// True if meshes of the same space can be merged for simplification: same attributes, and the same kind of
 /// shading.
@@ -31,16 +31,16 @@ bool can_simplify_jointly(std::span<const Mesh* const> meshes, const SimplifySet
 /// The meshes are merged during the work, so that borders where they touch collapse identically on both
 /// sides. Returns [levels][meshes]; without levels, one entry. Targets apply to the total. Counts are per
 /// mesh; errors, reasons and changes are shared.
-std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* const> meshes,
-                                                          const SimplifySettings& settings);
+[[nodiscard]] std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* const> meshes,
+                                                                        const SimplifySettings& settings);
 
 } // namespace facetmill
 
 namespace facetmill::simplification {
 
 /// Merges the meshes and numbers the faces by the mesh that they belong to. Primitives stay numbers.
-Mesh joined(std::span<const Mesh* const> meshes);
+[[nodiscard]] Mesh joined(std::span<const Mesh* const> meshes);
 /// Splits the result of the merged mesh into one result per mesh.
-std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* const> meshes);
+[[nodiscard]] std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* const> meshes);
 
 } // namespace facetmill::simplification

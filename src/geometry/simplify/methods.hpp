@@ -27,7 +27,7 @@ struct Outcome {
 };
 
 /// Collapses edges in order of cost until the goal is met or no edge may be collapsed.
-Outcome run_passes(State& s, const Goal& goal);
+[[nodiscard]] Outcome run_passes(State& s, const Goal& goal);
 
 /// One of several states that are simplified together.
 struct Member {
@@ -40,7 +40,7 @@ struct Member {
 /// several uses, the total may fall below the goal by one collapse per use.
 void run_passes(std::span<Member> members, const Goal& goal);
 /// Counts the edges that the last pass left, by reason. Meaningful only when the work is stuck.
-SimplifyResult::Blocked count_blocked(const State& s);
+[[nodiscard]] SimplifyResult::Blocked count_blocked(const State& s);
 
 /// The outcome of a method that runs to its end.
 struct Ended {
@@ -56,19 +56,20 @@ struct Ended {
 
 /// Runs passes until the goal or the measured deviation (in the units of `from`) stops them. from: the mesh
 /// that the state was built from. The state must have a log.
-Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, std::size_t samples);
+[[nodiscard]] Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error,
+                               std::size_t samples);
 
 /// The method constrained. vertices: the count in the mesh that the state was built from. The state must have
 /// a log.
-Ended run_constrained(State s, std::size_t vertices, const Goal& goal,
-                      const SimplifyConstraints& constraints);
+[[nodiscard]] Ended run_constrained(State s, std::size_t vertices, const Goal& goal,
+                                    const SimplifyConstraints& constraints);
 
 /// The method cluster: as coarse as the goal needs, or as max_error (in the mesh's units) allows.
 ///
 /// After J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for rendering complex scenes'
 /// (1993), and P. Lindstrom, 'Out-of-core simplification of large polygonal models' (2000).
-Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error,
-                  std::size_t samples);
+[[nodiscard]] Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error,
+                                std::size_t samples);
 
 // For max_error while collapsing, see FollowedPoints.
 
@@ -108,12 +109,12 @@ struct Origin {
     Origin(const Shape& now, std::size_t vertices);
 };
 /// The shape after the first `steps` steps of the log. Truncates the log to them.
-Shape rolled_back(const Origin& origin, Log& log, std::size_t steps);
+[[nodiscard]] Shape rolled_back(const Origin& origin, Log& log, std::size_t steps);
 
 /// Counts the self-intersections of the finished mesh of a shape. If there are more than allowed, it lowers
 /// the limits (see Bounds::limits) of all input vertices that merged into vertices of the intersecting faces.
 /// The new limit is a fraction of the largest error at that vertex, or 0.
-std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& finished, std::size_t allowed,
-                               bool to_zero, std::vector<float>& limits);
+[[nodiscard]] std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& finished,
+                                             std::size_t allowed, bool to_zero, std::vector<float>& limits);
 
 } // namespace facetmill::simplification

@@ -29,14 +29,14 @@ struct PartsPlan {
     }
 };
 
-PartsPlan plan_parts(const Scene& scene, const SimplifyPartsSettings& settings);
+[[nodiscard]] PartsPlan plan_parts(const Scene& scene, const SimplifyPartsSettings& settings);
 
 /// The settings for a set of parts that are merged for simplification: their share of the targets, in their
 /// own space.
-SimplifySettings settings_for(const PartSet& set, const PartsPlan& plan);
+[[nodiscard]] SimplifySettings settings_for(const PartSet& set, const PartsPlan& plan);
 
 /// Scale from a part's space to the world, used only to order the errors of parts. It is rounded, so that
 /// nodes that differ by a rotation have the same scale.
-double ordering_scale(const Transform& to_world);
+[[nodiscard]] double ordering_scale(const Transform& to_world);
 
 } // namespace facetmill::simplification

@@ -67,7 +67,7 @@ using NearQuadric = QuadricAbout<float>;
 using FineQuadric = QuadricAbout<double>;
 
 /// Moves the origin of q by h: q'(y) = q(y + h).
-inline Quadric seen_from(const Quadric& q, const Vec3& h) {
+[[nodiscard]] inline Quadric seen_from(const Quadric& q, const Vec3& h) {
     const Vec3 ah = q.times(h);
     Quadric moved = q;
     moved.b = q.b - ah;
@@ -75,14 +75,14 @@ inline Quadric seen_from(const Quadric& q, const Vec3& h) {
     return moved;
 }
 template <class Real>
-Quadric seen_from(const QuadricAbout<Real>& q, const Vec3& h) {
+[[nodiscard]] Quadric seen_from(const QuadricAbout<Real>& q, const Vec3& h) {
     const double xx = q.xx, yy = q.yy, zz = q.zz;
     return seen_from(Quadric{xx, q.xy, q.xz, yy, q.yz, zz, {q.bx, q.by, q.bz}, q.c, xx + yy + zz}, h);
 }
 
 /// Rounded to the stored precision; the value at the origin is not negative.
 template <class Real>
-QuadricAbout<Real> rounded(const Quadric& q) {
+[[nodiscard]] QuadricAbout<Real> rounded(const Quadric& q) {
     const auto f = [](double x) { return static_cast<Real>(x); };
     return {f(q.xx), f(q.xy),  f(q.xz),  f(q.yy),  f(q.yz),
             f(q.zz), f(q.b.x), f(q.b.y), f(q.b.z), f(std::max(0.0, q.c))};

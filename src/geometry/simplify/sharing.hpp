@@ -22,14 +22,15 @@ struct SharingMeshes {
 ///
 /// Requires quadric, quadric-endpoints or shortest-edge. max_error and self_intersections other than ignore
 /// are refused (check_simplify_sharing); use simplify_shares for them.
-std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vector<SharingMeshes> sharing,
-                                                                       const SimplifySettings& settings);
+[[nodiscard]] std::vector<std::vector<std::vector<SimplifyResult>>>
+simplify_sharing(std::vector<SharingMeshes> sharing, const SimplifySettings& settings);
 
 /// The result of simplify_sharing without max_error and self_intersections, as counts per mesh.
 struct SimplifyShares {
     std::vector<std::size_t> faces;                            ///< [sharing] triangles
     SimplifyResult::Stop stop = SimplifyResult::Stop::nothing; ///< stuck: the target was not met
 };
-SimplifyShares simplify_shares(std::vector<SharingMeshes> sharing, const SimplifySettings& settings);
+[[nodiscard]] SimplifyShares simplify_shares(std::vector<SharingMeshes> sharing,
+                                             const SimplifySettings& settings);
 
 } // namespace facetmill

@@ -181,27 +181,27 @@ struct SimplifyResult {
 /// Errors: usage for the first refusal of check_simplify_settings. About O(n log n), parallel; the same bytes
 /// for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric error
 /// metrics' (1997).
-SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
+[[nodiscard]] SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 
 /// All settings that simplify refuses, in its order of reporting. First come settings that exclude each other
 /// (E-CONFLICT), then a missing target, or settings out of range (E-RANGE).
-std::vector<Refusal> check_simplify_settings(const SimplifySettings& settings);
+[[nodiscard]] std::vector<Refusal> check_simplify_settings(const SimplifySettings& settings);
 
 /// Returns one result per ratio of settings.levels, from fine to coarse. Each level continues the collapses
 /// of the one before, so a vertex of a coarse level represents a set of vertices of the finer level.
 /// largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices and
 /// max_error must not be given. collapses counts from the input mesh. Throws the first refusal of
 /// check_simplify_levels.
-std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
+[[nodiscard]] std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
 
 /// Like check_simplify_settings, for simplify_levels.
-std::vector<Refusal> check_simplify_levels(const SimplifySettings& settings);
+[[nodiscard]] std::vector<Refusal> check_simplify_levels(const SimplifySettings& settings);
 
 // The parts of a scene, with a common target.
 
 /// The first conflict (E-CONFLICT) of settings with a shared target; thrown before the refusals of
 /// check_simplify_settings.
-std::optional<Refusal> check_simplify_sharing(const SimplifySettings& settings);
+[[nodiscard]] std::optional<Refusal> check_simplify_sharing(const SimplifySettings& settings);
 
 /// Settings for simplifying the parts of a scene together, and for measuring them.
 struct SimplifyPartsSettings {
@@ -252,6 +252,6 @@ struct MeshCounts {
     std::size_t triangles = 0, vertices = 0;
 };
 /// The total of the selected parts.
-MeshCounts count_selected(const Scene& scene, const std::vector<std::uint8_t>& selected);
+[[nodiscard]] MeshCounts count_selected(const Scene& scene, const std::vector<std::uint8_t>& selected);
 
 } // namespace facetmill

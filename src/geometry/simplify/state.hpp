@@ -170,8 +170,8 @@ struct State : Shape {
     bool weighs_attributes() const { return quadrics && quadrics->attributes; }
 };
 
-inline Index after(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
-inline Index before(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
+[[nodiscard]] inline Index after(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
+[[nodiscard]] inline Index before(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
 /// The vertices that faces use.
 struct UsedVertices {
@@ -183,7 +183,7 @@ struct UsedVertices {
 
 /// Builds a state of all faces and used vertices along a Morton curve, with lists but without kinds and
 /// costs. mesh: all triangles.
-State lay_out(const Mesh& mesh, const UsedVertices& used);
+[[nodiscard]] State lay_out(const Mesh& mesh, const UsedVertices& used);
 /// Drops dead faces and vertices; keeps the order.
 void compact(State& s);
 /// Drops the vertices that no face uses; keeps the order.

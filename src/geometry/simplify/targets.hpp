@@ -10,7 +10,7 @@ namespace facetmill::simplification {
 void throw_first(const std::vector<Refusal>& refusals);
 
 /// The face count for a ratio: rounded up, so that 10% of 15 faces is 2.
-std::size_t share_of(std::size_t faces, double ratio);
+[[nodiscard]] std::size_t share_of(std::size_t faces, double ratio);
 
 /// The targets of a mesh, or the total targets of several.
 struct Targets {
@@ -30,7 +30,7 @@ struct Targets {
 /// Why the work is stuck when no collapse is left. It is the error limit, unless borders, seams or
 /// non-manifold vertices block more edges. (Topology and flips block an edge only until an edge around it
 /// collapses.)
-SimplifyResult::Stop stuck_by(const SimplifyResult::Blocked& blocked);
+[[nodiscard]] SimplifyResult::Stop stuck_by(const SimplifyResult::Blocked& blocked);
 
 /// Like run_passes, but counts vertices as after coincident borders are separated again. borders: of each
 /// member; null if it has none.

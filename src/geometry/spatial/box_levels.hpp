@@ -13,8 +13,8 @@
 namespace facetmill {
 
 /// Converts to float32, rounding down or up by more than the rounding error of the conversion.
-inline float rounded_down(double x) { return static_cast<float>(x - std::abs(x) * 0x1p-22); }
-inline float rounded_up(double x) { return static_cast<float>(x + std::abs(x) * 0x1p-22); }
+[[nodiscard]] inline float rounded_down(double x) { return static_cast<float>(x - std::abs(x) * 0x1p-22); }
+[[nodiscard]] inline float rounded_up(double x) { return static_cast<float>(x + std::abs(x) * 0x1p-22); }
 
 struct BoxLevels {
     /// Four boxes in the tree's own frame (see local), slightly larger than their contents. Empty slots have

@@ -17,7 +17,7 @@ inline bool boxes_meet(const Box& a, const Box& b) {
 }
 
 /// The box that contains all given boxes. Parallel.
-Box box_of_all(std::span<const Box> boxes);
+[[nodiscard]] Box box_of_all(std::span<const Box> boxes);
 
 /// Built once from the items' boxes, in parallel, the same for any number of threads; then only read. Items
 /// with an empty box are never found.

@@ -19,25 +19,26 @@ struct Closest {
 /// The point of the triangle closest to p. Degenerate triangles are allowed: the result is always a point of
 /// the triangle, up to the rounding of its coordinates relative to p. Requires differences of coordinates
 /// between 1e-70 and 1e70.
-Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+[[nodiscard]] Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// The closest point of one triangle, given by its index in the tree's order.
-Closest closest_on(const FaceTree& tree, Index triangle, const Vec3& p);
+[[nodiscard]] Closest closest_on(const FaceTree& tree, Index triangle, const Vec3& p);
 
 /// Searches from the triangle `hint` outward, if given. `enough` stops the search at the first point found
 /// within that distance, which need not be the closest: triangles near the hint are tried first. About a
 /// microsecond on millions of faces.
-Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint = none, double enough = -1);
+[[nodiscard]] Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint = none,
+                                    double enough = -1);
 
 /// An order in which each point is near the previous point, so that the previous answer is a good hint.
-std::vector<Index> order_of_queries(std::span<const Vec3> points);
+[[nodiscard]] std::vector<Index> order_of_queries(std::span<const Vec3> points);
 
 /// The triangle to report if a point is on several: the triangle of the lowest face, or any. `any` is for
 /// callers that need only the distance, where thousands of triangles may coincide.
 enum class OfSeveral { lowest, any };
 /// Queries many points in parallel. They are visited along a curve through their box, each with the previous
 /// answer as a hint. The result is in the order of the points and the same for any number of threads.
-std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points,
-                                    OfSeveral which = OfSeveral::lowest);
+[[nodiscard]] std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points,
+                                                  OfSeveral which = OfSeveral::lowest);
 
 } // namespace facetmill

@@ -15,7 +15,7 @@ namespace facetmill {
 /// points. Returns `all` itself if no point is outside. Judged by about a thousand points, evenly by number;
 /// point_of(i) returns point i.
 template <class PointOf>
-Box dense_box(std::size_t count, const Box& all, PointOf&& point_of) {
+[[nodiscard]] Box dense_box(std::size_t count, const Box& all, PointOf&& point_of) {
     std::array<std::vector<double>, 3> at;
     for (std::size_t i = 0; i < count; i += count / 1024 + 1) {
         const Vec3 p = point_of(i);

@@ -22,7 +22,7 @@ struct Step {
 
 /// States are the corner at which the curve enters a cell (3 bits) and its direction (0 to 2), after C.
 /// Hamilton and A. Rau-Chaplin, "Compact Hilbert indices" (2008).
-constexpr std::array<std::array<Step, 8>, 24> make_steps() {
+[[nodiscard]] constexpr std::array<std::array<Step, 8>, 24> make_steps() {
     constexpr auto rotated = [](unsigned x, unsigned by) { return (x << by | x >> (3 - by)) & 7; };
     constexpr auto gray = [](unsigned w) { return w ^ w >> 1; };
     constexpr auto trailing_ones = [](unsigned w) {
@@ -47,7 +47,7 @@ constexpr std::array<std::array<Step, 8>, 24> make_steps() {
 inline constexpr auto steps = make_steps();
 
 /// Two steps at once, into one of 64 cells: two bits of x, then of y and z.
-constexpr std::array<std::array<Step, 64>, 24> make_double_steps() {
+[[nodiscard]] constexpr std::array<std::array<Step, 64>, 24> make_double_steps() {
     std::array<std::array<Step, 64>, 24> doubles{};
     for (std::size_t state = 0; state < doubles.size(); ++state)
         for (unsigned cell = 0; cell < 64; ++cell) {
@@ -60,7 +60,7 @@ constexpr std::array<std::array<Step, 64>, 24> make_double_steps() {
 inline constexpr auto double_steps = make_double_steps();
 
 /// The position along the curve of the cell with these coordinates, axis_bits each.
-constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+[[nodiscard]] constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     static_assert(axis_bits % 2 == 1, "one step, then two at a time");
     constexpr int top = axis_bits - 1;
     const Step first = steps[0][(x >> top & 1) | (y >> top & 1) << 1 | (z >> top & 1) << 2];
@@ -76,7 +76,7 @@ constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z)
 
 /// The position of a point in the box. Points outside count as on its border, not-a-number as its lower
 /// corner.
-inline std::uint64_t index(const Vec3& p, const Box& all) {
+[[nodiscard]] inline std::uint64_t index(const Vec3& p, const Box& all) {
     std::array<std::uint32_t, 3> cell{};
     constexpr double cells = (1 << axis_bits) - 1;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -92,7 +92,7 @@ inline std::uint64_t index(const Vec3& p, const Box& all) {
 /// The numbers 0 to count - 1 in the order of centre_of(i) along the curve through `all`; equal positions by
 /// number.
 template <class CentreOf>
-std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf&& centre_of) {
+[[nodiscard]] std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf&& centre_of) {
     constexpr int place_bits = 3 * hilbert::axis_bits, item_bits = 64 - place_bits;
     std::vector<Index> order(count);
     if (count <= std::size_t{1} << item_bits) { // both in one number: half of the memory to sort

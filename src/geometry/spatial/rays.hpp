@@ -31,13 +31,13 @@ struct Hit {
 /// line through an edge or a vertex is treated as if moved sideways by an infinitesimal amount, always to
 /// the same side. So a surface that is crossed is crossed once, and a surface that is only touched is
 /// crossed twice or not at all. A line within the plane of the triangle does not pass through it. Exact.
-int passes(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c);
+[[nodiscard]] int passes(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// The hit with the least t, of equal hits the lowest face; none if the line misses the surface. A segment's
 /// end point on a face is a hit.
-std::optional<Hit> first_hit(const FaceTree& tree, const Line& line);
+[[nodiscard]] std::optional<Hit> first_hit(const FaceTree& tree, const Line& line);
 /// All hits, by t, then by face.
-std::vector<Hit> all_hits(const FaceTree& tree, const Line& line);
+[[nodiscard]] std::vector<Hit> all_hits(const FaceTree& tree, const Line& line);
 
 /// Hits of many lines: those of line i are hits[offsets[i]] to hits[offsets[i + 1]].
 struct HitLists {
@@ -48,7 +48,7 @@ struct HitLists {
     }
 };
 /// In parallel; the same for any number of threads.
-HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all);
+[[nodiscard]] HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all);
 
 /// Calls hit(face, way) for every triangle that a ray from p along a coordinate axis passes through, forward
 /// or back, in no order; way as in Hit. A ray through an edge or a vertex is moved sideways as in `passes`.
@@ -57,18 +57,18 @@ void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, boo
                       const std::function<void(Index face, int way)>& hit);
 
 /// The same for one triangle: 1, -1, or 0 if the ray does not pass through it.
-int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3& a, const Vec3& b,
-                      const Vec3& c);
+[[nodiscard]] int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3& a,
+                                    const Vec3& b, const Vec3& c);
 
 /// The winding number of the surface around p, which must not be on it: 1 inside a closed surface, 0
 /// outside, 2 where two overlap, -1 inside an inside-out surface. Counts the crossings of a ray along an
 /// axis; exact. Meaningless for open surfaces.
-int winding(const FaceTree& tree, const Vec3& p);
+[[nodiscard]] int winding(const FaceTree& tree, const Vec3& p);
 
 /// Derives the winding number at `to` from the winding number at `from`, by counting the crossings of the
 /// segment between them. The result equals winding(tree, to), faster for near points. Neither point may be
 /// on the surface. Exact.
-int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, const Vec3& to);
+[[nodiscard]] int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, const Vec3& to);
 
 /// Whether p is exactly on a triangle, borders included.
 bool lies_on(const FaceTree& tree, const Vec3& p);
@@ -76,13 +76,13 @@ bool lies_on(const FaceTree& tree, const Vec3& p);
 /// The cases of P. Bourke, "Determining whether a line segment intersects a 3 vertex facet" (1997), for one
 /// segment and one planar polygon.
 enum class Meeting { hit, parallel, in_plane, outside_segment, outside_facet };
-const char* to_string(Meeting meeting);
+[[nodiscard]] const char* to_string(Meeting meeting);
 struct SegmentFacet {
     Meeting meeting = Meeting::parallel;
     double t = 0; ///< where the line meets the plane, unless parallel or in it
     Vec3 point;
 };
 /// Signs are exact for the plane through the first three corners that are not collinear.
-SegmentFacet meet(const Line& line, std::span<const Vec3> facet);
+[[nodiscard]] SegmentFacet meet(const Line& line, std::span<const Vec3> facet);
 
 } // namespace facetmill

@@ -14,7 +14,7 @@ namespace facetmill::rays {
 
 /// A point off the line through from and to: one step along the axis with the smallest component of its
 /// direction.
-inline Vec3 point_beside(const Vec3& from, const Vec3& to) {
+[[nodiscard]] inline Vec3 point_beside(const Vec3& from, const Vec3& to) {
     const Vec3 d = to - from;
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)

@@ -9,6 +9,6 @@ namespace facetmill {
 
 /// The distance of each point to the nearest triangle of the tree: positive on the side to which that looks,
 /// negative on the other; 0 for what is not finite, and where the tree is empty. In parallel, O(n log n).
-std::vector<float> signed_distances(const FaceTree& tree, std::span<const Vec3> points);
+[[nodiscard]] std::vector<float> signed_distances(const FaceTree& tree, std::span<const Vec3> points);
 
 } // namespace facetmill

@@ -19,7 +19,7 @@ struct CentreWeights {
 /// its middle. A larger face uses the weights of the centroid of its kernel, the part of the polygon from
 /// which all of it is seen. Without a kernel the mean is used. O(corners) for faces whose mean sees all,
 /// else O(corners * (kernel corners + 64)).
-CentreWeights centre_weights(const Mesh& mesh, Index f);
+[[nodiscard]] CentreWeights centre_weights(const Mesh& mesh, Index f);
 
 /// Whether the centre that these weights give is on the outer side of some edge of face f.
 bool hides_from_centre(const Mesh& mesh, Index f, const CentreWeights& weights);

@@ -11,28 +11,29 @@ struct MeasuredEdges {
     EdgeTable table;
     std::vector<double> squared; ///< [edges] squared length; both faces at an edge see the same
 };
-MeasuredEdges measure_edges(const Mesh& mesh, const Transform& to_world);
+[[nodiscard]] MeasuredEdges measure_edges(const Mesh& mesh, const Transform& to_world);
 
 /// One byte per edge: the edges at which faces are cut.
 using EdgeMarks = std::vector<std::uint8_t>;
 
 /// The local number (0 to 2) of the longest edge of each triangle, 3 when it has none; ties: the lower edge.
-std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& edges);
+[[nodiscard]] std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& edges);
 
 /// The number of triangles that have an angle below settings.min_angle; the mesh must have only triangles.
-std::size_t narrow_faces(const Mesh& mesh, const SplitSettings& settings);
+[[nodiscard]] std::size_t narrow_faces(const Mesh& mesh, const SplitSettings& settings);
 
 /// One pass of bisect, notch or halve over every face, or over the narrow faces (settings.min_angle).
 /// Returns an empty optional if min_angle finds no face. Adds attribute changes and counts of spots to
 /// so_far.
-std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far);
+[[nodiscard]] std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings,
+                                               SplitResult& so_far);
 
 /// Cuts at the marked edges by bisect's rule; the marks must be closed under it.
-Mesh cut_marked(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& marks,
-                const std::vector<std::uint8_t>& longest, SplitSettings::Cut cut, const Transform& to_world,
-                SplitResult& so_far);
+[[nodiscard]] Mesh cut_marked(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& marks,
+                              const std::vector<std::uint8_t>& longest, SplitSettings::Cut cut,
+                              const Transform& to_world, SplitResult& so_far);
 
 /// bisect with targets: edges longer than max_edge, the longest first when there is a budget of faces.
-SplitResult refine(const Mesh& mesh, const SplitSettings& settings);
+[[nodiscard]] SplitResult refine(const Mesh& mesh, const SplitSettings& settings);
 
 } // namespace facetmill

@@ -77,7 +77,7 @@ namespace split_detail {
 constexpr std::size_t block = 2048;
 
 template <class Pattern>
-std::vector<PatternCounts> count_blocks(const Mesh& mesh, const Pattern& pattern) {
+[[nodiscard]] std::vector<PatternCounts> count_blocks(const Mesh& mesh, const Pattern& pattern) {
     std::vector<PatternCounts> sums((mesh.face_count() + block - 1) / block + 1);
     parallel_chunks(
         mesh.face_count(),
@@ -92,7 +92,8 @@ std::vector<PatternCounts> count_blocks(const Mesh& mesh, const Pattern& pattern
 }
 
 /// Sets positions, wedge_vertex, attributes and primitives of the result from its provenances.
-AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance, const EdgePoints* points);
+[[nodiscard]] AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance,
+                                      const EdgePoints* points);
 
 } // namespace split_detail
 
@@ -102,8 +103,8 @@ AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance, 
 ///   bool triangles_only(const Mesh&) const;             true: all new faces are triangles
 /// points may be null if the pattern uses none.
 template <class Pattern>
-Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pattern,
-                   AttributeChanges& changes) {
+[[nodiscard]] Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pattern,
+                                 AttributeChanges& changes) {
     const auto sums = split_detail::count_blocks(mesh, pattern);
     const PatternCounts& total = sums.back();
     Mesh out;

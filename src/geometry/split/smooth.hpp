@@ -8,7 +8,8 @@ namespace facetmill {
 /// One pass of loop, butterfly, catmull_clark or sqrt3. pass counts from 0 (sqrt3 cuts boundary edges in
 /// three in every second pass). The mesh must be manifold and oriented, and all triangles unless the method
 /// is catmull_clark.
-Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, AttributeChanges& changes);
+[[nodiscard]] Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass,
+                                AttributeChanges& changes);
 
 /// Throws stage (E-MANIFOLD) if an edge has more than two faces or two faces that run along it the same way,
 /// or if several fans meet at a vertex.

@@ -36,7 +36,7 @@ enum class SplitMethod {
 /// on arbitrary topological meshes" (1978).
 bool is_smooth(SplitMethod method);
 /// The method as users write it: "catmull-clark".
-const char* to_string(SplitMethod method);
+[[nodiscard]] const char* to_string(SplitMethod method);
 
 /// The words of a split in messages.
 struct SplitWords {
@@ -119,32 +119,32 @@ struct SplitResult {
 /// limit, before building, beyond 2^31 corners (E-LIMIT) or memory (E-MEMORY). Vertex and wedge attributes
 /// are interpolated (smooth methods recompute normals); face attributes are copied. After P. Bourke,
 /// "Splitting facets" (1991).
-SplitResult split(const Mesh& mesh, const SplitSettings& settings);
+[[nodiscard]] SplitResult split(const Mesh& mesh, const SplitSettings& settings);
 
 /// The refusal (E-CONFLICT) of targets that the method cannot reach; split throws it before all else.
-std::optional<Refusal> check_split_targets(const SplitSettings& settings);
+[[nodiscard]] std::optional<Refusal> check_split_targets(const SplitSettings& settings);
 
 /// split with SplitMethod::grid: each triangle into n * n, each quad into n x n; shared edges get the same n
 /// - 1 points. n = 1 returns the mesh.
-SplitResult grid_split(const Mesh& mesh, int n, const SplitWords& words = {});
+[[nodiscard]] SplitResult grid_split(const Mesh& mesh, int n, const SplitWords& words = {});
 
 /// The edge lengths and angles of a mesh, in world space.
 struct FacetShape {
     double longest_edge = 0;   ///< 0 without faces
     double smallest_angle = 0; ///< radians, of all corners between edges of some length; 0 without faces
 };
-FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
+[[nodiscard]] FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
 /// The mean over all corners of the edge that begins there; 0 without faces.
-double mean_edge(const Mesh& mesh, const Transform& to_world = {});
+[[nodiscard]] double mean_edge(const Mesh& mesh, const Transform& to_world = {});
 
 /// Spots at counted vertices where triangles share two edges, so that their new edges coincide. This is
 /// SplitResult::shared of a pass that cuts all edges, for a mesh that is processed in parts. counted:
 /// [vertices] 1 if all faces of the vertex are present; empty: all vertices.
-std::size_t shared_spots(const Mesh& mesh, const std::vector<std::uint8_t>& counted);
+[[nodiscard]] std::size_t shared_spots(const Mesh& mesh, const std::vector<std::uint8_t>& counted);
 
 /// The approximate number of corners of the result. It is an upper bound, except for bisect and smooth
 /// methods with max_edge (split checks again before every pass). A real number, because it may exceed any
 /// integer.
-double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings);
+[[nodiscard]] double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings);
 
 } // namespace facetmill

@@ -10,17 +10,18 @@ namespace facetmill {
 
 /// One byte per corner: 1 if another face also has both edges of the corner, so that a new edge between the
 /// two would belong to both faces. O(corners), parallel.
-std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges);
+[[nodiscard]] std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges);
 
 /// The number of vertices with such corners of at least two triangles and a marked edge (no marks: all
 /// edges): the new edges of the triangles coincide. Only counted vertices (empty: all).
-std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks,
-                        const std::vector<std::uint8_t>& counted = {});
+[[nodiscard]] std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges,
+                                      const std::vector<std::uint8_t>& marks,
+                                      const std::vector<std::uint8_t>& counted = {});
 
 /// The number of faces with a piece that faces against the whole face. For grid, halve and varignon, which
 /// cut between edges, these are the non-convex faces. For methods that cut to the centre (centre_weights),
 /// these are faces without a kernel (only self-intersecting quads). 0 for the smooth methods, and for
 /// methods that cut triangles or diagonals.
-std::size_t folding_faces(const Mesh& mesh, SplitMethod method);
+[[nodiscard]] std::size_t folding_faces(const Mesh& mesh, SplitMethod method);
 
 } // namespace facetmill

@@ -31,10 +31,10 @@ struct ResolvedSolid {
 /// any. So the wall is thinner there, and not gone. Pieces of a side that enclose less than a cube of the
 /// thickness (in world) are left out. Boolean operations as in geometry/boolean/combine.hpp: the same for any
 /// number of threads.
-ResolvedSolid resolved_solid(const ThickenMoves& moves, const Transform& to_world);
+[[nodiscard]] ResolvedSolid resolved_solid(const ThickenMoves& moves, const Transform& to_world);
 
 /// A solid of that thickness that passes through itself as what it winds around at least once, without small
 /// pieces.
-ResolvedSolid united_solid(const Mesh& solid, const Transform& to_world, double thickness);
+[[nodiscard]] ResolvedSolid united_solid(const Mesh& solid, const Transform& to_world, double thickness);
 
 } // namespace facetmill

@@ -62,7 +62,7 @@ struct ThickenResult {
 /// Requires a consistently oriented surface to be closed afterwards. Sheets that meet at an edge of more than
 /// two faces, or only at a vertex, are taken apart first, as clean does: each becomes a solid of its own. A
 /// mesh without faces stays as it is. O(n log n).
-ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
+[[nodiscard]] ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {
     double thickness = 1;   ///< diameter, in the space that to_world leads to, above zero
@@ -78,7 +78,7 @@ struct WiresResult {
 
 /// Lines become cylinders: a closed cylinder around every edge, with flat ends at the vertices. Without
 /// attributes.
-WiresResult wires(const Mesh& mesh, const WiresSettings& settings);
+[[nodiscard]] WiresResult wires(const Mesh& mesh, const WiresSettings& settings);
 
 struct TwoSidedResult {
     Mesh mesh;
@@ -90,6 +90,6 @@ struct TwoSidedResult {
 /// edges, which both sides share: an open surface becomes a closed one of no volume (an inner edge between
 /// two vertices on boundary edges then has four faces). Wedges of the back have their own attributes, with
 /// normals turned; face attributes are copied.
-TwoSidedResult two_sided(const Mesh& mesh);
+[[nodiscard]] TwoSidedResult two_sided(const Mesh& mesh);
 
 } // namespace facetmill

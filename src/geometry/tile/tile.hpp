@@ -41,6 +41,6 @@ struct TileResult {
 /// to the side that they bound, as with Keep::both. Every tile has face attributes (for a cloud: wedge
 /// attributes) tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws usage (E-TILE) for a size
 /// that is not above zero and limit (E-TILE) for too many tiles.
-TileResult tile(Mesh mesh, const TileSettings& settings);
+[[nodiscard]] TileResult tile(Mesh mesh, const TileSettings& settings);
 
 } // namespace facetmill

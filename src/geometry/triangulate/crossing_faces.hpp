@@ -14,12 +14,12 @@ namespace facetmill {
 /// For a planar polygon whose outline crosses itself: triangles over the region that the outline winds
 /// around, each point once (nonzero rule), all oriented by the polygon's normal. Empty for any other
 /// polygon, at little more than the cost of a convexity test.
-std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners);
+[[nodiscard]] std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners);
 
 /// The area of a polygon: the region that it winds around if it crosses itself in its plane
 /// (covering_triangles), else the length of its area vector. O(n) for convex and small polygons, else O(n
 /// log n).
-double covered_area(std::span<const Vec3> corners);
+[[nodiscard]] double covered_area(std::span<const Vec3> corners);
 
 struct CrossingFaces {
     std::optional<Mesh> mesh;    ///< none: no face was to be filled
@@ -40,16 +40,16 @@ struct CrossingFaces {
 /// Constrained Delaunay, exact. Only planar faces are filled (within a millionth of their perimeter, as in
 /// face_kinds). Faces whose crossings round to other crossings stay unchanged. If no face is filled, each
 /// face is visited once; triangles never are.
-CrossingFaces fill_crossing_faces(const Mesh& mesh);
+[[nodiscard]] CrossingFaces fill_crossing_faces(const Mesh& mesh);
 
 /// CrossingFaces::fans, without the mesh.
-std::size_t count_fans(const Mesh& mesh);
+[[nodiscard]] std::size_t count_fans(const Mesh& mesh);
 
 /// triangulated, after fill_crossing_faces: the triangles of a file or a picture.
-Mesh triangles_of(const Mesh& mesh);
+[[nodiscard]] Mesh triangles_of(const Mesh& mesh);
 
 /// surface_of, after fill_crossing_faces: the covered surface for distances, rays and samples. New vertices
 /// follow the mesh's vertices.
-Surface filled_surface(const Mesh& mesh);
+[[nodiscard]] Surface filled_surface(const Mesh& mesh);
 
 } // namespace facetmill

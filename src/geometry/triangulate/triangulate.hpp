@@ -25,16 +25,16 @@ struct FaceKinds {
 void face_corners(const Mesh& mesh, Index f, std::vector<Vec3>& corners);
 
 /// The kind of polygon of these corners.
-polygon::Kind face_kind(std::span<const Vec3> corners);
+[[nodiscard]] polygon::Kind face_kind(std::span<const Vec3> corners);
 /// Whether corners with this deviation from their plane (polygon::plane_deviation) count as planar: at most
 /// planar times the perimeter.
 bool is_planar(std::span<const Vec3> corners, double deviation, double planar = 1e-6);
 
 /// Counts the faces by kind. A face is not planar if a corner is farther from its plane than planar times
 /// the face's perimeter. The default is the resolution of float32 coordinates. Parallel.
-FaceKinds face_kinds(const Mesh& mesh, double planar = 1e-6);
+[[nodiscard]] FaceKinds face_kinds(const Mesh& mesh, double planar = 1e-6);
 /// Counts over all parts in world space; worst is none.
-FaceKinds face_kinds(const Scene& scene, double planar = 1e-6);
+[[nodiscard]] FaceKinds face_kinds(const Scene& scene, double planar = 1e-6);
 
 struct TriangulateResult {
     Mesh mesh;
@@ -54,7 +54,7 @@ struct TriangulateResult {
 /// - Self-intersecting faces: by windings. A fan from the first corner; its triangles may overlap each other
 /// or face backwards, and add up at every point to the winding number of the face. Faces without area: the
 /// same fan.
-TriangulateResult triangulate(const Mesh& mesh);
+[[nodiscard]] TriangulateResult triangulate(const Mesh& mesh);
 
 struct PairSettings {
     double min_cosine =
@@ -74,6 +74,6 @@ struct PairResult {
 /// the same wedges and have the same primitive. The edge whose quad has corners nearest to right angles goes
 /// first (ties: the lower edge); each triangle is used once. Vertices and wedges are kept. A quad replaces
 /// its first triangle and has its face attributes. Other faces stay unchanged.
-PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings = {});
+[[nodiscard]] PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings = {});
 
 } // namespace facetmill

@@ -18,6 +18,6 @@ struct Chains {
 
 /// Uses every line once. Chains end where one line ends, more than two meet, or the material changes. They
 /// are in the order of their lowest end, closed chains last.
-Chains chains_of(const Lines& lines);
+[[nodiscard]] Chains chains_of(const Lines& lines);
 
 } // namespace facetmill

@@ -30,6 +30,6 @@ struct TubesResult {
 /// about the line. A closed tube distributes the remaining turn evenly, in triangles. Each tube is closed
 /// and oriented outward. Tubes intersect if they meet, cross, or are thicker than the distance of their
 /// lines. O(n log n) in the lines; requires finite points.
-TubesResult tubes(const Lines& lines, const TubesSettings& settings);
+[[nodiscard]] TubesResult tubes(const Lines& lines, const TubesSettings& settings);
 
 } // namespace facetmill

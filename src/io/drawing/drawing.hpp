@@ -33,18 +33,18 @@ struct Drawing {
 /// One group per sheet, arranged in rows, each in its plane's frame with v up. Sizes are in the scene's unit
 /// (mm if SVG lacks that unit), so that prints are to scale. Outlines and holes form a path with fill-rule
 /// nonzero.
-std::string to_svg(const Drawing& drawing);
+[[nodiscard]] std::string to_svg(const Drawing& drawing);
 
 /// DXF release 12: closed polylines, one layer per sheet (SECTION_1, ... with HATCH_1, ...), elevated to the
 /// plane's height above the origin. Coordinates are in the plane's frame and the scene's unit, which
 /// $INSUNITS names.
-std::string to_dxf(const Drawing& drawing);
+[[nodiscard]] std::string to_dxf(const Drawing& drawing);
 
 /// All points and measures: {unit, sections: [{height, frame, parts: [{name, contours, hatch}]}]}.
-std::string to_json(const Drawing& drawing);
+[[nodiscard]] std::string to_json(const Drawing& drawing);
 
 /// By the file's extension: .svg, .dxf or .json. Throws usage (E-DRAWING) for others.
-std::string drawing_for(const std::string& path, const Drawing& drawing);
+[[nodiscard]] std::string drawing_for(const std::string& path, const Drawing& drawing);
 /// Whether drawing_for knows the extension.
 bool is_drawing(const std::string& path);
 

@@ -13,10 +13,10 @@ using FootprintRings = std::vector<std::vector<Vec2>>;
 /// POLYLINE, and CIRCLE, among the drawing's entities, also drawn from the back. Arcs become segments of at
 /// most 5 degrees. Ignores heights and other geometry. Throws malformed (E-GEOJSON, E-WKT, E-DXF) with the
 /// line or the reason, E-FOOTPRINT without any polygon.
-FootprintRings read_footprint(const Input& input);
+[[nodiscard]] FootprintRings read_footprint(const Input& input);
 
 /// The rings of a WKT text. name: for messages.
-FootprintRings parse_wkt(std::string_view text, const std::string& name);
+[[nodiscard]] FootprintRings parse_wkt(std::string_view text, const std::string& name);
 
 /// Whether a text begins like WKT; only parse_wkt refuses types other than polygons.
 bool is_wkt(std::string_view text);

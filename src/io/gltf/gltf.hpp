@@ -30,18 +30,18 @@ class MaterialContents {
 /// One entry for each animation, skin, camera and light of the scene's first document with nodes:
 /// {animations: [...], skins: [...], cameras: [...], lights: [...]}; null without a document. Throws
 /// malformed, like reading.
-Json document_contents(const Scene& scene);
+[[nodiscard]] Json document_contents(const Scene& scene);
 
 /// [parts] true if an animation of its document drives its node, or an ancestor. Such a node must keep its
 /// transform, which is only valid for one moment. Morph weights do not count. Throws malformed when the
 /// document's nodes or animations are invalid.
-std::vector<bool> animated_parts(const Scene& scene);
+[[nodiscard]] std::vector<bool> animated_parts(const Scene& scene);
 
 /// [parts] for parts at the largest of several instances (EXT_mesh_gpu_instancing): the distance by which
 /// writing the instance may move its points, in the world. 0 for other parts. Instances are float32; with
 /// meshopt's filters, rotations have 16 bits. Throws malformed when the document's nodes or instances are
 /// invalid.
-std::vector<double> errors_of_instances(const Scene& scene, bool filters);
+[[nodiscard]] std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 
 /// Calls visit for each part with several instances (EXT_mesh_gpu_instancing), with the transforms from its
 /// space to the instances, as they would be written now. Of more than 65,536 instances it samples evenly;
@@ -51,6 +51,6 @@ void for_each_place_of_instances(
 
 /// The smallest number of position bits, from `min_bits` to 24, that keeps distinct float32 vertex positions
 /// distinct on the grid. None if 24 are not enough.
-std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits);
+[[nodiscard]] std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits);
 
 } // namespace facetmill::io

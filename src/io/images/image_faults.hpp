@@ -11,9 +11,9 @@ namespace facetmill::io {
 /// What is wrong with an image file as far as that is seen without decoding it: "its header is broken", "its
 /// data end early", "it is of no known kind"; empty where nothing is. PNG, JPEG, WebP, KTX2 and DDS. What
 /// lies between the header and the end is not looked at.
-std::string image_fault(Span bytes);
+[[nodiscard]] std::string image_fault(Span bytes);
 
 /// What is said (W-IMAGE) where such an image is written as it is.
-Diagnostic warning_of_fault(const std::string& image, const std::string& fault);
+[[nodiscard]] Diagnostic warning_of_fault(const std::string& image, const std::string& fault);
 
 } // namespace facetmill::io

@@ -10,7 +10,7 @@
 namespace facetmill::io {
 
 /// What FACETMILL_KTX names, else ktx, else toktx, as found in PATH; none when it is no program.
-std::optional<std::filesystem::path> ktx_program();
+[[nodiscard]] std::optional<std::filesystem::path> ktx_program();
 
 /// Starts as many such processes as there are cores, up to 8, when there is the program, and they are not
 /// there yet. Call it before the sandbox is closed and before threads start.
@@ -27,6 +27,6 @@ struct KtxOrder {
 
 /// The KTX2 file, with all its levels, of a PNG. Any thread may ask; each waits until a process is free.
 /// Throws stage (E-KTX) when the program is not there, fails, or takes longer than the limit.
-Bytes run_ktx(Span png, const KtxOrder& order);
+[[nodiscard]] Bytes run_ktx(Span png, const KtxOrder& order);
 
 } // namespace facetmill::io

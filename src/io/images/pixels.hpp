@@ -29,10 +29,10 @@ constexpr std::size_t max_pixels = std::size_t{1} << 26;
 /// equal channels, what has no alpha is opaque, 16 bits are rounded to 8. Colours are the file's own numbers:
 /// gAMA, iCCP and such are not applied, as glTF says. A JPEG of more than 500 scans is none, either: each
 /// costs as much as a whole image, however few bytes it has.
-std::optional<Pixels> decoded_image(Span bytes);
+[[nodiscard]] std::optional<Pixels> decoded_image(Span bytes);
 
 /// Width and height of such an image, of which no more than the header is read; none where that is broken.
-std::optional<std::pair<std::size_t, std::size_t>> image_size(Span bytes);
+[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> image_size(Span bytes);
 
 /// Whether all pixels are grey.
 bool is_grey(const Pixels& image);
@@ -47,11 +47,11 @@ struct Channel {
 constexpr int brightness = 4; ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R BT.601)
 
 /// A PNG as large as the largest image that is named; smaller ones are scaled to it.
-Bytes combined_image(const std::array<Channel, 4>& channels);
+[[nodiscard]] Bytes combined_image(const std::array<Channel, 4>& channels);
 
 /// A PNG of the normals of a relief, brighter being higher: its slopes are `strength` times the difference of
 /// the neighbours' brightness. The image is repeated at its borders. Blinn, "Simulation of Wrinkled
 /// Surfaces", 1978.
-Bytes normals_of_relief(const Pixels& relief, double strength);
+[[nodiscard]] Bytes normals_of_relief(const Pixels& relief, double strength);
 
 } // namespace facetmill::io

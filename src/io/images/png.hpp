@@ -12,9 +12,9 @@ enum class PngEffort {
 };
 
 /// A PNG of 8 bits a channel with alpha. Throws limit (E-MEMORY) when zlib has no memory.
-Bytes png(const Picture& picture, PngEffort effort = PngEffort::small);
+[[nodiscard]] Bytes png(const Picture& picture, PngEffort effort = PngEffort::small);
 
 /// The bytes in base64 (RFC 4648, with padding).
-std::string base64(Span bytes);
+[[nodiscard]] std::string base64(Span bytes);
 
 } // namespace facetmill::io

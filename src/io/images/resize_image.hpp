@@ -17,7 +17,7 @@ enum class PixelKind {
 /// number. With coverage, colours are weighted by alpha; where the result cannot be seen at all, they are the
 /// plain mean, so that its neighbours are not darkened when a texture is magnified. The same for any number
 /// of threads.
-Pixels resized_image(const Pixels& image, std::size_t width, std::size_t height, PixelKind kind,
-                     bool coverage);
+[[nodiscard]] Pixels resized_image(const Pixels& image, std::size_t width, std::size_t height, PixelKind kind,
+                                   bool coverage);
 
 } // namespace facetmill::io

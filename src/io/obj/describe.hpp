@@ -35,6 +35,6 @@ const std::set<std::string>& kept_by_library();
 
 /// The MTL statements that a reader turns into the scene's material. Records losses and marks the images
 /// that the statements name as used. A material without a document has only its colour.
-Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses);
+[[nodiscard]] Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses);
 
 } // namespace facetmill::io::obj

@@ -43,8 +43,8 @@ struct Description {
 
 /// The materials of all libraries that the events name, by name. A library that cannot be read is a warning
 /// (W-MTL), because the mesh is complete without it.
-std::map<std::string, Description> read_libraries(const Input& input, const std::vector<Event>& events,
-                                                  ReadLog& log);
+[[nodiscard]] std::map<std::string, Description>
+read_libraries(const Input& input, const std::vector<Event>& events, ReadLog& log);
 
 /// Makes the scene's materials and their document from descriptions.
 class MaterialMaker {
@@ -97,9 +97,9 @@ inline constexpr std::string_view double_sided_comment = "doubleSided: true";
 inline constexpr std::string_view name_comment = "glTF name:";
 
 /// The roughness of a highlight with Phong's exponent (Ns).
-double roughness_of(double exponent);
+[[nodiscard]] double roughness_of(double exponent);
 
 /// The .mtl text of materials: their usemtl names and descriptions.
-std::string material_library(const std::vector<std::pair<std::string, Description>>& materials);
+[[nodiscard]] std::string material_library(const std::vector<std::pair<std::string, Description>>& materials);
 
 } // namespace facetmill::io::obj

@@ -36,14 +36,14 @@ struct Statements {
 };
 
 /// Parses the text, in parallel over chunks of lines. Throws malformed (E-OBJ, E-NAN) with the line.
-Statements parse(const Input& input, const ReadSettings& settings);
+[[nodiscard]] Statements parse(const Input& input, const ReadSettings& settings);
 
 /// `o` makes parts. Objects that share vertices stay a single part, so that the surface stays connected,
 /// with the face attribute "object". In a file without `o`, `g` works the same. Other groups lose their
 /// names (W-GROUPS, a note); the face attributes "group" and "smoothing_group" number them if there are
 /// several. `usemtl` makes materials and primitives. Texture coordinates and normals make wedges. Lines
 /// (`l`) make a separate part per object, with the colours of their vertices.
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
-Written write(const Scene& scene, const WriteSettings& settings);
+[[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+[[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::obj

@@ -15,7 +15,7 @@ struct Kind {
 /// unsupported kinds.
 Kind read_kind(Text& text);
 
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
-Written write(const Scene& scene, const WriteSettings& settings);
+[[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+[[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::off

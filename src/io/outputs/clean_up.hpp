@@ -10,10 +10,11 @@ namespace facetmill::io {
 /// are never freed, since a handler may be reading them; there is one per output.
 struct CleanUp;
 
-CleanUp* clean_up_file(const std::filesystem::path& path);
+[[nodiscard]] CleanUp* clean_up_file(const std::filesystem::path& path);
 /// The file that was set aside takes its old name again.
-CleanUp* clean_up_restore(const std::filesystem::path& aside, const std::filesystem::path& path);
-CleanUp* clean_up_directory(const std::filesystem::path& path);
+[[nodiscard]] CleanUp* clean_up_restore(const std::filesystem::path& aside,
+                                        const std::filesystem::path& path);
+[[nodiscard]] CleanUp* clean_up_directory(const std::filesystem::path& path);
 /// The entry is done with: a signal leaves it alone from now on.
 void keep(CleanUp* entry);
 

@@ -11,9 +11,9 @@ namespace facetmill::io::ply {
 
 /// The eight scalar types, in the order of AttributeData's alternatives.
 enum class Type { float32, float64, uint8, int8, uint16, int16, uint32, int32 };
-std::size_t size_of(Type type);
+[[nodiscard]] std::size_t size_of(Type type);
 /// An empty array of the type.
-AttributeData array_of(Type type);
+[[nodiscard]] AttributeData array_of(Type type);
 
 struct Property {
     std::string name;
@@ -41,7 +41,7 @@ struct Header {
 };
 
 /// Reads the header; throws malformed (E-PLY) with the line.
-Header read_header(const Input& input);
+[[nodiscard]] Header read_header(const Input& input);
 
 /// The values of a property for all items of its element.
 struct Column {
@@ -70,7 +70,7 @@ class Body {
 /// The name of the part with the file's lines, if the file also has faces or points.
 inline constexpr const char* part_of_lines = "lines";
 
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
-Written write(const Scene& scene, const WriteSettings& settings);
+[[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+[[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::ply

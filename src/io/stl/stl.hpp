@@ -13,15 +13,15 @@ bool is_text(Span bytes);
 inline constexpr std::size_t head = 84, record = 50;
 
 /// The number of triangles in the head of a binary file. The head must be complete.
-std::uint32_t promised_triangles(Span bytes);
+[[nodiscard]] std::uint32_t promised_triangles(Span bytes);
 /// The same number, checked. Throws malformed (E-STL) if the file lacks its head or has fewer triangles.
-std::uint32_t held_triangles(const Input& input);
+[[nodiscard]] std::uint32_t held_triangles(const Input& input);
 
 /// One part per solid, welded exactly. The reader ignores the file's normals, because the order of the
 /// corners counts. Nonzero attribute bytes become the face attribute "attribute".
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+[[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 
 /// Writes triangles as float32, with normals computed from the rounded corners. Text has one solid per part.
-Written write(const Scene& scene, const WriteSettings& settings);
+[[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::stl

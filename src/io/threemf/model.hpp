@@ -70,9 +70,10 @@ struct Model {
 
 /// path: of the part in the archive. Throws as read_xml, E-EXTENSION for an unsupported required extension,
 /// limit (E-SIZE) beyond max_vertices.
-Model read_model(Span xml, const std::string& archive, const std::string& path, std::size_t max_vertices);
+[[nodiscard]] Model read_model(Span xml, const std::string& archive, const std::string& path,
+                               std::size_t max_vertices);
 
 /// The unit of the model part; reads only its first element. Throws as read_model.
-Unit unit_of_model(Span xml, const std::string& archive, const std::string& path);
+[[nodiscard]] Unit unit_of_model(Span xml, const std::string& archive, const std::string& path);
 
 } // namespace facetmill::io::threemf

@@ -7,7 +7,7 @@
 
 namespace facetmill::io::threemf {
 
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
-Written write(const Scene& scene, const WriteSettings& settings);
+[[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+[[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::threemf

@@ -32,6 +32,6 @@ struct XmlHandler {
 void read_xml(Span text, const std::string& name, const XmlHandler& handler);
 
 /// The text escaped for an XML attribute; characters that XML cannot hold become U+FFFD.
-std::string xml_escaped(std::string_view text);
+[[nodiscard]] std::string xml_escaped(std::string_view text);
 
 } // namespace facetmill::io::threemf

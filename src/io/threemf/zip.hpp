@@ -44,6 +44,6 @@ struct ArchiveFile {
 };
 
 /// An archive of deflated files without their times, so that equal files give equal bytes.
-Bytes make_archive(const std::vector<ArchiveFile>& files);
+[[nodiscard]] Bytes make_archive(const std::vector<ArchiveFile>& files);
 
 } // namespace facetmill::io::threemf

@@ -16,18 +16,18 @@ struct TilesetFrame {
 /// The frame for positions in the box. The bits of Draco or quantize divide its longest side. The step may
 /// become finer, unless the bits were given, up to float32 precision from the middle to the ends. Throws
 /// stage (E-RANGE) for a box beyond the range of float32.
-TilesetFrame usual_frame(const Box& box, const WriteSettings& settings);
+[[nodiscard]] TilesetFrame usual_frame(const Box& box, const WriteSettings& settings);
 
 /// The frame's step, or the first finer step that merges no more of these vertices than the finest step.
-double distinct_step(const std::vector<Vec3>& positions, const TilesetFrame& frame);
+[[nodiscard]] double distinct_step(const std::vector<Vec3>& positions, const TilesetFrame& frame);
 
 /// The usual frame with the distinct step.
-TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings);
+[[nodiscard]] TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings);
 
 /// Rounds positions to the frame's grid.
 void put_into_frame(std::vector<Vec3>& positions, const TilesetFrame& frame);
 
 /// A point near the centre of the box, with few digits, on the frame's grid.
-Vec3 tile_origin(const Box& box, const TilesetFrame& frame);
+[[nodiscard]] Vec3 tile_origin(const Box& box, const TilesetFrame& frame);
 
 } // namespace facetmill::io

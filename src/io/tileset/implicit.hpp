@@ -10,13 +10,14 @@
 namespace facetmill::io::tileset {
 
 /// The file of a tile or subtree from its path: `{level}-{x}-{y}`.
-std::string implicit_name(const std::string& name);
+[[nodiscard]] std::string implicit_name(const std::string& name);
 
 /// Makes the root of a tileset implicit, and adds the schema of the metadata in subtree files.
 void add_implicit_tiling(Json& tileset, const std::vector<TreeTile>& tiles, const std::string& title);
 
 /// Subtree files of up to six levels each, sorted from the root down.
-std::vector<OutputFile> subtree_files(const std::vector<TreeTile>& tiles, const std::string& title);
+[[nodiscard]] std::vector<OutputFile> subtree_files(const std::vector<TreeTile>& tiles,
+                                                    const std::string& title);
 
 /// The contents of an implicit tile when every tile is refined, and the subtree files that list them.
 struct ImplicitContents {
@@ -25,6 +26,7 @@ struct ImplicitContents {
 };
 /// tile: has implicitTiling. replaces: only tiles without children are shown. Throws malformed (E-GLTF,
 /// E-TILESET, E-JSON, E-URI), missing (E-FILE), and limit (E-LIMIT) for more tiles than files could hold.
-ImplicitContents read_implicit(const gltf::JsonCursor& tile, bool replaces, const Input& tileset);
+[[nodiscard]] ImplicitContents read_implicit(const gltf::JsonCursor& tile, bool replaces,
+                                             const Input& tileset);
 
 } // namespace facetmill::io::tileset

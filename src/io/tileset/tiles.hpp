@@ -19,19 +19,19 @@ struct TreeTile {
 
 /// The settings for a tile of a tileset with these settings: whole positions with a grid, and shared images
 /// unless these are embedded or referenced.
-WriteSettings settings_of_tiles(const WriteSettings& settings);
+[[nodiscard]] WriteSettings settings_of_tiles(const WriteSettings& settings);
 
 /// The path of a tile's file, relative to the tileset's. settings: settings_of_tiles.
-std::string uri_of_tile(const WriteSettings& settings, const std::string& name);
+[[nodiscard]] std::string uri_of_tile(const WriteSettings& settings, const std::string& name);
 
 /// The twelve numbers of a bounding volume: the centre and the half sides along the axes.
-std::array<double, 12> numbers_of_box(const Box& box);
+[[nodiscard]] std::array<double, 12> numbers_of_box(const Box& box);
 
 /// The tile as a GLB, the first of the files, and the images of its materials. mesh: in the frame. settings:
 /// settings_of_tiles. outline: a scene with the materials and documents of all tiles, without parts. Sets
 /// the tile's fields that depend on its mesh, and `all` as for a leaf. Safe on any thread.
-Written encode_tile(Mesh mesh, TreeTile& tile, const Scene& outline, const WriteSettings& settings,
-                    const TilesetFrame& frame);
+[[nodiscard]] Written encode_tile(Mesh mesh, TreeTile& tile, const Scene& outline,
+                                  const WriteSettings& settings, const TilesetFrame& frame);
 
 /// A written tileset and its statistics. tiles: each before its children, the root first, with `all` set for
 /// tiles with children.
@@ -41,7 +41,7 @@ struct TilesetSummary {
     VertexCacheUse cache;
     std::size_t dropped_faces = 0;
 };
-TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& frame,
-                          const WriteSettings& settings);
+[[nodiscard]] TilesetSummary summary_of(std::vector<TreeTile>& tiles, const TilesetFrame& frame,
+                                        const WriteSettings& settings);
 
 } // namespace facetmill::io::tileset

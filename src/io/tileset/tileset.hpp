@@ -10,7 +10,7 @@ namespace facetmill::io::tileset {
 /// A single part in the tileset's frame: the leaf tiles, and the ancestors that ADD refinement keeps
 /// visible. Vertices at the same position are merged. Throws malformed (E-GLTF, E-URI), missing (E-FILE),
 /// and malformed (E-TILESET) for unsupported content: nested tilesets and formats other than GLB.
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+[[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 
 /// The neighbours that reading opens: the tile files as the tileset names them, and the subtree files read
 /// to find these. Throws as read.
@@ -18,11 +18,11 @@ struct NamedFiles {
     std::vector<std::string> uris;
     std::vector<std::filesystem::path> read;
 };
-NamedFiles named_files(const Input& tileset);
+[[nodiscard]] NamedFiles named_files(const Input& tileset);
 
 /// Writes all parts as a single mesh, as a pyramid (geometry/pyramid). World space must be in metres and
 /// z-up. The tileset comes first, and the tiles are in a folder named after it. Skins, morph targets, part
 /// names, and document contents other than materials are dropped.
-Written write(const Scene& scene, const WriteSettings& settings);
+[[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io::tileset

@@ -5,7 +5,7 @@
 
 namespace facetmill::pipeline {
 
-report::PageStep page_step(const Step& step);
+[[nodiscard]] report::PageStep page_step(const Step& step);
 /// Observes references of arms, failures of contracts, and the final scene. scene_for: see Watch.
 void watch_results(Engine& engine, report::Page& page, const char* scene_for);
 

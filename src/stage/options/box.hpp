@@ -38,6 +38,6 @@ void verify_box(const BoxOption& box, const Mark& where, Problems& problems);
 
 /// Its six face planes, facing inwards: the box is in front of all of them. Without a rotation they are
 /// axis-aligned and use the given numbers exactly.
-std::vector<Plane> planes_of(const BoxOption& box);
+[[nodiscard]] std::vector<Plane> planes_of(const BoxOption& box);
 
 } // namespace facetmill

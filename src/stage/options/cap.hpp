@@ -26,7 +26,7 @@ void declare_triangulate(Declare<S>& d, bool S::*triangulate) {
 }
 
 /// The index of an existing or future material of that name.
-Index material_number(const Scene& scene, const std::string& name);
+[[nodiscard]] Index material_number(const Scene& scene, const std::string& name);
 
 /// Sets the cap settings of clip or crop: the primitive (with the material's number, which add_material may
 /// create later) and the numbers.

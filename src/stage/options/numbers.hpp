@@ -12,6 +12,6 @@ namespace facetmill {
 /// Returns false after adding a problem (E-TYPE: expected ..., found ...).
 bool parse_numbers(const Value& value, std::span<double> out, std::string_view expected, Problems& problems);
 /// Its JSON Schema.
-Json numbers_schema(std::size_t count);
+[[nodiscard]] Json numbers_schema(std::size_t count);
 
 } // namespace facetmill

@@ -66,14 +66,14 @@ struct OptionType<PlaneOption> {
 
 /// The length in the short form of a plane, "5mm" in "z=5mm", with its position in the text. None for other
 /// values, percentages and centre.
-std::optional<Value> length_in_plane(const Value& value);
+[[nodiscard]] std::optional<Value> length_in_plane(const Value& value);
 
 /// Adds E-PLANE for an invalid plane: no value, or a zero normal.
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems);
 
 /// The plane in world space. With a part, it is in that part's space, and uses its centre and extent. Records
 /// lengths under the option's name. Throws usage (E-UNIT, E-PLANE).
-Plane resolve_plane(const PlaneOption& plane, const Scene& scene, Context& context, std::string_view option,
-                    const Part* local = nullptr);
+[[nodiscard]] Plane resolve_plane(const PlaneOption& plane, const Scene& scene, Context& context,
+                                  std::string_view option, const Part* local = nullptr);
 
 } // namespace facetmill

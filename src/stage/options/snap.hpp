@@ -27,7 +27,7 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
 
 /// The float32 step at the mesh's position, if it is visible relative to its size and most positions are
 /// float32 numbers; else none.
-std::optional<double> seen_rounding(const Mesh& mesh);
+[[nodiscard]] std::optional<double> seen_rounding(const Mesh& mesh);
 
 /// Warns (W-SNAPPED) about vertices treated as on a plane or an outline, from up to this distance. what: "the
 /// outline".

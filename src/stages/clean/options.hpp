@@ -35,8 +35,9 @@ void declare_clean(Declare<CleanOptions>& d);
 void verify_clean(const CleanOptions& o, const Value& given, Problems& problems);
 
 /// The steps, without their lengths.
-CleanSettings clean_steps_of(const CleanOptions& o);
+[[nodiscard]] CleanSettings clean_steps_of(const CleanOptions& o);
 /// Converts lengths from world space to the part's space. A transform with scale uses its mean scale.
-CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context);
+[[nodiscard]] CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part,
+                                           Context& context);
 
 } // namespace facetmill::clean_stage

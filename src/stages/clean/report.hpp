@@ -18,6 +18,6 @@ struct CleanReport {
 void declare_clean_report(DeclareFields<CleanReport>& d);
 
 /// The first few repairs that were not possible, with positions in world space.
-std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Transform& to_world);
+[[nodiscard]] std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Transform& to_world);
 
 } // namespace facetmill::clean_stage

@@ -28,6 +28,6 @@ void verify_footprint(const FootprintOption& option, const Value& value, std::st
                       Problems& problems);
 
 /// The footprint; a file is listed in the record as an input. Throws as io::read_footprint and Footprint.
-Footprint resolve_footprint(const FootprintOption& option, Context& context);
+[[nodiscard]] Footprint resolve_footprint(const FootprintOption& option, Context& context);
 
 } // namespace facetmill

@@ -6,8 +6,8 @@
 namespace facetmill::crumple_stage {
 
 /// The reason why the options need the mesh in memory, for messages; none if they do not.
-std::optional<std::string> why_not_on_cells(const CrumpleOptions& o);
-double triangles_of_one(const CrumpleOptions& o);
+[[nodiscard]] std::optional<std::string> why_not_on_cells(const CrumpleOptions& o);
+[[nodiscard]] double triangles_of_one(const CrumpleOptions& o);
 void crumple_on_cells(const CrumpleOptions& o, CellFlow& flow, Context& context);
 
 } // namespace facetmill::crumple_stage

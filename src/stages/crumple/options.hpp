@@ -29,6 +29,6 @@ void declare_crumple(Declare<CrumpleOptions>& d);
 void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems);
 
 /// The settings shared by all parts; amplitude, transform and mask are set per part. amplitude: the largest.
-CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, double amplitude);
+[[nodiscard]] CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, double amplitude);
 
 } // namespace facetmill::crumple_stage

@@ -19,7 +19,7 @@ struct GenerateOptions {
 };
 
 /// The name in pipelines.
-const char* to_string(Shape shape);
+[[nodiscard]] const char* to_string(Shape shape);
 
 void declare_generate(Declare<GenerateOptions>& d);
 /// Checks beyond the declaration: options of other shapes, and counts whose limits depend on the shape.

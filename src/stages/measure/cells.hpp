@@ -6,7 +6,7 @@
 namespace facetmill::measure_stage {
 
 /// The reason why the options need the mesh in memory, for messages; none if they do not.
-std::optional<std::string> why_not_on_cells(const MeasureOptions& o);
+[[nodiscard]] std::optional<std::string> why_not_on_cells(const MeasureOptions& o);
 void measure_on_cells(const MeasureOptions& o, CellFlow& flow, Context& context);
 
 } // namespace facetmill::measure_stage

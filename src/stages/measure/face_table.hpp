@@ -8,10 +8,10 @@
 namespace facetmill::measure_stage {
 
 /// The heading: the names of the columns.
-std::string face_table_head();
+[[nodiscard]] std::string face_table_head();
 /// One row per face of the part, whose mesh is in world space.
-std::string face_table_rows(const std::string& part, const Mesh& mesh);
+[[nodiscard]] std::string face_table_rows(const std::string& part, const Mesh& mesh);
 /// The help text of the columns: "part (its name), face (its number, from 0), ...".
-std::string face_table_help();
+[[nodiscard]] std::string face_table_help();
 
 } // namespace facetmill::measure_stage

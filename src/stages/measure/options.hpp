@@ -23,7 +23,7 @@ struct MeasureOptions {
 void declare_measure(Declare<MeasureOptions>& d);
 /// Checks beyond the declaration: the formats of the files.
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems);
-StageFiles files_of_measure(const MeasureOptions& o);
+[[nodiscard]] StageFiles files_of_measure(const MeasureOptions& o);
 
 /// Whether the file lists every face, instead of all results as JSON.
 bool lists_faces(const PathText& path);

@@ -20,7 +20,7 @@ struct MeasuredSolid {
     std::array<Vec3, 3> inertia{};
     std::optional<PrincipalInertia> principal;
 };
-MeasuredSolid measured(const SolidMass& solid, double density);
+[[nodiscard]] MeasuredSolid measured(const SolidMass& solid, double density);
 
 /// A quantity kept as an attribute.
 struct KeptAttribute {

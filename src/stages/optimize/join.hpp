@@ -9,7 +9,7 @@
 namespace facetmill::optimize_stage {
 
 /// The number of primitives with faces: a renderer draws each separately.
-std::size_t draw_calls(const Mesh& mesh);
+[[nodiscard]] std::size_t draw_calls(const Mesh& mesh);
 
 /// Merges primitives of the mesh with equal material and attributes, unless they have extras or extensions.
 /// Returns whether the mesh changed.
@@ -23,7 +23,8 @@ struct JoinedParts {
 
 /// Groups the candidate parts (ascending numbers) that share materials and have the same attributes. Groups
 /// have two or more parts.
-std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<std::size_t>& candidates);
+[[nodiscard]] std::vector<JoinedParts> groups_to_join(const Scene& scene,
+                                                      const std::vector<std::size_t>& candidates);
 
 /// The same for parts that share meshes. parts_of_meshes: the parts of each mesh, ascending. Meshes whose
 /// parts have the same transforms, in order, are joined in the same way at each node, so the results share a

@@ -18,7 +18,7 @@ inline constexpr std::size_t most_looks = 512;
 
 /// Gives parts without texture coordinates and with plain materials a palette material, if at least `least`
 /// different looks of the same kind share it. Marks the parts as changed. parts: part numbers.
-PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& documents,
-                            const std::vector<std::size_t>& parts, std::size_t least);
+[[nodiscard]] PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& documents,
+                                          const std::vector<std::size_t>& parts, std::size_t least);
 
 } // namespace facetmill::optimize_stage

@@ -15,13 +15,13 @@ struct Rows {
 namespace rows {
 bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
            Problems& problems);
-Json schema(std::size_t columns);
+[[nodiscard]] Json schema(std::size_t columns);
 /// Reads the numbers of the file row by row, and records it as an input of the run.
-std::vector<double> read(const std::string& file, std::size_t columns, Context& context);
+[[nodiscard]] std::vector<double> read(const std::string& file, std::size_t columns, Context& context);
 } // namespace rows
 
 template <std::size_t N>
-std::vector<std::array<double, N>> rows_of(const std::vector<double>& numbers) {
+[[nodiscard]] std::vector<std::array<double, N>> rows_of(const std::vector<double>& numbers) {
     std::vector<std::array<double, N>> rows(numbers.size() / N);
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (std::size_t k = 0; k < N; ++k) rows[i][k] = numbers[N * i + k];
@@ -62,7 +62,7 @@ void declare_probe(Declare<ProbeOptions>& d);
 /// Checks beyond the declaration: names of outputs, and conflicting options.
 void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems);
 /// The files that probe reads and writes.
-StageFiles probe_files(const ProbeOptions& o);
+[[nodiscard]] StageFiles probe_files(const ProbeOptions& o);
 bool is_csv(const PathText& path);
 
 } // namespace facetmill

@@ -68,12 +68,12 @@ struct ProbeReport {
 void declare_probe_report(DeclareFields<ProbeReport>& d);
 
 /// The report, with at most `limit` answers.
-ProbeReport report_of(std::span<const Vec3> points, std::span<const PointAnswer> answers,
-                      const FaceNames& faces, std::size_t limit);
-ProbeReport report_of(const LineAnswers& answers, const FaceNames& faces, std::size_t limit);
+[[nodiscard]] ProbeReport report_of(std::span<const Vec3> points, std::span<const PointAnswer> answers,
+                                    const FaceNames& faces, std::size_t limit);
+[[nodiscard]] ProbeReport report_of(const LineAnswers& answers, const FaceNames& faces, std::size_t limit);
 
-std::string points_csv(std::span<const Vec3> points, std::span<const PointAnswer> answers,
-                       const FaceNames& faces);
-std::string lines_csv(const LineAnswers& answers, const FaceNames& faces);
+[[nodiscard]] std::string points_csv(std::span<const Vec3> points, std::span<const PointAnswer> answers,
+                                     const FaceNames& faces);
+[[nodiscard]] std::string lines_csv(const LineAnswers& answers, const FaceNames& faces);
 
 } // namespace facetmill::probe_stage

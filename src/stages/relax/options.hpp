@@ -26,6 +26,6 @@ void declare_relax(Declare<RelaxOptions>& d);
 void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems);
 
 /// The settings shared by all parts; until, mask and the transform are set per part.
-RelaxSettings relax_settings(const RelaxOptions& o);
+[[nodiscard]] RelaxSettings relax_settings(const RelaxOptions& o);
 
 } // namespace facetmill::relax_stage

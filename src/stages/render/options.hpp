@@ -41,9 +41,10 @@ struct Shots {
     std::vector<PictureSettings> settings;
     std::size_t columns = 1;
 };
-Shots shots_of(const RenderOptions& o, const Scene& scene, const PictureSettings& common);
+[[nodiscard]] Shots shots_of(const RenderOptions& o, const Scene& scene, const PictureSettings& common);
 /// The settings shared by all pictures of a scene.
-PictureSettings common_settings(const RenderOptions& o, const Scene& scene, const Context& context);
+[[nodiscard]] PictureSettings common_settings(const RenderOptions& o, const Scene& scene,
+                                              const Context& context);
 
 /// "auto", "percentile", "all", or two numbers.
 template <>

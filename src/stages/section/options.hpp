@@ -27,6 +27,7 @@ void verify_section(const SectionOptions& o, const Value& given, Problems& probl
 
 /// The hatch lines of a scene; all sections of a stack share them. Throws stage (E-HATCH) if the spacing
 /// resolves to 0.
-polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context);
+[[nodiscard]] polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene,
+                                                   Context& context);
 
 } // namespace facetmill::section_stage

@@ -38,7 +38,7 @@ void declare_section_report(DeclareFields<SectionReport>& d);
 /// The volume of the selected parts appears next to these (none: a part is not closed). Warns of contours
 /// that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or
 /// self-crossing (W-SECTION-CROSSES).
-SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
-                        std::optional<double> volume, Context& context);
+[[nodiscard]] SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
+                                      std::optional<double> volume, Context& context);
 
 } // namespace facetmill::section_stage

@@ -27,6 +27,6 @@ struct FaceLabels {
 
 /// The pieces of the part; none if it stays whole. Throws stage (E-GROUP) if a scene's only part lacks the
 /// attribute, or if a value is not a whole number.
-FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
+[[nodiscard]] FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
 } // namespace facetmill::separate_stage

@@ -7,7 +7,7 @@
 namespace facetmill::simplify_stage {
 
 /// Why these options need the whole mesh, in words; none when they do not.
-std::optional<std::string> why_not_on_cells(const SimplifyOptions& o);
+[[nodiscard]] std::optional<std::string> why_not_on_cells(const SimplifyOptions& o);
 
 /// Simplifies the cells and reports as simplify_parts does, without a measured deviation. The result is in
 /// memory. Of a job of several (means.job) no more is done than that, and there is no result.

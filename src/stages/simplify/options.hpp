@@ -46,6 +46,6 @@ void declare_simplify(Declare<SimplifyOptions>& d);
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems);
 
 /// The settings for all parts together, with lengths as written and without the planes of lock: {box}.
-SimplifySettings simplify_settings(const SimplifyOptions& o);
+[[nodiscard]] SimplifySettings simplify_settings(const SimplifyOptions& o);
 
 } // namespace facetmill::simplify_stage

@@ -9,7 +9,8 @@ namespace facetmill::simplify_stage {
 
 /// Simplifies the selected parts (geometry/simplify) and reports the results; coarser levels of detail become
 /// parts of their own.
-Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report);
+[[nodiscard]] Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context,
+                                   SimplifyReport& report);
 
 /// What was asked for: less than there is; a number of faces or vertices, and not only an error.
 struct AskedFor {

@@ -17,7 +17,7 @@ struct SimplifyReport {
 void declare_simplify_report(DeclareFields<SimplifyReport>& d);
 
 /// What holds the edges that are left, as a phrase; and what can be done about most of them.
-std::string held_by(const SimplifyResult& r);
-std::string hint_for(const SimplifyResult& r);
+[[nodiscard]] std::string held_by(const SimplifyResult& r);
+[[nodiscard]] std::string hint_for(const SimplifyResult& r);
 
 } // namespace facetmill::simplify_stage

@@ -6,8 +6,8 @@
 namespace facetmill::split_stage {
 
 /// The reason why the options need the mesh in memory, for messages; none if they do not.
-std::optional<std::string> why_not_on_cells(const SplitOptions& o);
-double triangles_of_one(const SplitOptions& o);
+[[nodiscard]] std::optional<std::string> why_not_on_cells(const SplitOptions& o);
+[[nodiscard]] double triangles_of_one(const SplitOptions& o);
 void split_on_cells(const SplitOptions& o, CellFlow& flow, Context& context);
 
 } // namespace facetmill::split_stage

@@ -25,6 +25,6 @@ void declare_split(Declare<SplitOptions>& d);
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems);
 
 /// The settings shared by all parts; max_edge, max_faces and the transform are set per part.
-SplitSettings split_settings(const SplitOptions& o);
+[[nodiscard]] SplitSettings split_settings(const SplitOptions& o);
 
 } // namespace facetmill::split_stage

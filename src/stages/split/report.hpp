@@ -21,7 +21,7 @@ struct SplitReport {
 void declare_split_report(DeclareFields<SplitReport>& d);
 
 /// The option that ended the split.
-const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop);
+[[nodiscard]] const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop);
 
 /// Warns of targets that were not reached. longest: the longest remaining edge in world units.
 void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings& s, double longest,

@@ -7,7 +7,7 @@ namespace facetmill::textures_stage {
 
 enum class Format { keep, png, jpeg, webp, ktx2 };
 /// The name in options: "png".
-std::string name_of(Format format);
+[[nodiscard]] std::string name_of(Format format);
 
 /// The requested options for images of a role.
 struct RoleOptions {
@@ -31,9 +31,9 @@ struct ImageSettings {
     Format format = Format::keep;
     int quality = 80;
 };
-ImageSettings for_colours(const TexturesOptions& o);
-ImageSettings for_normals(const TexturesOptions& o);
-ImageSettings for_data(const TexturesOptions& o);
+[[nodiscard]] ImageSettings for_colours(const TexturesOptions& o);
+[[nodiscard]] ImageSettings for_normals(const TexturesOptions& o);
+[[nodiscard]] ImageSettings for_data(const TexturesOptions& o);
 
 void declare_textures(Declare<TexturesOptions>& d);
 /// Whether the options ask for KTX2 in a role.

@@ -20,10 +20,10 @@ struct ProcessedImage {
 };
 
 /// The format and size, from the header.
-ImageState state_of(const io::Bytes& bytes);
+[[nodiscard]] ImageState state_of(const io::Bytes& bytes);
 
 /// The image, scaled and encoded by the options of its role, or the reason to keep it. before: its state_of.
-ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
-                               const TexturesOptions& o);
+[[nodiscard]] ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before,
+                                             const io::ImageUse& use, const TexturesOptions& o);
 
 } // namespace facetmill::textures_stage

@@ -28,8 +28,8 @@ void declare_transform(Declare<TransformOptions>& d);
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems);
 
 /// scale, then rotate, about the origin.
-Transform spin_of(const TransformOptions& o);
+[[nodiscard]] Transform spin_of(const TransformOptions& o);
 /// The matrix option; the identity by default.
-Transform matrix_of(const TransformOptions& o);
+[[nodiscard]] Transform matrix_of(const TransformOptions& o);
 
 } // namespace facetmill::transform_stage

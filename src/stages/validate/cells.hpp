@@ -7,7 +7,7 @@
 namespace facetmill::validate_stage {
 
 /// The reason why the assertions need the mesh in memory, for messages; none if they do not.
-std::optional<std::string> why_not_on_cells(const Assertions& assertions);
+[[nodiscard]] std::optional<std::string> why_not_on_cells(const Assertions& assertions);
 /// Adds a check to the context for every assertion. Checks have no evidence, which needs the mesh in memory.
 void judge_cells(Assertions assertions, Severity severity, const CellFlow& flow, Context& context);
 

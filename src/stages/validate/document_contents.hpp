@@ -15,20 +15,20 @@ struct DocumentImage {
     std::size_t pixels() const { return width * height; }
 };
 /// All images in the documents' lists, and files outside these lists.
-std::vector<DocumentImage> images_of(const Scene& scene);
+[[nodiscard]] std::vector<DocumentImage> images_of(const Scene& scene);
 
 /// Part of a document's size: its JSON, a buffer, or a separate image.
 struct DocumentBytes {
     std::string name; ///< "body.glb: JSON", "body.glb: buffer 0", "wood.png"
     std::size_t bytes = 0;
 };
-std::vector<DocumentBytes> bytes_of(const Scene& scene);
+[[nodiscard]] std::vector<DocumentBytes> bytes_of(const Scene& scene);
 
 /// An extension that a document lists as used.
 struct DocumentExtension {
     std::string name, document;
 };
 /// Sorted by name, each once per document.
-std::vector<DocumentExtension> extensions_of(const Scene& scene);
+[[nodiscard]] std::vector<DocumentExtension> extensions_of(const Scene& scene);
 
 } // namespace facetmill::validate_stage

@@ -14,7 +14,7 @@ void verify_failed_copy(const std::string& path, const Value& given, Problems& p
 void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags);
 
 /// The scene with the flagged faces in a red material `failed`, and with 1 in the face attribute `failed`.
-Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags);
+[[nodiscard]] Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags);
 
 /// Writes the copy immediately. Throws output.
 void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,

@@ -37,6 +37,6 @@ struct ValidateReport {
 /// locations, with the part's face numbers, and the total. Failures of the baseline are waived while they
 /// get no worse. The scene is unchanged afterwards. Throws usage (E-UNIT) for lengths, missing and malformed
 /// for the baseline, output for the copy.
-ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
+[[nodiscard]] ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 
 } // namespace facetmill::validate_stage

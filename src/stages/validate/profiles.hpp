@@ -28,6 +28,7 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
 
 /// The given assertions, plus the profile's assertions for other properties. Without any, the checks of a
 /// sound solid.
-Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits, const Mark& where);
+[[nodiscard]] Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits,
+                                  const Mark& where);
 
 } // namespace facetmill::validate_stage

@@ -25,6 +25,6 @@ struct LimitCheck {
 
 /// A check per limit. A failed check lists at most ten entries as evidence, the largest first: [{part}],
 /// [{material}], [{image, width, height, amount}], [{bytes_of, amount}], [{extension, document}].
-std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene);
+[[nodiscard]] std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene);
 
 } // namespace facetmill::validate_stage

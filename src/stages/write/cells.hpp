@@ -5,7 +5,7 @@
 
 namespace facetmill::write_stage {
 
-std::optional<std::string> why_not_on_cells(const WriteOptions& o);
+[[nodiscard]] std::optional<std::string> why_not_on_cells(const WriteOptions& o);
 /// Writes the cells as one file, piece by piece; they go on to the next stage.
 void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context);
 

@@ -30,12 +30,12 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 /// may be too far from the origin for float32.
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds);
 /// How far float32 moves a coordinate of the scene, in the world, at most. O(vertices).
-double moved_by_floats(const Scene& scene);
+[[nodiscard]] double moved_by_floats(const Scene& scene);
 /// Whether that is more than a millionth of the diagonal; says so.
 bool needs_full(double rounding, const Box& bounds, Context& context);
 
 /// By material of the scene, the set of texture coordinates that its map of normals reads, if it has one.
-std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
+[[nodiscard]] std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
 /// Gives a part tangents where a material of it has a map of normals. False, and nothing changed, where it
 /// has none, or lacks normals or the texture coordinates, or has tangents already and they are to stay.
 bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,

@@ -20,7 +20,7 @@ struct EvenGrid {
 /// ... of it, down to 2^limit - 1 for its own longest side, if that keeps them apart. Parts of one mesh of a
 /// document have the finest steps that one of them needs. Parts that are `left`, empty or not finite have no
 /// lattice and keep their usual bits; so do all in a scene of a single part or point.
-EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
-                   const std::vector<bool>& left);
+[[nodiscard]] EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
+                                 const std::vector<bool>& left);
 
 } // namespace facetmill::write_stage

@@ -69,12 +69,12 @@ void declare_write(Declare<WriteOptions>& d);
 /// What the declaration cannot say: names without a format, and options that the format does not know.
 void verify_write(const WriteOptions& o, const Value& given, Problems& problems);
 /// The file and, of a .gltf, the buffer beside it.
-StageFiles files_of_write(const WriteOptions& o);
+[[nodiscard]] StageFiles files_of_write(const WriteOptions& o);
 
 /// The format that is named, or asked for by tiles, or the suffix's; null when there is none.
-const io::Codec* codec_of(const WriteOptions& o);
+[[nodiscard]] const io::Codec* codec_of(const WriteOptions& o);
 /// What the codec is told; bits of position are the usual ones when they are not given.
-io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
-                              const std::filesystem::path& target);
+[[nodiscard]] io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
+                                            const std::filesystem::path& target);
 
 } // namespace facetmill::write_stage

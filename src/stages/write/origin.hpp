@@ -38,8 +38,9 @@ struct OriginReport {
 /// of the scene's diagonal. Skinned parts keep theirs, as do, with the rest of a document, those under
 /// animations and instancing (W-ORIGIN where a point is asked for). moved: the parts and the positions that
 /// they had.
-std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option, Context& context,
-                                        std::map<std::size_t, std::vector<Vec3>>& moved);
+[[nodiscard]] std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option,
+                                                      Context& context,
+                                                      std::map<std::size_t, std::vector<Vec3>>& moved);
 
 } // namespace write_stage
 

@@ -17,6 +17,6 @@ struct ByteKinds {
 /// Classifies the bytes of a file. For GLB and glTF by contents: images in the file, embedded as text or in
 /// buffer views, count as textures. For any other file by name. Unreadable contents count as geometry. bytes:
 /// the file's contents, or empty if only the size is known.
-ByteKinds byte_kinds(const std::string& name, std::uint64_t size, Span bytes);
+[[nodiscard]] ByteKinds byte_kinds(const std::string& name, std::uint64_t size, Span bytes);
 
 } // namespace facetmill::io

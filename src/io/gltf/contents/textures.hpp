@@ -40,12 +40,12 @@ struct DocumentImage {
 /// The images of the document, by index. held: materials whose images must stay unchanged. Images that
 /// EXT_structural_metadata, EXT_mesh_features or EXT_lights_image_based use are held too. Invalid references
 /// are skipped. Throws malformed when the document is not JSON.
-std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
+[[nodiscard]] std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
 /// The name of an image in messages: its own name, else its file's, else its index: "images[3]".
-std::string name_of_image(const Json& image, std::size_t index);
+[[nodiscard]] std::string name_of_image(const Json& image, std::size_t index);
 /// The bytes of the document's images, given its parsed JSON; empty for images that are missing or were not
 /// read.
-std::vector<Bytes> image_bytes(const Document& document, const Json& json);
+[[nodiscard]] std::vector<Bytes> image_bytes(const Document& document, const Json& json);
 
 /// An image of a document as a file: the named file, or a generated name for an embedded image.
 struct ImageFile {
@@ -55,10 +55,10 @@ struct ImageFile {
     Bytes bytes;
 };
 /// The images with available bytes: first files, then embedded images, each by index.
-std::vector<ImageFile> image_files(const Document& document, const Json& json);
+[[nodiscard]] std::vector<ImageFile> image_files(const Document& document, const Json& json);
 
 /// The images that a material of the document uses. Invalid references are skipped.
-std::set<std::size_t> images_of_material(const Json& document, const Json& material);
+[[nodiscard]] std::set<std::size_t> images_of_material(const Json& document, const Json& material);
 
 /// The data of a glTF file that formats with image libraries need for planning.
 struct LibraryImageNames {
@@ -67,22 +67,22 @@ struct LibraryImageNames {
     std::set<std::filesystem::path> idle;
 };
 /// Empty for other formats and unreadable files.
-LibraryImageNames library_images(const std::filesystem::path& file,
-                                 const std::vector<std::filesystem::path>& asset_roots);
+[[nodiscard]] LibraryImageNames library_images(const std::filesystem::path& file,
+                                               const std::vector<std::filesystem::path>& asset_roots);
 
 /// The location of a file that a relative URI names.
 struct PlaceOfFile {
     std::filesystem::path file, way; ///< relative to the directory
 };
 /// None when the URI is remote or absolute. directory: empty for the working directory.
-std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
-                                         const std::filesystem::path& directory);
+[[nodiscard]] std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
+                                                       const std::filesystem::path& directory);
 
 /// A copy of the document with new bytes (PNG, JPEG, WebP or KTX2) for some images, by index. If an image's
 /// kind changes, its name, media type and textures change too. WebP becomes the source of EXT_texture_webp,
 /// KTX2 the source of KHR_texture_basisu. The extension is required unless every such texture has a fallback.
 /// Images in buffers and data URIs get their own buffer views. Everything else keeps its index.
-std::shared_ptr<const Document> with_images(const Document& document,
-                                            const std::map<std::size_t, Bytes>& replaced);
+[[nodiscard]] std::shared_ptr<const Document> with_images(const Document& document,
+                                                          const std::map<std::size_t, Bytes>& replaced);
 
 } // namespace facetmill::io

@@ -22,13 +22,13 @@ enum ComponentType : int {
 };
 
 /// Bytes of one number; 0 for an unknown type.
-std::size_t size_of(int component_type);
+[[nodiscard]] std::size_t size_of(int component_type);
 /// Numbers of an element ("VEC3" 3, "MAT4" 16); 0 for an unknown name.
-int components_of(std::string_view type);
+[[nodiscard]] int components_of(std::string_view type);
 /// An empty array of that type.
-AttributeData empty_data(int component_type);
+[[nodiscard]] AttributeData empty_data(int component_type);
 /// The glTF type of an array's numbers; 0 if glTF has no such type (float64, int32).
-int component_type_of(const AttributeData& data);
+[[nodiscard]] int component_type_of(const AttributeData& data);
 
 /// A parsed document and its buffers, with the buffer views that had to be decompressed.
 class Source {
@@ -69,20 +69,21 @@ struct Accessor {
     bool normalised;
 };
 /// The accessor that reference names. Throws malformed (E-GLTF).
-Accessor accessor(const Source& source, const JsonCursor& reference);
+[[nodiscard]] Accessor accessor(const Source& source, const JsonCursor& reference);
 
 /// All numbers of an accessor, element by element, sparse replacements applied. Throws malformed (E-GLTF,
 /// E-BUFFER) and limit (E-LIMIT, when an accessor without bytes asks for more than 256 MiB of zeros).
-AttributeData decode(Source& source, const Accessor& accessor);
+[[nodiscard]] AttributeData decode(Source& source, const Accessor& accessor);
 /// The indices of a primitive, each below count. Throws malformed (E-INDEX).
-std::vector<Index> decode_indices(Source& source, const JsonCursor& reference, std::size_t count);
+[[nodiscard]] std::vector<Index> decode_indices(Source& source, const JsonCursor& reference,
+                                                std::size_t count);
 
 /// The two meshopt extensions; in the supported subset they differ only in name.
 inline constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 /// The object of EXT_meshopt_compression or KHR_meshopt_compression in a buffer or a view.
-std::optional<JsonCursor> meshopt_extension(const JsonCursor& owner);
+[[nodiscard]] std::optional<JsonCursor> meshopt_extension(const JsonCursor& owner);
 /// Decompresses the data that a view's extension object (either name) describes. Throws malformed (E-MESHOPT;
 /// also for streams that the library is too old for), limit (E-MEMORY).
-Bytes decode_meshopt(Source& source, const JsonCursor& extension);
+[[nodiscard]] Bytes decode_meshopt(Source& source, const JsonCursor& extension);
 
 } // namespace facetmill::io::gltf

@@ -16,7 +16,7 @@ inline constexpr const char* hint_for_version_1 = "gltf-pipeline writes glTF 1.0
 
 /// Calls body, and adds the file to its errors.
 template <class Body>
-auto in_file(const Input& input, Body&& body) {
+[[nodiscard]] auto in_file(const Input& input, Body&& body) {
     try {
         return body();
     } catch (Error& e) {
@@ -35,32 +35,34 @@ struct Chunks {
     std::optional<Span> binary;
 };
 /// Throws malformed (E-GLB) with the byte offset of the error. Skips unknown chunks.
-Chunks split_glb(Span bytes);
+[[nodiscard]] Chunks split_glb(Span bytes);
 /// The container of a document and its buffer (none when empty). Throws limit (E-SIZE) beyond 4 GiB, the
 /// maximum of the header's size field.
-Bytes join_glb(std::string_view json, Span binary);
+[[nodiscard]] Bytes join_glb(std::string_view json, Span binary);
 
 /// True for "data:..." URIs.
 bool is_data_uri(std::string_view uri);
 /// The bytes of a base64 data URI; skips characters outside the alphabet.
-Bytes data_uri_bytes(std::string_view uri);
+[[nodiscard]] Bytes data_uri_bytes(std::string_view uri);
 /// The percent-decoded, normalised path of a relative URI; none for absolute or remote URIs.
-std::optional<std::filesystem::path> decoded_path(std::string_view uri);
+[[nodiscard]] std::optional<std::filesystem::path> decoded_path(std::string_view uri);
 /// The file of a buffer. Throws malformed (E-URI) when it is absolute, remote, or breaks the directory rule.
-std::filesystem::path buffer_path(const JsonCursor& buffer, const std::string& uri, const Input& input);
+[[nodiscard]] std::filesystem::path buffer_path(const JsonCursor& buffer, const std::string& uri,
+                                                const Input& input);
 
 /// The files that "buffers" or "images" name, relative to the document, each once. Does not apply the
 /// directory rule.
-std::vector<std::filesystem::path> neighbours(const Json& document, const char* list);
+[[nodiscard]] std::vector<std::filesystem::path> neighbours(const Json& document, const char* list);
 /// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only for
 /// readers without meshopt decoding stay empty. Throws malformed (E-URI for a URI that breaks the directory
 /// rule, E-BUFFER for too few bytes), missing (E-FILE).
-std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk, const Input& input,
-                                ReadLog& log);
+[[nodiscard]] std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk,
+                                              const Input& input, ReadLog& log);
 
 /// Reads the image files of the document, keyed by their URI as written. Unreadable images give a warning
 /// (W-IMAGE): nothing here decodes images, so a missing file is only not copied.
-std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log);
+[[nodiscard]] std::map<std::string, Bytes> load_images(const Json& document, const Input& input,
+                                                       ReadLog& log);
 /// Drops the files that no image of the document uses.
 void drop_unnamed_files(std::map<std::string, Bytes>& files, const Json& document);
 

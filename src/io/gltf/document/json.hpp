@@ -18,9 +18,9 @@ namespace facetmill::io::gltf {
 /// Parses a document. Throws malformed: E-JSON with the byte of the syntax error, or for nesting deeper than
 /// 256 levels (the JSON library recurses when writing and copying). unread: lists of the document that are
 /// checked for syntax, and may be left empty.
-Json parse_document(std::string_view text, std::span<const std::string_view> unread = {});
+[[nodiscard]] Json parse_document(std::string_view text, std::span<const std::string_view> unread = {});
 /// The document as text; replaces invalid UTF-8 in names from other sources.
-std::string to_string(const Json& document);
+[[nodiscard]] std::string to_string(const Json& document);
 
 /// A value of the document and its path. Every access checks and throws malformed (E-GLTF).
 class JsonCursor {
@@ -79,7 +79,7 @@ class JsonCursor {
 /// An object with these members: key, value, key, value ... An initialiser list would copy each value and
 /// test each for being a pair. Keys must differ.
 template <class... Members>
-Json object_of(Members&&... members) {
+[[nodiscard]] Json object_of(Members&&... members) {
     Json object = Json::object();
     auto& all = object.get_ref<Json::object_t&>();
     all.reserve(sizeof...(members) / 2);
@@ -93,14 +93,15 @@ Json object_of(Members&&... members) {
 }
 
 /// A top-level array of the document ("accessors"), or none when it is absent.
-std::optional<JsonCursor> list(const Json& document, const char* name);
+[[nodiscard]] std::optional<JsonCursor> list(const Json& document, const char* name);
 /// Length of a top-level array, 0 when absent.
-std::size_t count_of(const Json& document, const char* name);
+[[nodiscard]] std::size_t count_of(const Json& document, const char* name);
 /// Item i of a top-level array; i must have been checked against count_of.
-JsonCursor item(const Json& document, const char* name, std::size_t i);
+[[nodiscard]] JsonCursor item(const Json& document, const char* name, std::size_t i);
 /// The index owner[key] if it is below count; none for anything else. For documents in which only the meshes
 /// were checked.
-std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count = SIZE_MAX);
+[[nodiscard]] std::optional<std::size_t> index_at(const Json& owner, const char* key,
+                                                  std::size_t count = SIZE_MAX);
 
 /// Whether "extensionsUsed" has the extension.
 bool uses_extension(const Json& document, std::string_view name);
@@ -111,7 +112,7 @@ void add_name(Json& document, const char* list, const std::string& name);
 void remove_name(Json& document, const char* list, const std::string& name);
 /// Removes everything except the data of materials. Returns the removed lists that had contents other than
 /// mesh positions in the scene.
-std::vector<std::string> keep_materials_only(Json& document);
+[[nodiscard]] std::vector<std::string> keep_materials_only(Json& document);
 /// Erases an empty top-level array, because glTF forbids these.
 void erase_empty(Json& document, const char* list);
 

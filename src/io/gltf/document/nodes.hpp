@@ -20,22 +20,22 @@ struct NodeFrame {
 };
 
 /// Scales, then rotates by a quaternion (x, y, z, w) of any length (zero: no rotation), then translates.
-Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, const Vec3& scale);
+[[nodiscard]] Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, const Vec3& scale);
 
 /// Takes a warning's id and message.
 using Warn = std::function<void(const char*, std::string)>;
 /// All nodes, by index. Throws malformed (E-NODES) for cycles, E-GLTF for invalid members. Warns (W-NODES)
 /// about nodes with two parents.
-std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
+[[nodiscard]] std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
 /// The node indices, parents before children.
-std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
+[[nodiscard]] std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
 
 /// [nodes] true if the scene that viewers show (`scene`, or the first) contains the node, or if it is a level
 /// of detail of such a node. All nodes if the document has no scenes. Invalid references are skipped.
-std::vector<bool> shown_nodes(const Json& document);
+[[nodiscard]] std::vector<bool> shown_nodes(const Json& document);
 
 /// The nodes whose translation, rotation or scale an animation drives.
-std::set<std::size_t> animated_nodes(const Json& document);
+[[nodiscard]] std::set<std::size_t> animated_nodes(const Json& document);
 
 /// A mesh with faces, or else lines, and its transform: one part of the scene. The writer builds the same
 /// list to find changes.
@@ -49,10 +49,11 @@ struct Placement {
     Transform largest_instance; ///< relative to the node
 };
 /// One for each node with a mesh of triangles or lines, in node order.
-std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
+[[nodiscard]] std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
 
 /// The materials of these placements; all materials if there are no placements, as in a document of points.
-std::set<std::size_t> drawn_materials(const Json& document, const std::vector<Placement>& placements);
+[[nodiscard]] std::set<std::size_t> drawn_materials(const Json& document,
+                                                    const std::vector<Placement>& placements);
 
 /// True for primitives that make triangles (lists, strips and fans) of positions.
 bool makes_triangles(const JsonCursor& primitive);
@@ -71,9 +72,9 @@ struct BaseDocument {
 };
 /// The first document of the scene with nodes or meshes. Documents that only hold materials of another format
 /// have neither.
-BaseDocument base_document(const Scene& scene);
+[[nodiscard]] BaseDocument base_document(const Scene& scene);
 
 /// glTF's 16 numbers, column by column.
-Json matrix(const Transform& t);
+[[nodiscard]] Json matrix(const Transform& t);
 
 } // namespace facetmill::io::gltf

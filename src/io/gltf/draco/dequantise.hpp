@@ -23,6 +23,6 @@ struct Dequantised {
 };
 /// Computes like the library without fused multiply-add; none for attributes that were not left quantised.
 /// Throws malformed when the transform data is invalid.
-std::optional<Dequantised> dequantised(const ::draco::PointAttribute& attribute);
+[[nodiscard]] std::optional<Dequantised> dequantised(const ::draco::PointAttribute& attribute);
 
 } // namespace facetmill::io

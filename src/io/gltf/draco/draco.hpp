@@ -37,7 +37,7 @@ bool is_draco(Span bytes);
 /// The kinds of data that are accepted.
 enum class DracoContents { mesh, mesh_or_points };
 /// Decodes a mesh, or points without triangles. Throws malformed (E-DRACO), also for data of another kind.
-DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
+[[nodiscard]] DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
 
 /// Decoded contents by the SHA-256 of the bytes, so that equal bytes are decoded once.
 class DracoDecodings : public Decodings {
@@ -50,7 +50,7 @@ class DracoDecodings : public Decodings {
     std::unordered_map<std::string, std::shared_ptr<const DracoMesh>> meshes_;
 };
 /// Uses known contents, if known is not null and belongs to Draco.
-DracoMesh decode_draco(Span bytes, DracoContents contents, const Decodings* known);
+[[nodiscard]] DracoMesh decode_draco(Span bytes, DracoContents contents, const Decodings* known);
 
 /// A mesh to compress.
 struct DracoInput {
@@ -76,8 +76,8 @@ void set_whole_steps(DracoInput& input, int bits);
 void widen_draco_grid(DracoInput& input, double step, int bits);
 
 /// Marks faces that repeat a vertex, which Edgebreaker cannot store; three corners each.
-std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
-                                   const std::vector<Index>& point_vertex);
+[[nodiscard]] std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
+                                                 const std::vector<Index>& point_vertex);
 
 struct DracoOutput {
     Bytes bytes;
@@ -91,11 +91,11 @@ struct DracoOutput {
 /// Compresses with Edgebreaker. It uses the sequential method when the order matters, or when Edgebreaker
 /// would drop faces: it drops degenerate ones, so remove these before. Numbers are quantised identically on
 /// every processor. Throws stage (E-DRACO) when Draco cannot encode the mesh.
-DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
+[[nodiscard]] DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
 
 /// Compresses points without triangles, each a vertex, in a k-d tree, which changes their order. It uses the
 /// sequential method if the tree does not support the numbers of an attribute. Quantises like encode_draco,
 /// but stores normals as plain numbers. Throws stage (E-DRACO).
-Bytes encode_draco_points(const DracoInput& input, const DracoSettings& settings);
+[[nodiscard]] Bytes encode_draco_points(const DracoInput& input, const DracoSettings& settings);
 
 } // namespace facetmill::io

@@ -21,19 +21,19 @@ struct DracoGrid {
 
 /// The library stores origin and range of a grid as text with six decimals. These return the nearest numbers
 /// that the text represents exactly: at most x, and at least x plus a millionth.
-float storable_below(float x);
-float storable_above(float x);
+[[nodiscard]] float storable_below(float x);
+[[nodiscard]] float storable_above(float x);
 /// The number of bits that makes steps of a storable grid as fine as `bits` makes steps of `range`, within a
 /// quarter. More bits are needed if the range is not large compared to six decimals. At most 30.
-int bits_as_fine(int bits, float range, float storable);
+[[nodiscard]] int bits_as_fine(int bits, float range, float storable);
 
 /// The storable grid from the minimum of each component, over the largest extent.
-DracoGrid grid_of(const std::vector<float>& numbers, int components, int bits);
+[[nodiscard]] DracoGrid grid_of(const std::vector<float>& numbers, int components, int bits);
 
 /// x, or the nearest float32 that rounds to the same step with and without fused multiply-add.
-float settled(float x, float origin, float density);
+[[nodiscard]] float settled(float x, float origin, float density);
 /// The step that Draco rounds a settled number to.
-std::uint32_t step_of(float x, float origin, float density);
+[[nodiscard]] std::uint32_t step_of(float x, float origin, float density);
 /// Settles all numbers, component by component.
 void settle(std::vector<float>& numbers, const DracoGrid& grid);
 

@@ -40,7 +40,8 @@ struct EncodedMesh {
 /// Triangulates polygons. Positions become float32 with min and max; indices become uint16 if they fit, else
 /// uint32. Degenerate faces are kept, but Draco drops them unless it must keep them (W-FACES). Unused wedges
 /// are dropped. Throws stage (E-RANGE) when a position does not fit float32.
-EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings, Written& written);
+[[nodiscard]] EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings,
+                                      Written& written);
 
 /// The wedges of a primitive in writing order, and its triangles in that numbering.
 struct Table {
@@ -52,18 +53,19 @@ struct Table {
 /// Splits tables so that Draco compresses them well. Degenerate faces would make it store indices, so they
 /// are dropped or moved to separate tables. A table with only such faces stays. With morph targets, indices
 /// are stored anyway.
-std::vector<Table> draco_tables(const Mesh& mesh, std::vector<Table> tables, bool targets,
-                                const EncodeSettings& settings, EncodedMesh& out);
+[[nodiscard]] std::vector<Table> draco_tables(const Mesh& mesh, std::vector<Table> tables, bool targets,
+                                              const EncodeSettings& settings, EncodedMesh& out);
 /// Writes the primitive's accessors and extension with Draco.
 void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& table,
                             const std::vector<Column>& columns, const EncodeSettings& settings,
                             Json& primitive);
 /// The positions of the table's wedges, as x, y, z triples.
-std::vector<float> positions_of(const Mesh& mesh, const std::vector<Index>& wedges);
+[[nodiscard]] std::vector<float> positions_of(const Mesh& mesh, const std::vector<Index>& wedges);
 /// The column's numbers for the table's wedges.
-AttributeData gathered(const Mesh& mesh, const Column& column, const std::vector<Index>& wedges);
+[[nodiscard]] AttributeData gathered(const Mesh& mesh, const Column& column,
+                                     const std::vector<Index>& wedges);
 /// An accessor object without buffer view; min and max on request.
-Json accessor_json(const AttributeData& data, int components, bool normalised, bool bounds);
+[[nodiscard]] Json accessor_json(const AttributeData& data, int components, bool normalised, bool bounds);
 /// Adds a view and an accessor for vertex data, with each element padded to 4 bytes. Returns the accessor's
 /// index.
 std::size_t add_vertex_data(Builder& builder, const AttributeData& data, int components, bool normalised,
@@ -76,8 +78,8 @@ bool has_column(const Mesh& mesh, Index primitive, const Column& column);
 
 /// The EXT_mesh_manifold object of a mesh whose primitives share a table; null, with a warning, when the mesh
 /// is not manifold. indices: of all primitives together.
-Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges,
-                        const std::vector<Index>& indices, std::size_t index_view, const Json& position,
-                        Written& written, const std::string& name);
+[[nodiscard]] Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges,
+                                      const std::vector<Index>& indices, std::size_t index_view,
+                                      const Json& position, Written& written, const std::string& name);
 
 } // namespace facetmill::io::gltf

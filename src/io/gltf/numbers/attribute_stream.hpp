@@ -14,12 +14,13 @@ bool is_attribute_stream_1(Span stream);
 
 /// Encodes count elements of `stride` bytes. Each 4-byte channel uses the smallest differences (of bytes, of
 /// 16-bit numbers, or of bits). stride: a multiple of 4 up to 256; bytes: count * stride.
-Bytes encode_attribute_stream(Span bytes, std::size_t count, std::size_t stride);
+[[nodiscard]] Bytes encode_attribute_stream(Span bytes, std::size_t count, std::size_t stride);
 
 /// Decodes a stream of version 1; none when it is damaged. Needs count * stride bytes of memory.
-std::optional<Bytes> decode_attribute_stream(Span stream, std::size_t count, std::size_t stride);
+[[nodiscard]] std::optional<Bytes> decode_attribute_stream(Span stream, std::size_t count,
+                                                           std::size_t stride);
 
 /// The maximum number of elements in a stream of this size.
-std::size_t most_elements_in_stream(std::size_t bytes, std::size_t stride);
+[[nodiscard]] std::size_t most_elements_in_stream(std::size_t bytes, std::size_t stride);
 
 } // namespace facetmill::io::gltf

@@ -21,9 +21,10 @@ struct ColumnSettings {
 /// converted, which `changes` records. Face attributes and elements of 5 to 8 numbers are dropped. 64-bit
 /// floats and 32-bit integers become float32 (or uint16 if they fit; identifiers too). Normals and tangents
 /// get unit length again; colours and weights are clamped to the range from 0 to 1.
-std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, AttributeChanges& changes);
+[[nodiscard]] std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings,
+                                             AttributeChanges& changes);
 
 /// "SCALAR", "VEC3", "MAT4"; null for component counts without a glTF type.
-const char* type_name(int components);
+[[nodiscard]] const char* type_name(int components);
 
 } // namespace facetmill::io::gltf

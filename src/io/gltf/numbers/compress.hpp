@@ -19,14 +19,14 @@ struct Packing {
 
 /// [views] how each view can be compressed: only views used just by accessors of the same stride. TRIANGLES
 /// may rotate a triangle's corners, so it is not used if EXT_mesh_manifold counts corners.
-std::vector<std::optional<Packing>> packings(const Json& document,
-                                             const std::map<std::size_t, std::string>& filters);
+[[nodiscard]] std::vector<std::optional<Packing>> packings(const Json& document,
+                                                           const std::map<std::size_t, std::string>& filters);
 
 /// The view's bytes as a stream. Attributes use this version, 0 or 1 (only KHR_meshopt_compression has 1);
 /// indices use version 1.
-Bytes encode_meshopt(Span bytes, const Packing& packing, int version);
+[[nodiscard]] Bytes encode_meshopt(Span bytes, const Packing& packing, int version);
 
 /// The view's extension object, under either name; null if it has none.
-const Json* compression_of(const Json& view);
+[[nodiscard]] const Json* compression_of(const Json& view);
 
 } // namespace facetmill::io::gltf

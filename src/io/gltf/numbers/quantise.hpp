@@ -19,9 +19,9 @@ struct PositionGrid {
 };
 
 /// The smallest number at or above x > 0 with 8 digits, so that its text is short.
-double short_above(double x);
+[[nodiscard]] double short_above(double x);
 /// A number within a hundredth of the step of x with as few decimals as possible.
-double short_near(double x, double step);
+[[nodiscard]] double short_near(double x, double step);
 
 /// Vertex data ready for a separate view.
 struct Stored {
@@ -32,32 +32,32 @@ struct Stored {
 };
 
 /// The numbers unchanged, with each element padded to 4 bytes; min and max on request.
-Stored plain(const AttributeData& data, int components, bool normalised, bool bounds);
+[[nodiscard]] Stored plain(const AttributeData& data, int components, bool normalised, bool bounds);
 /// Positions on a grid, as uint8 or uint16, at most half a step off along each axis. None if a position
 /// exceeds the integer range.
-std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid);
+[[nodiscard]] std::optional<Stored> on_grid(const std::vector<Vec3>& positions, const PositionGrid& grid);
 /// Displacements of positions in grid steps: int16 or, if out of range, float32.
-Stored displacements(const Attribute& deltas, const PositionGrid& grid);
+[[nodiscard]] Stored displacements(const Attribute& deltas, const PositionGrid& grid);
 /// Numbers from -1 to 1 in 2^(bits - 1) - 1 steps per side, as normalised int8 (up to 8 bits) or int16. The
 /// error is at most half a step plus half a step of the integer type. None if a number is out of range.
-std::optional<Stored> signed_fractions(const Attribute& a, int bits);
+[[nodiscard]] std::optional<Stored> signed_fractions(const Attribute& a, int bits);
 /// Numbers from 0 to 1 in 2^bits - 1 steps, as normalised uint8 or uint16. None if a number is out of range.
-std::optional<Stored> fractions(const Attribute& a, int bits);
+[[nodiscard]] std::optional<Stored> fractions(const Attribute& a, int bits);
 /// Unit vectors, and the sign of tangents, for meshopt's filter OCTAHEDRAL (Q. Meyer et al., "On
 /// Floating-Point Normal Vectors", 2010). The octahedral coordinates have 2^(bits - 1) - 1 steps per side.
 /// bits: 2 to 16.
-Stored octahedral(const Attribute& a, int bits);
+[[nodiscard]] Stored octahedral(const Attribute& a, int bits);
 /// Unit quaternions for meshopt's filter QUATERNION, in 16 bits. None if the length of a quaternion differs
 /// from 1 by more than 1e-3.
-std::optional<Stored> quaternions(const Attribute& a);
+[[nodiscard]] std::optional<Stored> quaternions(const Attribute& a);
 /// Numbers for meshopt's filter EXPONENTIAL with a common exponent: multiples of 2^exponent, with an error of
 /// at most half of that. None if a number needs more than 24 bits.
-std::optional<Stored> exponential(const Attribute& a, int exponent, bool bounds);
+[[nodiscard]] std::optional<Stored> exponential(const Attribute& a, int exponent, bool bounds);
 /// The exponent at which the largest number uses all 24 bits: no error exceeds float32's step at the largest
 /// number.
-int finest_exponent(const Attribute& a);
+[[nodiscard]] int finest_exponent(const Attribute& a);
 /// The exponent of the largest power of two not above the largest component extent / 2^bits.
-int exponent_of_range(const Attribute& a, int bits);
+[[nodiscard]] int exponent_of_range(const Attribute& a, int bits);
 
 /// Weights and joints of a mesh by set. The largest weights of a vertex come first, because neighbours are
 /// then more similar. The weights of a vertex, over all sets, sum to exactly one (the largest remainders are
@@ -68,6 +68,6 @@ struct Influences {
 struct StoredInfluences {
     std::vector<Stored> joints, weights;
 };
-StoredInfluences influences(const Influences& all, int bits);
+[[nodiscard]] StoredInfluences influences(const Influences& all, int bits);
 
 } // namespace facetmill::io::gltf

@@ -126,6 +126,6 @@ class DocumentOptimizer {
 /// joint, or has morph targets or a camera. Extras or extensions of the node, its mesh or an ancestor count
 /// too. So do several scenes, and extensions that may refer to nodes by number. documents: of the scene,
 /// unchanged.
-std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents);
+[[nodiscard]] std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents);
 
 } // namespace facetmill::io

@@ -18,7 +18,8 @@ bool is_feature_id(std::string_view semantic);
 /// The part of such an extension that is still valid for a primitive whose mesh has changed; null if nothing
 /// is, or for another extension. has: returns whether the primitive has a vertex attribute. Adds descriptions
 /// of invalid parts to lost.
-Json features_that_hold(const std::string& extension, const Json& value,
-                        const std::function<bool(const std::string&)>& has, std::vector<std::string>& lost);
+[[nodiscard]] Json features_that_hold(const std::string& extension, const Json& value,
+                                      const std::function<bool(const std::string&)>& has,
+                                      std::vector<std::string>& lost);
 
 } // namespace facetmill::io::gltf

@@ -25,7 +25,7 @@ struct Instances {
 
 /// None for a node that places its mesh once: without the extension or its attributes, without a mesh, or
 /// with a skin. Throws malformed (E-GLTF) for attributes of different counts or types.
-std::optional<Instances> instances_of(Source& source, std::size_t node);
+[[nodiscard]] std::optional<Instances> instances_of(Source& source, std::size_t node);
 
 /// Moves parts of nodes with instances to their largest instance.
 void stand_at_largest_instances(Source& source, const std::vector<NodeFrame>& frames,
@@ -33,7 +33,7 @@ void stand_at_largest_instances(Source& source, const std::vector<NodeFrame>& fr
 
 /// The float32 translations of instances after the mesh's positions became grid steps and the node was scaled
 /// by the step. Every point keeps its position. None if a translation is too large for float32.
-std::optional<Attribute> translations_on_grid(const Instances& given, const PositionGrid& grid);
+[[nodiscard]] std::optional<Attribute> translations_on_grid(const Instances& given, const PositionGrid& grid);
 
 /// Replaces each instance of EXT_mesh_gpu_instancing by a child node with the mesh. Other attributes of
 /// instances are dropped with a warning (W-INSTANCING). Throws malformed (E-GLTF), limit (E-MEMORY).

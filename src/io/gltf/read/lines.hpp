@@ -8,7 +8,7 @@
 namespace facetmill::io::gltf {
 
 /// The two ends of each line of a primitive of that mode; an incomplete last pair of a list is ignored.
-std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode);
+[[nodiscard]] std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode);
 
 /// If a mesh has lines and triangles, moves the lines to a separate mesh. Each node of the mesh gets a child
 /// with it, and with the node's skin, morph weights and instances, so that both become parts. Returns true if
@@ -18,7 +18,7 @@ bool part_lines(Json& document);
 /// The lines in each node's mesh that also has triangles, in world space, named after the node, or else the
 /// mesh. Materials are the document's. The document keeps the lines unchanged. Throws malformed, and limit
 /// beyond max_vertices points.
-std::vector<Lines> decode_lines(Source& source, const std::vector<NodeFrame>& frames,
-                                std::size_t max_vertices);
+[[nodiscard]] std::vector<Lines> decode_lines(Source& source, const std::vector<NodeFrame>& frames,
+                                              std::size_t max_vertices);
 
 } // namespace facetmill::io::gltf

@@ -21,11 +21,11 @@ struct DecodedMesh {
 /// at a vertex are merged. Points in the same mesh stay in the document, with a warning (W-SKIPPED).
 /// Primitive::material is the document's material index. The same bytes give the same Mesh, so the writer can
 /// decode again to check for changes. Throws malformed and limit.
-DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
-                        const ReadElsewhere& elsewhere = {});
+[[nodiscard]] DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
+                                      const ReadElsewhere& elsewhere = {});
 
 /// The role of a glTF attribute name.
-Role role_of(std::string_view semantic);
+[[nodiscard]] Role role_of(std::string_view semantic);
 
 /// Applies EXT_mesh_manifold's merges to a mesh whose wedges are vertices. Returns false without merges, or
 /// if they contradict the mesh (then it adds a warning and changes nothing).

@@ -10,7 +10,7 @@ namespace facetmill::io::gltf {
 /// A part for each primitive of points in world space, named after the node, or else the mesh, with its
 /// attributes, its material and its extras. The parts belong to no document. Throws malformed, and limit
 /// beyond max_vertices points.
-std::vector<Part> decode_points(Source& source, const std::vector<NodeFrame>& frames,
-                                std::size_t max_vertices);
+[[nodiscard]] std::vector<Part> decode_points(Source& source, const std::vector<NodeFrame>& frames,
+                                              std::size_t max_vertices);
 
 } // namespace facetmill::io::gltf

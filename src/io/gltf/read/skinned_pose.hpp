@@ -11,6 +11,6 @@ namespace facetmill::io {
 /// weights (from the node, else the mesh), as in glTF 2.0. Joint weights are normalised to sum to one. Only
 /// positions, normals and tangents change: stages work on the bind pose, pictures show this pose. None if
 /// nothing changes. A part with an unreadable skin stays unchanged.
-std::optional<Scene> posed(const Scene& scene);
+[[nodiscard]] std::optional<Scene> posed(const Scene& scene);
 
 } // namespace facetmill::io

@@ -8,9 +8,9 @@ namespace facetmill::io::gltf {
 
 /// The matrices of a skin with this many joints, 16 numbers each, column by column. Throws malformed (E-GLTF)
 /// if its accessor has another type or size.
-std::vector<float> bind_matrices(Source& source, const JsonCursor& skin, std::size_t joints);
+[[nodiscard]] std::vector<float> bind_matrices(Source& source, const JsonCursor& skin, std::size_t joints);
 
 /// A transform from 16 numbers, column by column.
-Transform from_columns(const float* numbers);
+[[nodiscard]] Transform from_columns(const float* numbers);
 
 } // namespace facetmill::io::gltf

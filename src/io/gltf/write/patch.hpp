@@ -64,8 +64,8 @@ struct MaterialCopies {
 /// The scene with moved skinned parts in world space and identity transforms, because glTF ignores the
 /// transform of a skinned mesh. skin_moves: how far each skin of the base document has moved. A part is no
 /// longer skinned if its skin, or a skeleton with common joints, has already moved differently (W-SKIN).
-Scene in_bind_pose(Scene scene, int base, std::map<std::size_t, Transform>& skin_moves,
-                   std::vector<Diagnostic>& warnings);
+[[nodiscard]] Scene in_bind_pose(Scene scene, int base, std::map<std::size_t, Transform>& skin_moves,
+                                 std::vector<Diagnostic>& warnings);
 /// Moves skeletons with their skins. A node above their roots has the movement, and the inverse bind matrices
 /// cancel it. Joints and animations stay unchanged.
 void move_skins(Patch& patch, Claims& claims, const std::map<std::size_t, Transform>& skin_moves);
@@ -73,12 +73,12 @@ void move_skins(Patch& patch, Claims& claims, const std::map<std::size_t, Transf
 void move_from_above(Patch& patch, std::size_t node, const Transform& by);
 
 /// Finds the part at each placement of the document, and moves skeletons.
-Claims claim_placements(Patch& patch, const std::map<std::size_t, Transform>& skin_moves);
+[[nodiscard]] Claims claim_placements(Patch& patch, const std::map<std::size_t, Transform>& skin_moves);
 /// Writes the meshes of all parts. Equal instances share a mesh; otherwise each variant gets its own.
-PartMeshes patch_meshes(Patch& patch, Claims claims);
+[[nodiscard]] PartMeshes patch_meshes(Patch& patch, Claims claims);
 /// Assigns meshes to nodes, adds nodes for new parts, and updates names and transforms. Parts X.lod1, X.lod2,
 /// ... become levels of X (MSFT_lod): outside the scene, under X's parent. Drops meshes that no part uses.
-PartNodes patch_nodes(Patch& patch, PartMeshes meshes);
+[[nodiscard]] PartNodes patch_nodes(Patch& patch, PartMeshes meshes);
 /// Drops meshes that the document placed and that no part uses.
 void drop_dead_meshes(Patch& patch, const PartMeshes& meshes);
 
@@ -87,7 +87,7 @@ void drop_dead_meshes(Patch& patch, const PartMeshes& meshes);
 /// a node, it goes into a new node below. For several instances (EXT_mesh_gpu_instancing), the grid's origin
 /// goes into each of them. Positions of meshes with a skin or without a node stay float32, which the changes
 /// record.
-StoredMeshes store_meshes(Patch& patch, PartNodes nodes);
+[[nodiscard]] StoredMeshes store_meshes(Patch& patch, PartNodes nodes);
 /// For meshopt: moves animations, instances and bind matrices into views that can be compressed. Rotations
 /// have 16 bits. Animated translations and scales have steps of at most 2^-16 of their largest extent.
 /// Instances are exact within a quarter of a step of their mesh's grid, or to float32 precision of the
@@ -100,13 +100,13 @@ void store_streams(Patch& patch, const StoredMeshes& meshes);
 void interleave_attributes(Patch& patch, const StoredMeshes& meshes);
 
 /// The document's index of a scene material, which is added if new; -1 for none.
-int patch_material(MaterialCopies& copies, Index material);
+[[nodiscard]] int patch_material(MaterialCopies& copies, Index material);
 
 /// Places image files according to the settings: in the document's buffer views, next to it under new names,
 /// or at their original location. Returns the files to write next to the output. stem: the output's stem,
 /// which new file names start with.
-std::vector<OutputFile> place_images(Patch& patch, const ImageOwners& owners, const std::string& stem,
-                                     Textures textures);
+[[nodiscard]] std::vector<OutputFile> place_images(Patch& patch, const ImageOwners& owners,
+                                                   const std::string& stem, Textures textures);
 
 /// True if geometry, attributes and primitives are equal, bit for bit; `same_material` compares materials.
 bool same_mesh(const Mesh& a, const Mesh& b, const std::function<bool(Index, Index)>& same_material);
