@@ -28,7 +28,7 @@ std::string yaml(const std::string& line) {
 }
 
 /// Whether the one-liner and the YAML are the same stages.
-bool same(const std::string& line, const std::string& text) {
+bool same_stages(const std::string& line, const std::string& text) {
     std::vector<std::string> arguments{"pipe"};
     std::istringstream words(line);
     for (std::string word; words >> word;) arguments.push_back(word);
@@ -45,60 +45,63 @@ bool same(const std::string& line, const std::string& text) {
 } // namespace
 
 TEST_CASE("bare values, options and separators become steps", "[cli]") {
-    CHECK(same("load a.stl ! relax 3 ! write a.glb", "[{load: a.stl}, {relax: 3}, {write: a.glb}]"));
-    CHECK(same("load a.stl + relax", "[{load: a.stl}, {relax: null}]"));
-    CHECK(same("relax 3 --lambda 0.5", "[{relax: {lambda: 0.5, iterations: 3}}]"));
-    CHECK(same("relax --lambda=0.5", "[{relax: {lambda: 0.5}}]"));
+    CHECK(same_stages("load a.stl ! relax 3 ! write a.glb", "[{load: a.stl}, {relax: 3}, {write: a.glb}]"));
+    CHECK(same_stages("load a.stl + relax", "[{load: a.stl}, {relax: null}]"));
+    CHECK(same_stages("relax 3 --lambda 0.5", "[{relax: {lambda: 0.5, iterations: 3}}]"));
+    CHECK(same_stages("relax --lambda=0.5", "[{relax: {lambda: 0.5}}]"));
 }
 
 TEST_CASE("values may begin with a dash", "[cli]") {
-    CHECK(same("load - ! relax --lambda -0.5", "[{load: '-'}, {relax: {lambda: -0.5}}]"));
-    CHECK(same("thicken -- -2mm ! load -- --a.stl", "[{thicken: -2mm}, {load: '--a.stl'}]")); // as in a shell
-    CHECK(same("transform --translate -- -1,2,3 --centre",
-               "[{transform: {translate: [-1, 2, 3], centre: true}}]"));
-    CHECK(same("load --path -- --a.stl", "[{load: {path: '--a.stl'}}]"));
+    CHECK(same_stages("load - ! relax --lambda -0.5", "[{load: '-'}, {relax: {lambda: -0.5}}]"));
+    CHECK(same_stages("thicken -- -2mm ! load -- --a.stl",
+                      "[{thicken: -2mm}, {load: '--a.stl'}]")); // as in a shell
+    CHECK(same_stages("transform --translate -- -1,2,3 --centre",
+                      "[{transform: {translate: [-1, 2, 3], centre: true}}]"));
+    CHECK(same_stages("load --path -- --a.stl", "[{load: {path: '--a.stl'}}]"));
     CHECK(yaml("transform --translate -- ! orient")
               .starts_with("command line:1:41: error[E-PIPE]: a value is missing behind '--'"));
     CHECK(yaml("relax -- ! orient").starts_with("command line:1:25: error[E-PIPE]: a value is missing"));
 }
 
 TEST_CASE("dotted keys nest, vectors and lists are split at commas", "[cli]") {
-    CHECK(same("simplify --lods [50%,10%]", "[{simplify: {lods: [50%, 10%]}}]"));
-    CHECK(same("simplify --lods 50%,10%", "[{simplify: {lods: [50%, 10%]}}]"));
-    CHECK(same("clip --plane.normal=0,0,1 --plane.offset 2",
-               "[{clip: {plane: {normal: [0, 0, 1], offset: 2}}}]"));
-    CHECK(same("relax --only head,arm* --only !hand", "[{relax: null, only: [head, arm*, '!hand']}]"));
+    CHECK(same_stages("simplify --lods [50%,10%]", "[{simplify: {lods: [50%, 10%]}}]"));
+    CHECK(same_stages("simplify --lods 50%,10%", "[{simplify: {lods: [50%, 10%]}}]"));
+    CHECK(same_stages("clip --plane.normal=0,0,1 --plane.offset 2",
+                      "[{clip: {plane: {normal: [0, 0, 1], offset: 2}}}]"));
+    CHECK(same_stages("relax --only head,arm* --only !hand", "[{relax: null, only: [head, arm*, '!hand']}]"));
 }
 
 TEST_CASE("flags of truths take a value only when it is one", "[cli]") {
-    CHECK(same("clip z=0 --cap ! relax", "[{clip: {cap: true, plane: z=0}}, {relax: null}]"));
-    CHECK(same("clip z=0 --cap false", "[{clip: {cap: false, plane: z=0}}]"));
-    CHECK(same("clip z=0 --no-cap", "[{clip: {cap: false, plane: z=0}}]"));
+    CHECK(same_stages("clip z=0 --cap ! relax", "[{clip: {cap: true, plane: z=0}}, {relax: null}]"));
+    CHECK(same_stages("clip z=0 --cap false", "[{clip: {cap: false, plane: z=0}}]"));
+    CHECK(same_stages("clip z=0 --no-cap", "[{clip: {cap: false, plane: z=0}}]"));
 }
 
 TEST_CASE("common keys stand beside the stage", "[cli]") {
-    CHECK(same("relax 3 --name soft --ensure.closed --ensure.faces.max 500 --when.closed false",
-               "[{relax: 3, name: soft, ensure: {closed: true, faces: {max: 500}}, when: {closed: false}}]"));
+    CHECK(same_stages(
+        "relax 3 --name soft --ensure.closed --ensure.faces.max 500 --when.closed false",
+        "[{relax: 3, name: soft, ensure: {closed: true, faces: {max: 500}}, when: {closed: false}}]"));
 }
 
 TEST_CASE("an at sign stands for the dollar, pct for the percent sign", "[cli]") {
-    CHECK(same("simplify 25pct ! write o.@{x.index}.glb ! write @@{x}",
-               "[{simplify: 25%}, {write: '${x}'}, {write: '@{x}'}]") == false);
-    CHECK(same("simplify 25pct ! write o.@{x.index}.glb ! write @@{x}",
-               "[{simplify: 25%}, {write: 'o.${x.index}.glb'}, {write: '@{x}'}]"));
+    CHECK(same_stages("simplify 25pct ! write o.@{x.index}.glb ! write @@{x}",
+                      "[{simplify: 25%}, {write: '${x}'}, {write: '@{x}'}]") == false);
+    CHECK(same_stages("simplify 25pct ! write o.@{x.index}.glb ! write @@{x}",
+                      "[{simplify: 25%}, {write: 'o.${x.index}.glb'}, {write: '@{x}'}]"));
 }
 
 TEST_CASE("foreach and branch nest in brackets", "[cli]") {
-    CHECK(same("load a ! foreach lod=50%,10pct [ simplify @{lod} ! write o.@{lod.index}.glb ]",
-               "[{load: a}, {foreach: {lod: [50%, 10%]}, do: [{simplify: '${lod}'}, {write: "
-               "'o.${lod.index}.glb'}]}]"));
-    CHECK(same("foreach part=* [ write @{part}.stl ]",
-               "[{foreach: {part: '*'}, do: [{write: '${part}.stl'}]}]"));
-    CHECK(same("foreach a=1 b=x,y [ relax @{a} ] --join",
-               "[{foreach: {a: [1], b: [x, y]}, do: [{relax: '${a}'}], join: true}]"));
-    CHECK(same("load a ! branch near [ write n.glb ] far [ simplify 10% ! write f.glb ] ! relax",
-               "[{load: a}, {branch: {near: [{write: n.glb}], far: [{simplify: 10%}, {write: f.glb}]}}, "
-               "{relax: null}]"));
+    CHECK(same_stages("load a ! foreach lod=50%,10pct [ simplify @{lod} ! write o.@{lod.index}.glb ]",
+                      "[{load: a}, {foreach: {lod: [50%, 10%]}, do: [{simplify: '${lod}'}, {write: "
+                      "'o.${lod.index}.glb'}]}]"));
+    CHECK(same_stages("foreach part=* [ write @{part}.stl ]",
+                      "[{foreach: {part: '*'}, do: [{write: '${part}.stl'}]}]"));
+    CHECK(same_stages("foreach a=1 b=x,y [ relax @{a} ] --join",
+                      "[{foreach: {a: [1], b: [x, y]}, do: [{relax: '${a}'}], join: true}]"));
+    CHECK(
+        same_stages("load a ! branch near [ write n.glb ] far [ simplify 10% ! write f.glb ] ! relax",
+                    "[{load: a}, {branch: {near: [{write: n.glb}], far: [{simplify: 10%}, {write: f.glb}]}}, "
+                    "{relax: null}]"));
 }
 
 TEST_CASE("a group takes a bare value and its options beside it, in either order", "[cli]") {
@@ -126,8 +129,8 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("relax ]").starts_with("command line:1:22: error[E-PIPE]: ']' without '['\n"));
     CHECK(yaml("relax --lambda 1 --lambda 2")
               .starts_with("command line:1:33: error[E-PIPE]: '--lambda' is given twice\n"));
-    CHECK(
-        same("clean --self_intersections ! orient", "[{clean: {self_intersections: true}}, {orient: null}]"));
+    CHECK(same_stages("clean --self_intersections ! orient",
+                      "[{clean: {self_intersections: true}}, {orient: null}]"));
     CHECK(yaml("section z=1 outline.svg")
               .find("hint: a file that it writes is given by --path outline.svg\n") != std::string::npos);
     CHECK(yaml("section z=1 z=2").find("hint: stages are separated by ! or +\n") != std::string::npos);
@@ -158,9 +161,9 @@ TEST_CASE("brackets and keys are nested twenty levels deep at most", "[cli]") {
 }
 
 TEST_CASE("include takes a file and values for its params", "[cli]") {
-    CHECK(same("load a ! include b.yaml --with.keep=10pct --with.name x ! write c",
-               "[{load: a}, {include: b.yaml, with: {keep: 10%, name: x}}, {write: c}]"));
-    CHECK(same("load a ! include b.yaml", "[{load: a}, {include: b.yaml}]"));
+    CHECK(same_stages("load a ! include b.yaml --with.keep=10pct --with.name x ! write c",
+                      "[{load: a}, {include: b.yaml, with: {keep: 10%, name: x}}, {write: c}]"));
+    CHECK(same_stages("load a ! include b.yaml", "[{load: a}, {include: b.yaml}]"));
     CHECK(yaml("load a ! include b.yaml c.yaml").find("include takes one file, found 'c.yaml'") !=
           std::string::npos);
     CHECK(yaml("load a ! include b.yaml --keep 1").find("include has no option '--keep'") !=
@@ -175,8 +178,8 @@ TEST_CASE("a stage among the values of another lacks its separator", "[cli]") {
           "  hint: did you forget ! before simplify?\n");
     CHECK(yaml("load a.ply ! clip z=0 --cap relax 3 foreach n=1 [ write @{n}.ply ]")
               .find("did you forget ! before foreach?") != std::string::npos);
-    CHECK(same("load a.ply b.ply", "[{load: [a.ply, b.ply]}]"));
-    CHECK(same("load simplify", "[{load: simplify}]")); // a file may have that name
+    CHECK(same_stages("load a.ply b.ply", "[{load: [a.ply, b.ply]}]"));
+    CHECK(same_stages("load simplify", "[{load: simplify}]")); // a file may have that name
 }
 
 TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
@@ -239,11 +242,11 @@ TEST_CASE("options as other programs have them are answered with two dashes", "[
     CHECK(hint("simplify -faces 100") == "write --faces 100\n");
     CHECK(hint("write a.glb draco=true") == "write --draco true\n");
     CHECK(yaml("write a.glb draco").find("hint: did you mean '--draco'?") != std::string::npos);
-    CHECK(same("clip z=0", "[{clip: z=0}]")); // an equation, and no option is called z
-    CHECK(same("load a=b.stl", "[{load: a=b.stl}]"));
+    CHECK(same_stages("clip z=0", "[{clip: z=0}]")); // an equation, and no option is called z
+    CHECK(same_stages("load a=b.stl", "[{load: a=b.stl}]"));
     // Files may be called like an option and its value.
-    CHECK(same("write draco=1.glb", "[{write: draco=1.glb}]"));
-    CHECK(same("load unit=mm.stl", "[{load: unit=mm.stl}]"));
+    CHECK(same_stages("write draco=1.glb", "[{write: draco=1.glb}]"));
+    CHECK(same_stages("load unit=mm.stl", "[{load: unit=mm.stl}]"));
     CHECK(hint("write path=a.glb") == "write --path a.glb\n");
     CHECK(hint("write unit=mm a.glb") == "write --unit mm\n");
 }
@@ -263,16 +266,17 @@ TEST_CASE("no line of brackets, separators and options crashes the parser", "[cl
 }
 
 TEST_CASE("a group that true switches on is a flag", "[cli]") {
-    CHECK(same("write --draco a.glb", "[{write: {draco: true, path: a.glb}}]"));
-    CHECK(same("write a.glb --draco --ascii false", "[{write: {draco: true, ascii: false, path: a.glb}}]"));
-    CHECK(
-        same("write a.glb --draco.position_bits 12", "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
+    CHECK(same_stages("write --draco a.glb", "[{write: {draco: true, path: a.glb}}]"));
+    CHECK(same_stages("write a.glb --draco --ascii false",
+                      "[{write: {draco: true, ascii: false, path: a.glb}}]"));
+    CHECK(same_stages("write a.glb --draco.position_bits 12",
+                      "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
 }
 
 TEST_CASE("a group that true gives its defaults is a flag, with options beside it", "[cli]") {
-    CHECK(same("clean --holes", "[{clean: {holes: true}}]"));
-    CHECK(same("clean --holes --holes.max_edges 9", "[{clean: {holes: {max_edges: 9}}}]"));
-    CHECK(same("clean --holes planar", "[{clean: {holes: planar}}]"));
+    CHECK(same_stages("clean --holes", "[{clean: {holes: true}}]"));
+    CHECK(same_stages("clean --holes --holes.max_edges 9", "[{clean: {holes: {max_edges: 9}}}]"));
+    CHECK(same_stages("clean --holes planar", "[{clean: {holes: planar}}]"));
 }
 
 TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]") {
@@ -307,7 +311,7 @@ TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]"
 }
 
 TEST_CASE("a word of another language behind a switch gets a hint", "[cli]") {
-    CHECK(same("write b.glb --draco true", "[{write: {draco: true, path: b.glb}}]"));
+    CHECK(same_stages("write b.glb --draco true", "[{write: {draco: true, path: b.glb}}]"));
     for (const char* word : {"yes", "no", "on", "off"}) {
         CAPTURE(word);
         CHECK(yaml(std::string("write b.glb --draco ") + word)

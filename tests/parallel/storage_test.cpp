@@ -1,4 +1,5 @@
 #include "parallel/storage.hpp"
+#include "platform/pages.hpp"
 
 #include "support/catch.hpp"
 #include <algorithm>
