@@ -232,6 +232,9 @@ bool confine_files(const AllowedFiles& allowed) {
 
 bool confine_calls() {
     if (!filters_calls || calls_given_up) return calls_given_up;
+    // libseccomp crashes when it gets no memory, and takes far less than this: bad_alloc instead.
+    void* volatile room = ::operator new (std::size_t{4} << 20);
+    ::operator delete(room);
     const Filter filter(seccomp_init(SCMP_ACT_ALLOW), &seccomp_release);
     calls_given_up = filter && fill(filter) && seccomp_load(filter.get()) == 0;
     return calls_given_up;

@@ -113,7 +113,7 @@ class Walks(support.Case):
                 continue
             is_test = path.startswith("tests/")
             directory, compiler, flags = self.flags("facetmill_tests.dir" if is_test else r"facetmill_(core|program)\.dir")
-            run = subprocess.run([compiler, *flags, "-O0", "-Werror", "-I", str(self.dir / "src"), "-fsyntax-only",
+            run = subprocess.run([compiler, "-I", str(self.dir / "src"), *flags, "-O0", "-Werror", "-fsyntax-only",
                                   str(self.dir / path)], cwd=directory, capture_output=True, text=True, timeout=600)
             self.assertEqual(run.returncode, 0, f"{path}\n{run.stderr}")
 

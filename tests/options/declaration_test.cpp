@@ -130,7 +130,7 @@ TEST_CASE("a share where a count belongs is answered with the option that takes 
     };
     Declare<Reduction> d;
     d.option("ratio", &Reduction::ratio, "Of the faces.").primary();
-    d.option("faces", &Reduction::faces, "How many are left.");
+    d.option("faces", &Reduction::faces, "How many are left.").also_called("target_faces");
     d.option("draco", &Reduction::draco, "Compressed.");
     Reduction read;
     Problems problems;
@@ -151,7 +151,7 @@ TEST_CASE("a bare value where none may stand is often the name of an option", "[
         std::int64_t faces = 0;
     };
     Declare<Checks> d;
-    d.option("closed", &Checks::closed, "No boundary.");
+    d.option("closed", &Checks::closed, "No boundary.").also_called("watertight");
     d.option("faces", &Checks::faces, "How many.");
     Checks read;
     const auto hint = [&](const char* bare) {

@@ -237,8 +237,7 @@ void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
     share_target(w);
     steps.next();
     ProgressSteps of_parts(std::move(lengths));
-    for (std::size_t p = 0; p < count; ++p) {
-        if (!settings.selected[p]) continue;
+    const auto finish = [&](std::size_t p) {
         const bool has_results = !w.results[p].empty();
         ProgressSteps of_part({has_results ? 0.0 : 1.0, measuring});
         if (!has_results) simplify_set(w, w.plan.set_with(p));
@@ -246,6 +245,10 @@ void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
         scene.parts[p].mesh = {};
         take(p, settled(w, p));
         if (--w.plan.work.uses[w.plan.work.first[p]] == 0) w.repeats.erase(w.plan.work.first[p]);
+    };
+    for (std::size_t p = 0; p < count; ++p) {
+        if (!settings.selected[p]) continue;
+        finish(p);
         of_parts.next();
     }
 }
