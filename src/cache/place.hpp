@@ -12,10 +12,12 @@ namespace facetmill::cache {
 /// the files (sudo with the caller's HOME).
 [[nodiscard]] std::optional<std::filesystem::path> folder();
 
-/// True if FACETMILL_CACHE names a folder: then the user explicitly requested a cache.
+/// True if FACETMILL_CACHE is set and not empty, even to "off": then the user explicitly decided about a
+/// cache.
 bool is_named();
 
-/// True in a CI job (CI=true), where only its output can report what was cached.
+/// True in a CI job (CI=true). Such a job keeps only files that its configuration names, so the cache is off
+/// unless it is requested.
 bool is_ci();
 
 /// The size limit of the cache.

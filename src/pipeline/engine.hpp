@@ -50,8 +50,8 @@ struct Engine {
     bool keeps_loaded = false;    ///< a later step needs the scene as loaded
 
     report::RunRecord& record() const { return state.record; }
-    /// Runs the steps on the scene. Returns false if the chain ended early; the scene is then invalid.
-    /// needed: the scene is used afterwards. first: the number of completed steps.
+    /// Runs the steps on the scene. Returns false if the chain ended early or a check failed; the scene must
+    /// then not be used. needed: the scene is used afterwards. first: the number of completed steps.
     bool run_steps(const Steps& steps, SceneState& flow, bool needed, std::size_t first = 0);
     /// Records the stage of a step. source: does the work and fills the record; returns false after a
     /// failure.

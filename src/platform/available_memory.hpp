@@ -7,13 +7,13 @@
 
 namespace facetmill {
 
-/// The least of the memory that the machine has available, the cgroup allows (v1 and v2), and RLIMIT_AS
-/// allows. None if the system does not report it.
+/// The bytes that this process may still take: the least of the machine's available memory, and what the
+/// cgroup (v1 and v2) and RLIMIT_AS leave. None if the system does not report it.
 [[nodiscard]] std::optional<std::uint64_t> available_memory();
 
-/// Physical memory in use by this process.
+/// Bytes of physical memory in use by this process; 0 if unknown.
 [[nodiscard]] std::uint64_t resident_memory();
-/// The maximum so far.
+/// The maximum of that so far, in bytes.
 [[nodiscard]] std::size_t peak_memory();
 
 } // namespace facetmill

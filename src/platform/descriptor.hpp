@@ -49,7 +49,7 @@ struct OpenOptions {
     unsigned permissions = 0666; ///< for a new file
 };
 
-/// Child processes do not inherit the file.
+/// Programs that this process starts do not inherit the file; forked processes (start_worker) do.
 [[nodiscard]] Descriptor open_file(const std::filesystem::path& path, const OpenOptions& options = {});
 
 /// A second descriptor of the same open file, which shares its locks.

@@ -44,8 +44,8 @@ class ExactSum {
     void add_scaled(const ExactSum<other>& sum, double factor) {
         for (std::size_t i = 0; i < sum.size_; ++i) add_product(sum.parts_[i], factor);
     }
-    /// Whether the products and their sums are all within the range of doubles; otherwise sign() is
-    /// meaningless. Sums passed only to add() are trusted.
+    /// Whether the products and their sums are all within the range of doubles; otherwise sign() and
+    /// value() are meaningless. Sums passed only to add() are trusted.
     bool holds() const { return holds_; }
     int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
     /// The value, rounded; 0 only for a zero sum.

@@ -27,8 +27,8 @@ struct United {
 /// Limits on the work of a pass.
 struct PassBudget {
     std::optional<std::uint64_t> memory; ///< bytes available; empty: unknown
-    /// Limits on the pairs of intersecting triangles, and on possible crossings of intersection lines within
-    /// faces.
+    /// Limits on the pairs of intersecting triangles, and on possible crossings of lines within the planes of
+    /// triangles.
     std::size_t pairs = 1'000'000, crossings = 2'000'000;
     const char* too_many = "more than a million pairs of triangles intersect, or their intersection lines "
                            "could cross more than two million times: that is more than can be united in "

@@ -18,9 +18,9 @@ struct NearPoint {
 /// Open sets around which closed components certainly wind, and the faces inside them.
 ///
 /// The *core* of a closed component is the set of points strictly behind all its triangles' planes. A ray
-/// from such a point passes every triangle from back to front, and a ray towards a triangle hits at least
-/// one. So the winding number is at least 1 at each core point. The core is convex, as an intersection of
-/// half-spaces. It is the interior of a convex solid, but empty for most other solids.
+/// from such a point crosses each triangle that it meets from back to front, and a ray towards a triangle
+/// meets at least one. So the winding number is at least 1 at each core point. The core is convex, as an
+/// intersection of half-spaces. It is the interior of a convex solid, but empty for most other solids.
 ///
 /// Let K be the union of the cores of certain components. These are all of a union, the subtracted components
 /// of a difference, or the second operand of an intersection. A core is excluded if its box meets the box of

@@ -56,7 +56,7 @@ struct UntangleBudget {
 struct CleanSettings {
     Nearness weld = Nearness::exact;        ///< merges equal positions; near: also boundary ends
     Nearness stitch = Nearness::off;        ///< merges coincident boundary edges and their ends
-    Nearness t_junctions = Nearness::exact; ///< inserts vertices into boundary edges that contain them
+    Nearness t_junctions = Nearness::exact; ///< inserts vertices of other boundary edges into boundary edges
     bool degenerate = true;                 ///< removes faces of exactly zero area, and repeated corners
     bool duplicates = true;                 ///< keeps one face per set with the same vertices; no inner walls
     bool non_manifold = true; ///< splits edges of more than two faces and vertices of several fans
@@ -116,7 +116,8 @@ struct CleanResult {
 ///
 /// A round: rounding to single, weld, degenerate, duplicates, t_junctions, stitch, non_manifold,
 /// self_intersections, holes, open_components, components, inner_components, isolated. If none of them
-/// changes anything, apart follows. Each setting documents its step; clean_steps.hpp has the details.
+/// changes anything, apart follows. Each setting documents its step; geometry/clean/steps.hpp has the
+/// details.
 ///
 /// Attributes are copied, and interpolated at new vertices. Never throws for a valid mesh.
 [[nodiscard]] CleanResult clean(Mesh mesh, const CleanSettings& settings);

@@ -59,7 +59,7 @@ struct CropResult {
 /// entered by no more than rounding is not cut. Points are made once per edge, by the exact signs of side().
 /// They are recorded as on the segment's plane, and neighbours get them too, so no crack opens. A point in
 /// the middle decides whether a piece is inside. Faces that are edge-on along the outline belong to the side
-/// that they face. Attributes as for clip.
+/// that they face away from. Attributes as for clip.
 ///
 /// Vertices that no kept face uses are removed, isolated ones too. Points of a cloud on the kept side stay;
 /// points on the outline count as inside. Kept faces keep their order, with those next to the outline last.

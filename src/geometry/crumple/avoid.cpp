@@ -46,8 +46,8 @@ std::size_t rings_in(int round) {
     return std::size_t{1} << std::clamp(round - widening_rounds, 0, 32);
 }
 
-/// Finds new pairs that the full moves would make. If some faces are overstretched, examines only a few of
-/// these.
+/// Finds new pairs that the full moves would make. If a few of the overstretched faces already have new
+/// pairs, returns these; otherwise examines all faces.
 void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels, AvoidResult& result) {
     constexpr std::size_t few = 64;
     const auto look_at = [&](std::size_t s) {

@@ -135,16 +135,16 @@ struct AvoidResult {
 /// (find_self_intersections, folded neighbours included) and all faces that lost their area. All their
 /// positions take the next lower share, until none are found. Before the first round, shares fall until no
 /// two corners of a face move apart by more than eight times its longest edge, because such a face would
-/// meet a great many others. If a sample suggests that more than an eighth of these faces would be found,
-/// the limit is halved repeatedly (coarse). After eight rounds the surrounding positions are lowered too;
-/// after sixteen, twice as far around in each round. This limits the rounds to about forty. After 32 box
-/// pairs per face, or three times as many as before the move, shares fall to an eighth at once. After three
-/// such rounds they fall to 0, including the surroundings (coarse). Shares only fall, and without moves all
-/// positions are unchanged, so the loop ends. Pairs that met before the move are exempt. Shares belong to
-/// positions: unwelded copies of a vertex count as merged.
-/// Positions are rounded to float32 in part space, before and after, so that exact decisions hold for the
-/// values in files. Polygons are tested as the triangles of triangulated(). With only_look nothing is
-/// lowered. The result is the same for any number of threads. A round takes about as long as finding the
+/// meet a great many others. If a sample suggests that more than an eighth of all faces would be found, the
+/// limit is halved repeatedly (coarse). After eight rounds the surrounding positions are lowered too; after
+/// sixteen, twice as far around in each round. This limits the rounds to about forty. The box pairs of all
+/// rounds are counted. Beyond 32 per face, or three times the pairs before the move if these are more, shares
+/// fall to an eighth at once. After three such rounds they fall to 0, including the surroundings (coarse).
+/// Shares only fall, and without moves all positions are unchanged, so the loop ends. Pairs that met before
+/// the move are exempt. Shares belong to positions: unwelded copies of a vertex count as merged. Positions
+/// are rounded to float32 in part space, before and after, so that exact decisions hold for the values in
+/// files. Polygons are tested as the triangles of triangulated(). With only_look nothing is lowered. The
+/// result is the same for any number of threads. A round takes about as long as finding the
 /// self-intersections of the lowered faces; the tree of boxes is sorted once. Only the sheets of the first
 /// max_open triangles keep their tree. Other sheets rebuild it when a round needs it, with the same result.
 /// Identical sheets are searched for crossings once before the move.

@@ -65,9 +65,9 @@ struct PlaneCut {
 
 /// The points that count as on a plane in addition to points exactly on it.
 struct OnPlane {
-    /// Float32 positions at most this far away (mesh units) count as on the plane, and other positions
-    /// within 2^-27 of it. Otherwise a plane through computed vertices would cut slivers off at these. 0:
-    /// none.
+    /// Float32 positions at most this far away (mesh units) count as on the plane, and other positions at
+    /// most 2^-27 times as far. Otherwise a plane through computed vertices would cut slivers off at these.
+    /// 0: none.
     double snap = 0;
     /// Points built on the plane according to this memory count as on it. None: no known points.
     const CutMemory* memory = nullptr;
