@@ -112,7 +112,7 @@ bool is_within(const Box& inner, const Box& outer) {
 /// The part of a segment, from 0 to 1, inside a core.
 struct Buried::Stretch {
     double from = 0, to = 1;
-    bool has_start = true, has_end = true; ///< the end point is certainly inside
+    bool has_start = true, has_end = true; ///< the end points are certainly inside
 };
 
 Buried::Buried(const Mesh& mesh, const Solids& solids, const SelfIntersections& found,

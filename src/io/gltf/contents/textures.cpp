@@ -103,7 +103,7 @@ class Uses {
         return index_at(filters, "magFilter") == nearest && index_at(filters, "minFilter") == nearest;
     }
 
-    /// Calls call for each image of a texture, and marks the core image as a fallback if an extension gives
+    /// Calls call(image) for each image of a texture. Marks the core image as a fallback if an extension has
     /// another.
     template <class Call>
     void each_image(std::size_t index, Call&& call) {

@@ -26,7 +26,7 @@ void each_real(Json& json, const Change& change) {
 }
 
 void as_integer(Json& number) {
-    constexpr double most = 1e15; // doubles are exact integers up to here, with no longer text
+    constexpr double most = 1e15; // integers up to here are exact in doubles
     const double x = number.get<double>();
     if (std::abs(x) < most && x == std::floor(x)) number = static_cast<std::int64_t>(x);
 }
