@@ -22,7 +22,7 @@ struct PartsToCrop {
     CropSettings
         settings; ///< the same for all; transform, memory and the caps' primitive are set part by part
     bool triangulate = false;
-    bool both = false; ///< the inside and, behind it as a part of its own, the outside
+    bool both = false; ///< keep the inside, and the outside as a separate part after it
     std::string cap_material;
 };
 
@@ -287,7 +287,7 @@ struct CropStage : StageOf<run> {
                                 "leave out cap, or use by: cut"},
                         "crop", given, problems);
     }
-    /// Faces that are kept whole stay as they are.
+    /// Faces that are kept whole do not change, so they need no filling.
     CrossingFacePolicy crossing_faces() const override {
         return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }

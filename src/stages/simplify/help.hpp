@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about simplify.
+// The texts of simplify for help and manual.
 
 namespace facetmill::help::simplify {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the stage simplify does to the parts of a scene.
+// The stage simplify for the parts of a scene.
 
 #include "stage/stage.hpp"
 #include "stages/simplify/options.hpp"
@@ -12,7 +12,8 @@ namespace facetmill::simplify_stage {
 [[nodiscard]] Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context,
                                    SimplifyReport& report);
 
-/// What was asked for: less than there is; a number of faces or vertices, and not only an error.
+/// less: the target is below the current counts. target: it is a number of faces or vertices, not only an
+/// error.
 struct AskedFor {
     bool less = true, target = true;
 };

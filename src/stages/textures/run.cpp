@@ -62,7 +62,7 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
     std::map<std::string, std::size_t> known; // by digest
     for (std::size_t d = 0; d < images.size(); ++d)
         for (const io::DocumentImage& image : images[d]) {
-            // Without bytes there is nothing that two could share.
+            // Images without bytes cannot be shared.
             const std::string key =
                 image.bytes.empty() ? fmt::format("{} {}", d, image.index) : sha256(image.bytes);
             const auto [place, fresh] = known.try_emplace(key, jobs.size());
@@ -74,7 +74,7 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
     return jobs;
 }
 
-/// What went wrong in the program that encodes it.
+/// Adds the image's name to an error of the KTX2 encoder.
 Error about_image(const Error& error, const std::string& image) {
     const Diagnostic& first = error.diagnostics().front();
     if (first.id != "E-KTX") return error;
@@ -224,7 +224,7 @@ const RegisterStage registered = make_stage<TexturesStage>(
                   "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"},
      .changes_images = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all}, // it touches no mesh: nothing is to be compared
+     .may_lose = MayLose::all}, // it changes no mesh, so nothing is compared
     declare_textures, declare_report);
 
 } // namespace

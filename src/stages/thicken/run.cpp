@@ -15,7 +15,7 @@ namespace {
 
 using Mode = ThickenOptions::Mode;
 
-/// Thickens surfaces; parts that are one shape but for a move are worked on once.
+/// Thickens surfaces. Parts that differ only by a move are processed once.
 class SurfaceThickener {
   public:
     SurfaceThickener(const Scene& scene, const ThickenOptions& o)
@@ -92,7 +92,7 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
 }
 
 struct ThickenStage : StageOf<run> {
-    /// Of wires, only the edges count.
+    /// Wires use only the edges of faces.
     CrossingFacePolicy crossing_faces() const override {
         return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }

@@ -30,8 +30,8 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// For each part, as few bits as have steps no larger, in the world, than those of `bits` for the longest
-/// side of the scene; at least 10 (if `bits` are not fewer), a thousandth of the part.
+/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
+/// the scene's longest side. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
 std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     constexpr int fewest = 10;
     const double whole = scene.bounds().longest_side();
@@ -46,8 +46,8 @@ std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     return all;
 }
 
-/// As many bits as keep the vertices apart, up to the limit, if there is one. False where the limit is not
-/// enough: then they are as usual.
+/// Raises the bits until vertices stay distinct. Returns false if the limit is not enough; the bits are then
+/// the usual number. Without a limit, nothing changes.
 bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> limit) {
     if (!limit) return true;
     const std::optional<int> found = io::bits_that_keep_distinct(mesh, bits);
@@ -56,7 +56,7 @@ bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> li
     return enough;
 }
 
-/// Parts that share a mesh have the most that one of them needs.
+/// Parts that share a mesh get the largest number of bits among them.
 void as_shared(std::vector<int>& bits, const Scene& scene) {
     std::map<std::pair<int, int>, int> most;
     const auto key = [&](std::size_t i) {
@@ -140,7 +140,7 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 
 namespace {
 constexpr double tolerable_rounding =
-    1e-6; // of the diagonal, as for the origin of glTF and what is read back
+    1e-6; // of the diagonal, the same as for glTF origins and for the read-back
 } // namespace
 
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds) {

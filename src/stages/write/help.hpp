@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about write.
+// The texts of write for help and manual.
 
 namespace facetmill::help::write {
 

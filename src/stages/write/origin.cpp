@@ -89,7 +89,8 @@ std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option
                                              fmt::join(kept, ", ")));
     if (chosen.empty()) return {};
     OriginReport report{option.kind == Kind::point ? option.point : near_centre(box), chosen.size()};
-    const auto first = DistinctParts(scene).first; // of the meshes as they are, which stay equal
+    const auto first =
+        DistinctParts(scene).first; // of the meshes before the move, because the moved meshes stay equal
     std::map<std::size_t, Vec3> offsets;
     for (const std::size_t i : chosen) {
         Part& part = scene.parts[i];
