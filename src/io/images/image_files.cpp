@@ -49,14 +49,14 @@ bool is_below(const fs::path& folder, const fs::path& file) {
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/// With its links and .. resolved, whether it is there or not. Absolute first: weakly_canonical leaves a
-/// relative path as it is when nothing of it exists yet.
+/// The path with links and .. resolved; the file need not exist. Made absolute first, because
+/// weakly_canonical leaves a relative path unchanged if no part of it exists.
 fs::path resolved(const fs::path& path, std::error_code& failed) {
     const fs::path absolute = fs::absolute(path, failed);
     return failed ? fs::path() : fs::weakly_canonical(absolute, failed);
 }
 
-/// Without "..", where that names the same file: where no folder before one is a link.
+/// The path without "..", if that names the same file, which links can prevent.
 fs::path plain(const fs::path& path, const fs::path& real) {
     std::error_code failed;
     const fs::path normal = path.lexically_normal();
@@ -132,7 +132,7 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
     } catch (const Error& error) {
         // A fault of the disk or too many open files: without its picture the result would be another one.
         if (error.kind() == ErrorKind::missing && may_read(*path)) throw;
-        log.unrepeatable = true; // it is there, and may be readable the next time
+        log.unrepeatable = true; // the file exists, and may become readable
         return refuse(error.diagnostics().front().message, "check the permissions of the image");
     }
 }

@@ -21,7 +21,8 @@ bool too_large(std::size_t width, std::size_t height) {
     return width == 0 || height == 0 || width > max_pixels / height;
 }
 
-/// A PNG on its way. libpng's simplified interface is not used: it applies gAMA, and takes 16 bits as linear.
+/// The state of reading a PNG. libpng's simplified interface would apply gAMA and treat 16 bits as linear,
+/// so it is not used.
 struct PngReader {
     png_structp state = ::png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
     png_infop info = state ? ::png_create_info_struct(state) : nullptr;
@@ -78,7 +79,7 @@ std::optional<Pixels> decoded_png(Span bytes, bool header) {
     return pixels;
 }
 
-/// The library's way to say that an image is broken: it jumps back to where reading began.
+/// libjpeg's error handler for broken images: it jumps back to the start of reading.
 struct JpegErrors {
     jpeg_error_mgr manager;
     std::jmp_buf back;

@@ -42,7 +42,8 @@ std::vector<Taps> taps_of(std::size_t from, std::size_t to) {
     return all;
 }
 
-/// What is mixed of a pixel: red, green, blue, alpha; with coverage also the colours weighted by alpha.
+/// The channels of a pixel that are mixed: red, green, blue, alpha. With coverage also the colours weighted
+/// by alpha.
 struct Mixing {
     PixelKind kind;
     bool coverage;
