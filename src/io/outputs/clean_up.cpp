@@ -12,7 +12,7 @@
 namespace facetmill::io {
 
 struct CleanUp {
-    std::filesystem::path path, aside{}; ///< aside: what is renamed to path; empty: path is removed
+    std::filesystem::path path, aside{}; ///< aside: the file to rename to path; empty: remove path
     bool directory = false;
     std::atomic<bool> active{true};
     CleanUp* next = nullptr;
@@ -84,7 +84,7 @@ void end_at_once(int exit_code, std::string_view message) {
     for (int expected = idle; !state.compare_exchange_strong(expected, dying); expected = idle) {
         if (expected == dying) wait_for_the_end();
         if (holder == std::this_thread::get_id()) return;
-        std::this_thread::yield(); // another gives outputs their names: all of them or none
+        std::this_thread::yield(); // another thread is renaming outputs, which must be all or none
     }
     undo_all();
     write_to_standard_error(message);

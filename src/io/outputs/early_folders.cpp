@@ -27,7 +27,7 @@ void EarlyFolders::use(const fs::path& folder, bool made) {
 
 void EarlyFolders::make(const fs::path& folder) {
     std::error_code error;
-    constexpr int max_attempts = 100; // another run may remove what it has made
+    constexpr int max_attempts = 100; // another run may remove the folder that it made
     for (int attempt = 0; attempt < max_attempts && !folder.empty(); ++attempt) {
         if (fs::is_directory(folder, error)) {
             use(folder, false);

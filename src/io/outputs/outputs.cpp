@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Temporaries held open with a lock at a time; beyond it the process id alone says that they are alive.
+/// The limit for temporaries held open with a lock. Beyond it, only the process id shows that they are in
+/// use.
 constexpr std::size_t max_locks = 128;
 
 [[noreturn]] void cannot_write(const Outputs::File& file, int error) {
@@ -116,8 +117,7 @@ void Outputs::stage(File& file, const std::function<void(const Put&)>& produce) 
         keep_permissions(file.lock, file.resolved, file.target);
         produce([&](Span bytes) { write_all(file.lock, bytes, file.target); });
         if (settings_.sync) begin_sync(file.lock);
-        // Network file systems say only at a close that there is no room; the lock lives in the other
-        // descriptor.
+        // Network file systems may report a full disk only on close. The other descriptor holds the lock.
         if (Descriptor copy = duplicate(file.lock); !copy || !copy.close()) cannot_write(file, errno);
     } catch (...) {
         file.lock.close();
@@ -195,7 +195,8 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     const auto put_bytes = [&] { stage(*file, [&](const Put& put) { put(bytes); }); };
     if (!stream && !file->is_input && !by_identity_.contains(self) && !settings_.names_only) {
         make_place(*file);
-        constexpr std::size_t few = std::size_t{1} << 16; // bytes, for which another thread would take longer
+        constexpr std::size_t few = std::size_t{1}
+                                    << 16; // bytes; smaller files cost less than another thread
         parallel_for(
             2, [&](std::size_t i) { i == 0 ? take_sum() : put_bytes(); }, bytes.size() < few ? 2 : 1);
         return hold(std::move(file), self);
@@ -274,8 +275,8 @@ void Outputs::sync_contents() const {
     }
 }
 
-/// The folders in which names are new. Where that cannot be had (a folder that may be written, not read; a
-/// disk that fails) it is left to the system: the files are there, whole.
+/// Syncs the folders with new names. Failures are ignored (an unreadable folder, a failing disk), because
+/// the files themselves are complete.
 void Outputs::sync_names() const {
     if (!settings_.sync) return;
     std::set<fs::path> folders;
