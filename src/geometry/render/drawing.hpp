@@ -59,7 +59,8 @@ class PartDrawing {
   private:
     bool has(Index face, const Attribute& a) const;
 
-    std::shared_ptr<const Mesh> own_; ///< what mesh_ points to when it is not the part's
+    std::shared_ptr<const Mesh>
+        own_; ///< owns the mesh that mesh_ points to, if it differs from the part's mesh
     const Mesh* mesh_;
     bool has_faces_, mirrored_;
     std::uint32_t first_;

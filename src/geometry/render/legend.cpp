@@ -53,7 +53,7 @@ std::string number_text(double x, int digits = 4) { return fmt::format("{:.{}g}"
 
 constexpr const char* missing_text = "no value";
 
-/// The lines below the scale; missing_text has its colour before it.
+/// The lines below the scale. A colour swatch precedes missing_text.
 std::vector<std::string> footnotes(const ValueRange& range) {
     std::vector<std::string> lines;
     if (range.percentiles) lines.push_back(range.diverging ? "to the 99th pct" : "1st to 99th pct");
@@ -78,7 +78,7 @@ Bar bar_of(const PictureSettings& s, const ValueRange& range) {
             s.height - (2 + static_cast<int>(footnotes(range).size())) * line};
 }
 
-/// Whether a text of a number says it to within `error`.
+/// Whether the text gives the number to within `error`.
 bool says(const std::string& text, double x, double error) {
     const auto read = parse_real(text);
     return read && std::abs(*read - x) <= error;

@@ -91,7 +91,7 @@ float open_at(const Places& places, const Spiral& spiral, std::size_t pixel,
     return std::max(0.15f, 1 - strength * hidden);
 }
 
-/// Which pixels a mean is taken of, and for which.
+/// The pixels that a mean covers, and the pixels that get a mean.
 struct Smoothing {
     int every = 1;      ///< only one in so many columns and rows
     int reach = 2;      ///< so far to the left and above, and not quite so far to the right and below

@@ -176,8 +176,8 @@ class PictureDrawing {
         return large_ones;
     }
 
-    /// Whether other triangles already lie before all of a small one: most are found hidden before they cost
-    /// anything.
+    /// Whether nearer triangles already cover all samples of a small triangle. This test skips most
+    /// triangles cheaply.
     bool is_hidden(const std::array<Vec3, 3>& corners, const SampleBox& box) {
         constexpr std::size_t few = 16;
         if (box.size() > few) return false;
@@ -250,7 +250,7 @@ class PictureDrawing {
     }
 
     std::vector<float> occluded() const {
-        // An eighth of the scene, as it is magnified.
+        // An eighth of the scene, scaled by the zoom.
         const double radius = std::min(canvas_.width, canvas_.height) / 8.0 * settings_.zoom;
         const double most = std::min(canvas_.width, canvas_.height) / 4.0;
         return open_sky(canvas_, drawing_, shader_, view_, std::min(radius, most),

@@ -59,7 +59,7 @@ struct PictureSettings {
     int width = 480, height = 360; ///< pixels, 1 to 8192
     Viewpoint viewpoint = Viewpoint::corner;
     std::optional<Vec3> from; ///< the direction towards the viewer, in world space, instead of viewpoint
-    double turn = 0;          ///< radians that the viewer goes around the up axis, anticlockwise from above
+    double turn = 0;          ///< radians that the viewer moves around the up axis, anticlockwise from above
     std::optional<Camera> camera; ///< of another scene, with the same direction; without perspective only
     double perspective = 0;       ///< the angle of view over the scene, radians, below pi; 0: parallel
     double zoom = 1;              ///< at least 1; the middle of the picture is magnified
@@ -91,7 +91,7 @@ struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
     double scale = 0;           ///< pixels per unit of the scene, in the middle; 0 when it has no extent
-    std::size_t faces = 0;      ///< drawn, that is of parts that it shows
+    std::size_t faces = 0;      ///< faces drawn, in the visible parts
     ValueRange range{};         ///< of the numbers that the attribute has
     bool has_attribute = false; ///< some part has it
 };
@@ -114,7 +114,7 @@ struct Picture {
 /// its direction. O(vertices).
 [[nodiscard]] Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// Picture::scale without the picture, before zoom: beside the legend, where there is one.
+/// Picture::scale without rendering, before zoom. Accounts for the legend.
 [[nodiscard]] double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
 /// The position of most of a scene that is hardly visible because a few elements are far off.
@@ -127,12 +127,12 @@ struct Crowd {
 /// "most of the scene is 3 pixels wide in the picture, because something lies far off"
 [[nodiscard]] std::string crowd_in_words(const Crowd& crowd);
 
-/// The box around the vertices of faces without the tenth at either end of each axis, where in the picture,
-/// before zoom, it is less than a hundredth of the longer side; else none. Of many vertices every n-th is
-/// looked at. O(n).
+/// The box around the drawn vertices, without the outer tenth at either end of each axis. None unless it
+/// covers less than a hundredth of the picture's longer side before zoom. Samples every n-th vertex if there
+/// are many. O(n).
 [[nodiscard]] std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings);
 
-/// Pictures of one size in rows of so many columns; what is left of the last row is transparent.
+/// Arranges pictures of the same size in this many columns. Unused cells of the last row are transparent.
 [[nodiscard]] Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns);
 
 } // namespace facetmill

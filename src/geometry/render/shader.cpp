@@ -120,8 +120,8 @@ Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
     return spot.front ? outer : -outer;
 }
 
-/// The cosine between the normal and the light, or 0 where it comes from behind. right_side: the side that is
-/// seen is one that materials show.
+/// The cosine between the normal and the light, or 0 for light from behind. right_side: the visible side is
+/// a side that materials show.
 double Shader::in_light(const Vec3& normal, bool right_side) const {
     static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
     double amount = dot(normal, light);
@@ -138,7 +138,8 @@ double Shader::lit(const Spot& spot, const Vec3& normal) const {
     return around + direct * in_light(normal, spot.front || spot.double_sided);
 }
 
-/// x y z of the face's own normal in the world, from 0 to 1, such that it is stored as it is.
+/// x y z of the face's own normal in the world, mapped to 0 to 1. The result is linear, so that the stored
+/// sRGB bytes are exact.
 Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     const Vec3 n = spot.front ? facing : -facing;
     const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
@@ -148,8 +149,7 @@ Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     return colour;
 }
 
-/// The same as colour, for a face without textures, colours or normals of its own, which has one colour
-/// everywhere.
+/// The same as colour, for a face with a single colour: without textures, vertex colours or vertex normals.
 Texel Shader::plain(const Texel& paint, const LastFacings::Facing& facing, bool double_sided,
                     float open) const {
     const bool right_side = facing.front || double_sided;

@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// Which way the triangles look that were asked for last, since neighbouring pixels see the same ones. Each
-/// thread has its own.
+/// Caches the normals of recently shaded triangles, because neighbouring pixels often show the same
+/// triangle. Each thread has its own cache.
 class LastFacings {
   public:
     struct Facing {
@@ -31,7 +31,7 @@ class Shader {
     /// y) of the canvas. open: the visible share of the sky, 0 to 1. last: a cache for this drawing alone.
     Texel colour(std::uint32_t number, double x, double y, float open, LastFacings& last) const;
 
-    /// Whether a material with holes has none at (x, y).
+    /// Whether a material with holes is solid at (x, y).
     bool is_solid(const PartDrawing& part, const CanvasTriangle& t, Index face, double x, double y) const;
 
     /// The unit normal of the triangle towards the viewer, along the canvas' axes.

@@ -1,7 +1,7 @@
 #pragma once
-// Textures and materials as a picture needs them: images with their mip levels, samplers, and what a material
-// does with them, after the specification of glTF 2.0 (Khronos, 2021) and KHR_texture_transform. Who reads
-// files makes them (io/gltf/contents/resolved_materials.hpp).
+// Textures and materials for rendering: images with mip levels, samplers and materials, as in glTF 2.0
+// (Khronos, 2021) and KHR_texture_transform. File readers create them
+// (io/gltf/contents/resolved_materials.hpp).
 
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ struct TextureImage {
 [[nodiscard]] std::shared_ptr<const TextureImage>
 texture_image(int width, int height, std::vector<std::uint8_t> rgba, bool srgb, int max_side);
 
-/// TextureImage::bytes() of such an image, before there is one.
+/// The future TextureImage::bytes() of such an image.
 [[nodiscard]] std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side);
 
 enum class TextureWrap { repeat, clamp, mirror };
@@ -48,7 +48,7 @@ struct TextureFootprint {
 
 /// An image and how it is laid on.
 struct Texture {
-    std::shared_ptr<const TextureImage> image; ///< none: there is no texture
+    std::shared_ptr<const TextureImage> image; ///< none: no texture
     int set = 0;                               ///< n of TEXCOORD_n
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     bool nearest = false; ///< magnified without mixing neighbours
@@ -62,8 +62,8 @@ struct Texture {
     Texel sampled(double u, double v, const TextureFootprint& footprint) const;
 };
 
-/// What a material says of its colour. Metalness and roughness are not looked at: there is nothing around the
-/// scene that could be mirrored.
+/// The colour properties of a material. Ignores metalness and roughness, because the scene has no
+/// environment to reflect.
 struct MaterialLook {
     enum class Alpha { opaque, mask, blend };
 

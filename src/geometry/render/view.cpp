@@ -141,8 +141,8 @@ UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings, Dra
     const Box box = seen_box(scene, {}, drawn, [](const Vec3& p) { return p; });
     const Vec3 extent = box.extent();
     const Stance stance = stance_of(scene, settings, box);
-    // A base is one when it is three hundredths of the surface and the other direction has none half as
-    // large.
+    // A base counts if it covers 3 % of the surface and more than twice the area of the other direction's
+    // base.
     const bool stands_on_y = stance.y_base > 0.03 * stance.area && stance.y_base > 2 * stance.z_base;
     const bool stands_on_z = stance.z_base > 0.03 * stance.area && stance.z_base > 2 * stance.y_base;
     // If the scene is longest along x, like a vehicle, its other sides give no hint: y is up in most such
@@ -224,7 +224,7 @@ void stand_back(View& view, double angle, const Box& box) {
     const double radius = box.diagonal() / 2;
     view.eye = middle;
     view.eye->z += radius > 0 ? radius / sine(angle / 2) : 1;
-    view.distance = view.eye->z - middle.z; // in samples once there is a scale
+    view.distance = view.eye->z - middle.z; // in samples once the scale is known
 }
 
 } // namespace
