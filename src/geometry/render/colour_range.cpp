@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// The value that a hundredth times `percent` of the others are below, between neighbours (nearest rank).
+/// The percentile by nearest rank.
 double percentile_of(std::vector<double>& values, std::size_t percent) {
     const std::size_t rank = (values.size() - 1) * percent / 100;
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -54,7 +54,7 @@ std::vector<std::uint64_t> few_identifiers(const Scene& scene, const std::string
 void leave_outliers_out(std::vector<double>& values, ColourRange::Kind wanted, ValueRange& range) {
     using Kind = ColourRange::Kind;
     if (wanted != Kind::automatic && wanted != Kind::percentile) return;
-    if (range.diverging) // of both sides alike
+    if (range.diverging) // absolute values, because the range is symmetric
         for (double& x : values) x = std::abs(x);
     const double high = percentile_of(values, 99), low = range.diverging ? -high : percentile_of(values, 1);
     // Halves, because the span of all doubles overflows.

@@ -36,7 +36,8 @@ struct ValueRange {
     bool beyond() const { return min < low || max > high; } ///< whether some numbers lie outside the range
 };
 
-/// The attribute of that name that has numbers at all: of faces, else of wedges, else of vertices; or null.
+/// The attribute of that name with at least one component. Searches faces, then wedges, then vertices; null
+/// if absent.
 [[nodiscard]] const Attribute* attribute_to_show(const Mesh& mesh, const std::string& name);
 
 /// The range of the finite values of the attribute's first component over the parts selected by `shows`

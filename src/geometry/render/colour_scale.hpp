@@ -16,11 +16,11 @@ inline constexpr Colour missing_colour{0.79f, 0.10f, 0.51f};
 /// Zucker's polynomials. Values beyond get the end colours, and NaN gets missing_colour.
 [[nodiscard]] Colour on_a_scale(double t);
 
-/// Blue over light grey, at 0.5, to red (K. Moreland, "Diverging color maps for scientific visualization",
-/// 2009), for 0 to 1; else as on_a_scale.
+/// For 0 to 1: blue over light grey, at 0.5, to red (K. Moreland, "Diverging color maps for scientific
+/// visualization", 2009). Other values as in on_a_scale.
 [[nodiscard]] Colour on_a_diverging_scale(double t);
 
-/// On the scale of the range.
+/// The colour on the scale that fits the range.
 [[nodiscard]] Colour on_the_scale_of(const ValueRange& range, double t);
 
 /// The position of x in the range, 0 to 1 inside; 0.5 if the range is a point; NaN if x is not finite.

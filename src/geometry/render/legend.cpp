@@ -14,7 +14,7 @@ namespace {
 using Ink = std::array<std::uint8_t, 3>;
 
 constexpr int letters_wide = 17; ///< of the legend
-constexpr int bar_letters = 3;   ///< in letters: the width of the colours and the ticks
+constexpr int bar_letters = 3;   ///< the width of the colours and the ticks, in letters
 
 int letter_scale(const PictureSettings& s) {
     return std::clamp(std::min(s.width / 500, s.height / 300), 1, 8);
@@ -67,7 +67,7 @@ std::vector<std::string> footnotes(const ValueRange& range) {
 
 int line_height(const PictureSettings& s) { return (letter_height + 3) * letter_scale(s); }
 
-/// The rows of pixels of the colours.
+/// The rows of pixels of the colour bar.
 struct Bar {
     int top, bottom;
 };
@@ -84,7 +84,7 @@ bool says(const std::string& text, double x, double error) {
     return read && std::abs(*read - x) <= error;
 }
 
-/// The picture on the left of a wider one.
+/// The picture at the left of a wider picture.
 Picture widened(const Picture& picture, const PictureSettings& settings) {
     Picture out = picture;
     out.width = settings.width;

@@ -1,5 +1,5 @@
 #pragma once
-// How much of the sky is seen from each pixel, from the depths around it.
+// Ambient occlusion: the visible share of the sky at each pixel, from the depths around it.
 
 #include "geometry/render/shader.hpp"
 

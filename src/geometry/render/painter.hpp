@@ -46,7 +46,7 @@ class Painter {
 
     /// Without textures; alpha too.
     Texel of(const FacePlace& place) const;
-    /// The textures and the rest of the face's material; null when it is not painted by its material.
+    /// The textures and other properties of the face's material; null if its material is not used.
     const MaterialLook* look(Index face) const { return primitive(face).look; }
     /// Whether the face's material has holes or blends, so that the face does not fully cover faces behind
     /// it.

@@ -18,8 +18,9 @@ namespace facetmill {
 
 namespace {
 
-constexpr int band_rows = 32;                       ///< of samples, developed by one thread
-constexpr std::size_t large = std::size_t{1} << 14; ///< samples of a triangle that several threads draw
+constexpr int band_rows = 32; ///< of samples, developed by one thread
+constexpr std::size_t large = std::size_t{1}
+                              << 14; ///< triangles with more samples are drawn by several threads
 
 SampleBox samples_around(const std::array<Vec3, 3>& p, int first, int last, int width) {
     return samples_around(p[0], p[1], p[2], first, last, width);
@@ -52,7 +53,7 @@ std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, in
     return bands;
 }
 
-/// A red ring with a white rim around a place of the picture, in pixels.
+/// Draws a red ring with a white rim around a position in pixels.
 void draw_ring(Picture& picture, double x, double y) {
     const double radius = std::max(6.0, picture.width / 60.0);
     constexpr double line = 1.5, rim = 2.5;
@@ -74,7 +75,7 @@ void draw_ring(Picture& picture, double x, double y) {
         }
 }
 
-/// One picture on its way.
+/// A picture in progress.
 class PictureDrawing {
   public:
     PictureDrawing(const Scene& scene, const PictureSettings& settings, const ValueRange& range)
@@ -117,7 +118,7 @@ class PictureDrawing {
 
     using Faces = std::vector<Index>;
 
-    /// The small triangles side by side, then each of the large ones band by band.
+    /// Draws the small triangles in parallel, then each large triangle in parallel bands.
     void draw_part(const PartDrawing& part) {
         std::vector<SamplesAt> at(part.mesh().vertex_count());
         parallel_for(at.size(),
@@ -189,7 +190,7 @@ class PictureDrawing {
         return true;
     }
 
-    /// Its samples in the box, unless it blends.
+    /// Draws the triangle's samples in the box, unless it blends.
     void draw_face(const PartDrawing& part, Index face, const std::array<Vec3, 3>& corners,
                    const SampleBox& box) {
         const CanvasTriangle t(corners);
@@ -351,7 +352,7 @@ class PictureDrawing {
         return false;
     }
 
-    /// The mean of the samples that are covered, and how much is.
+    /// Stores the mean of the covered samples, with their share as alpha.
     static void store(const Texel& sum, std::uint8_t* to) {
         if (!(sum[3] > 0)) return;
         for (std::size_t c = 0; c < 3; ++c) to[c] = srgb_of(sum[c] / sum[3]);
