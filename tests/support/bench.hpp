@@ -1,5 +1,5 @@
 #pragma once
-// Single stages one after the other, with a directory for what they read and write.
+// Runs single stages one after the other, with a directory for their files.
 
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"

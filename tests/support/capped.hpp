@@ -6,7 +6,7 @@
 
 namespace facetmill::test {
 
-/// The part of an icosphere above z = 0.2, with a cap there.
+/// The part of an icosphere above z = 0.2, with a cap on the cut.
 inline Scene capped_sphere() {
     return run_stage("clip", "{plane: z=0.2, cap: true}", scene_of(shapes::icosphere(3))).scene;
 }

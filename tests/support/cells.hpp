@@ -10,7 +10,7 @@
 
 namespace facetmill::test {
 
-/// All cells as one.
+/// All cells, merged into a mesh.
 Mesh rejoined(const cells::Partition& partition);
 
 /// The faces of a triangle mesh as sorted triples of positions, which say nothing of numbers and order.

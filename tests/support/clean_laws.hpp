@@ -1,5 +1,5 @@
 #pragma once
-// What clean promises for any mesh, checked in the plainest way.
+// The guarantees of clean for any mesh, checked in the plainest way.
 
 #include "support/catch.hpp"
 #include "support/measure.hpp"
@@ -19,7 +19,7 @@
 
 namespace facetmill::test {
 
-/// Of what was united: it is closed, edge-manifold, and crosses nothing.
+/// Checks a union: closed, edge-manifold and without intersections.
 inline void check_solid(const Mesh& mesh) {
     CHECK(broken_invariants(mesh) == std::vector<std::string>{});
     CHECK(closed(mesh));

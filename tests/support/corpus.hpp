@@ -1,5 +1,5 @@
 #pragma once
-// A folder of real, hard and malformed files, when FACETMILL_CORPUS names one.
+// A folder of real, hard and malformed files, given by FACETMILL_CORPUS.
 
 #include "io/codec.hpp"
 #include "support/catch.hpp"
@@ -38,7 +38,7 @@ inline Scene read_or_nothing(const std::filesystem::path& file) {
     }
 }
 
-/// How many cuts of each mesh FACETMILL_CORPUS_PLANES asks for; 6 unless it is set.
+/// The number of cuts per mesh (FACETMILL_CORPUS_PLANES); 6 by default.
 inline std::uint64_t corpus_planes() {
     const char* planes = std::getenv("FACETMILL_CORPUS_PLANES");
     return planes ? static_cast<std::uint64_t>(std::atoi(planes)) : 6;

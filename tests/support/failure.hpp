@@ -1,5 +1,5 @@
 #pragma once
-// What an operation refuses with, whole: "malformed [E-PLY] a.ply:3: message | hint".
+// The full text of an error: "malformed [E-PLY] a.ply:3: message | hint".
 
 #include "base/error.hpp"
 

@@ -10,7 +10,7 @@ namespace facetmill::test {
 
 struct Heard : Progress {
     std::vector<double> shares;                        ///< since the last stage began
-    std::map<std::string, std::vector<double>> before; ///< of what ended, by its name
+    std::map<std::string, std::vector<double>> before; ///< durations of finished tasks, by name
     std::string now;
 
     void stage(int, int, const std::string& name) override { begin(name); }
@@ -19,7 +19,7 @@ struct Heard : Progress {
     void done() override { begin({}); }
 
     double last() const { return shares.empty() ? -1 : shares.back(); }
-    /// How often less was told than before.
+    /// The number of times that the progress decreased.
     std::size_t falls() const {
         std::size_t count = 0;
         for (std::size_t i = 1; i < shares.size(); ++i) count += shares[i] < shares[i - 1];

@@ -21,7 +21,8 @@ inline std::string png_chunk(const std::string& name, const std::string& data) {
            png_word(static_cast<std::uint32_t>(sum));
 }
 
-/// A PNG. rows: each with its filter before it; level: of zlib; more: chunks before those of pixels.
+/// A PNG. rows: pixel rows, each after its filter byte. level: the compression level of zlib. more: chunks
+/// before the pixel data.
 inline std::string png_of_rows(std::uint32_t width, std::uint32_t height, char bits, char colour_type,
                                const std::string& rows, int level = -1, const std::string& more = {}) {
     uLongf size = ::compressBound(static_cast<uLong>(rows.size()));

@@ -1,5 +1,5 @@
 #pragma once
-// Plain, slow measurements of meshes, independent of what they test.
+// Plain, slow measurements of meshes, independent of the tested code.
 
 #include "mesh/mesh.hpp"
 #include "mesh/scene.hpp"
@@ -65,7 +65,7 @@ inline long euler(const Mesh& mesh) {
            static_cast<long>(mesh.face_count());
 }
 
-/// Of all parts, each in its own space.
+/// The sum over all parts, each in its own space.
 inline double area(const Scene& scene) {
     double sum = 0;
     for (const Part& part : scene.parts) sum += area(part.mesh);

@@ -54,13 +54,13 @@ inline Mesh noisy_icosphere(int levels, double amount, std::uint64_t seed) {
     return with_radial_noise(shapes::icosphere(levels), amount, seed);
 }
 
-/// Closed, genus 1; for amounts that are small beside its cells without self-intersections.
+/// Closed, genus 1. Has no self-intersections if the amount is small compared with its cells.
 inline Mesh noisy_torus(int segments, int rings, double amount, std::uint64_t seed) {
     return test::with_noise(shapes::torus(segments, rings), amount, seed);
 }
 
-/// The same surface with wedges: TEXCOORD_0 with seams (each of `charts` slabs along x is a chart of its own,
-/// so that vertices where slabs meet have several wedges) and a smooth NORMAL.
+/// The same surface with wedges: TEXCOORD_0 with seams, and a smooth NORMAL. Each of `charts` slabs along x
+/// is a separate chart, so that vertices between slabs have several wedges.
 inline Mesh with_uv_seams(const Mesh& mesh, int charts = 3) {
     const Box box = mesh.bounds();
     const auto chart_of = [&](Index f) {

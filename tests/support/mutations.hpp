@@ -51,8 +51,7 @@ inline io::Bytes mutated(io::Bytes bytes, std::uint64_t seed) {
     return bytes;
 }
 
-/// Reads the bytes as that file: empty when that gives a sound scene or one of the errors that readers may
-/// throw, else what went wrong.
+/// Reads the bytes as that file. Returns the fault, or an empty text for a sound scene or an allowed error.
 inline std::string trouble_reading(const std::string& name, io::Bytes bytes) {
     try {
         io::ReadLog log;

@@ -23,7 +23,7 @@ inline Planned planned(const std::string& text, pipeline::PlanSettings settings 
     return out;
 }
 
-/// The same with the two lines that every pipeline begins with, the stages being indented.
+/// The same after the two lines that begin every pipeline. The stages must be indented.
 inline Planned planned_stages(const std::string& stages, pipeline::PlanSettings settings = {}) {
     return planned("facetmill: 1\nstages:\n" + stages, std::move(settings));
 }

@@ -89,7 +89,7 @@ inline Mesh damaged_faces(const Mesh& mesh, Draw& draw) {
     return result;
 }
 
-/// A number of any size, often one of those at which arithmetic ends.
+/// A number of any magnitude, often at a limit of arithmetic.
 inline double extreme_number(Draw& draw) {
     static const std::vector<double> all{0,   -0.0, 1,    -1,   1e-308, 5e-324, 1e-160, 1e-30,   1e-7,
                                          1e7, 1e15, 3e38, 4e38, 1e150,  1e160,  1e300,  1.7e308, -1.7e308};

@@ -30,7 +30,7 @@ inline const StageInfo& stage_for_test(std::string_view name) {
     return *stage;
 }
 
-/// The stage with the options that the value gives; what is wrong with it goes to problems.
+/// The stage with the given options. Adds their errors to problems.
 inline std::shared_ptr<Stage> use_of(const StageInfo& info, const Value& value, Problems& problems) {
     auto stage = info.made();
     info.options->parse(value, stage->target(), info.name, problems);
@@ -98,8 +98,8 @@ inline Value options(std::vector<std::pair<std::string, std::string>> pairs) {
     return map;
 }
 
-/// What a stage says when it refuses the options, without the place in their text, which is checked by the
-/// tests of the document.
+/// The error of a stage that refuses its options, without the position in the text. The tests of the
+/// document check positions.
 inline std::string refusal_of(const char* stage, const std::string& options, Scene scene) {
     std::string text = failure([&] { run_stage(stage, options, std::move(scene)); });
     const auto place = text.find("test.yaml:");

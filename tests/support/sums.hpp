@@ -1,5 +1,5 @@
 #pragma once
-// Volumes and areas with hardly any rounding: what is tested is what was cut, not the sum.
+// Volumes and areas with hardly any rounding, so that tests measure the cut and not the summation.
 
 #include "mesh/mesh.hpp"
 

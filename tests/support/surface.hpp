@@ -1,5 +1,5 @@
 #pragma once
-// What tests ask of a surface, counted in the plainest way.
+// Properties of a surface that tests need, counted in the plainest way.
 
 #include "parallel/parallel.hpp"
 #include "support/measure.hpp"
@@ -47,7 +47,8 @@ inline Counts count(const Mesh& m) {
         counts.crowded += c.first > 2;
         counts.unbalanced += c.second != 0;
     }
-    for (auto& [v, link] : links) { // merge the link's edges until nothing joins: what is left are the fans
+    for (auto& [v, link] :
+         links) { // merge the link's edges until no two can be joined; the remaining chains are the fans
         std::map<Index, Index> root;
         const auto find = [&](Index x) {
             while (root[x] != x) x = root[x];
@@ -70,7 +71,7 @@ inline Counts count(const Mesh& m) {
 /// Closed, manifold, without doubled or flat faces, and of that Euler number.
 inline bool sound(const Mesh& m, std::int64_t euler) { return count(m) == Counts{euler}; }
 
-/// The same arrays, bit for bit as far as == tells.
+/// Whether all arrays are equal by ==.
 inline bool same(const Mesh& a, const Mesh& b) {
     if (a.attributes.size() != b.attributes.size()) return false;
     for (std::size_t i = 0; i < a.attributes.size(); ++i)
@@ -93,8 +94,7 @@ bool same_for_any_threads(Make&& make) {
     return same(one, two) && same(one, three);
 }
 
-/// A wedge attribute with the coordinates of each vertex, so that interpolation can be told from the
-/// positions.
+/// Adds a wedge attribute with the vertex coordinates, to compare interpolated values with positions.
 inline void add_coordinates(Mesh& m) {
     Attribute a;
     a.name = "coordinates";
