@@ -12,7 +12,7 @@ using namespace facetmill::batch;
 
 namespace {
 
-/// What ran, and how much of it at a time.
+/// The jobs that ran, and how many ran at the same time.
 struct Trace {
     std::mutex guard;
     std::vector<std::size_t> begun;
@@ -49,7 +49,7 @@ std::vector<Job> jobs_of(std::vector<std::uint64_t> memory) {
     return jobs;
 }
 
-/// The program sets the limit of all arenas before it makes one.
+/// Limits the threads of all arenas before any is made, as the program does.
 struct Threads {
     explicit Threads(int count) { set_threads(count); }
     ~Threads() { set_threads(0); }

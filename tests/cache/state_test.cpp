@@ -1,4 +1,4 @@
-// What is stored of a scene comes back with every member of it.
+// A stored scene is restored with all its members.
 
 #include "support/catch.hpp"
 

@@ -127,7 +127,7 @@ TEST_CASE("a stage typed as a command is answered with the same words for pipe",
     CHECK(meant({"section", "a.stl", "z=0", "o.svg"}) == "load a.stl ! section z=0 --path o.svg");
     CHECK(meant({"generate", "sphere"}) == "generate sphere ! write OUT");
     CHECK(meant({"simplify", "a.ply", "--reduction", "0.9"}) ==
-          "load a.ply ! simplify --reduction 0.9 ! write OUT"); // pipe says what it is here
+          "load a.ply ! simplify --reduction 0.9 ! write OUT"); // pipe explains the option
     CHECK(meant({"write"}) == "load IN ! write ...");
     CHECK(meant({"write", "a.ply", "b.glb"}) == "load a.ply ! write b.glb");
     CHECK(meant({"load", "a.ply", "b.glb"}) == "load a.ply b.glb ! write OUT");

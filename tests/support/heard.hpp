@@ -1,5 +1,5 @@
 #pragma once
-// Who listens to how far a run is, and remembers all.
+// Records all progress reports.
 
 #include "base/progress.hpp"
 
@@ -9,8 +9,8 @@
 namespace facetmill::test {
 
 struct Heard : Progress {
-    std::vector<double> shares;                        ///< since the last stage began
-    std::map<std::string, std::vector<double>> before; ///< durations of finished tasks, by name
+    std::vector<double> shares;                        ///< of the current stage
+    std::map<std::string, std::vector<double>> before; ///< of finished stages, by name
     std::string now;
 
     void stage(int, int, const std::string& name) override { begin(name); }

@@ -165,11 +165,11 @@ TEST_CASE("inputs that are as they were are not read for their digests", "[cells
         REQUIRE(again.told.size() == 2);
         CHECK(again.told[0].find("cells reused from") != std::string::npos);
         CHECK(is_same(again.result, first.result));
-        stamp(std::string(64, '0')); // it is believed, and then told by those who read
+        stamp(std::string(64, '0')); // the stamp is trusted; later readers report the difference
         again = run_kept(path, kept);
         REQUIRE(again.told.size() >= 1);
         CHECK(again.told[0].find("of other inputs: they are made again") != std::string::npos);
-        again = run_kept(path, kept); // the file was read, so its digest is known again
+        again = run_kept(path, kept); // the file was read, so its digest is stored again
         REQUIRE(again.told.size() == 2);
         CHECK(again.told[0].find("cells reused from") != std::string::npos);
         CHECK(is_same(again.result, first.result));

@@ -56,8 +56,8 @@ Mesh on_a_lattice(Mesh mesh) {
     return mesh;
 }
 
-/// Few scars on a closed surface: holes, faces repeated and turned, faces without area, vertices in the
-/// middle of one side of an edge, faces apart from their neighbours, faces through the mesh.
+/// Adds a few defects to a closed surface: holes, repeated and reversed faces, faces without area, split
+/// edges, separate faces and intersecting faces.
 Mesh scarred(unsigned seed, unsigned rarely) {
     const Mesh whole = on_a_lattice(test::noisy_icosphere(4, 0.02, seed));
     Mesh mesh;

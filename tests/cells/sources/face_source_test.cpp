@@ -50,7 +50,7 @@ Mesh read_in_cells(const std::vector<std::filesystem::path>& paths, std::uint64_
     return test::rejoined(partition);
 }
 
-/// What reading it in memory, and in cells, ends with: the id and the line.
+/// The error of reading in memory or in cells: the id and the line.
 std::string failure_of(const std::filesystem::path& path, bool cells) {
     try {
         if (cells)
@@ -64,7 +64,7 @@ std::string failure_of(const std::filesystem::path& path, bool cells) {
     return "none";
 }
 
-/// A closed mesh with polygons of three to five corners, whose numbers are those of floats.
+/// A closed mesh with polygons of three to five corners, whose coordinates are exact as float32.
 Mesh polygons() {
     Mesh mesh = test::noisy_icosphere(4, 0.01, 7);
     for (Vec3& p : mesh.positions) p = {double(float(p.x)), double(float(p.y)), double(float(p.z))};

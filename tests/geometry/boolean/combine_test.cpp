@@ -85,7 +85,7 @@ bool expected(Operation operation, bool a, bool b) {
     return a && b;
 }
 
-/// The volume of what b, moved by so many half cubes, makes of a.
+/// The volume of the result if b is moved by this many half cubes.
 double volume_of_voxels(const Voxels& a, const Voxels& b, int moved_by, Operation operation) {
     double eighths = 0;
     const auto cell = [](int x) { return x >= 0 ? x / 2 : -1; };
@@ -156,7 +156,7 @@ TEST_CASE("combine hollows solids and opens cavities", "[geometry][combine]") {
     const double inside = test::volume(combined(bar, hollow, Operation::intersect));
     CHECK(test::volume(combined(hollow, bar, Operation::subtract)) == Approx(test::volume(hollow) - inside));
     CHECK(test::euler(combined(hollow, bar, Operation::subtract)) == 0); // two openings: a torus
-    // What is taken away may have a cavity: what was in it stays.
+    // A subtracted solid may have a cavity, whose contents stay.
     CHECK(test::volume(combined(ball, hollow, Operation::subtract)) == Approx(test::volume(core)));
 }
 

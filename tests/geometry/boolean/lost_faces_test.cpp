@@ -1,5 +1,5 @@
-// What bounds nothing of a result, told before anything is cut: against distances, and against results of
-// solids that pass through themselves where that does not matter.
+// Checks the detection of faces that cannot bound the result. Compares with distances, and with results for
+// solids that pass through themselves without effect.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/measure.hpp"
@@ -120,7 +120,7 @@ TEST_CASE("solids may pass through themselves where they are lost", "[geometry][
 
 TEST_CASE("what winds less than zero times takes nothing away from another part",
           "[geometry][combine][lost]") {
-    // Below its waist this ball is turned over, so it winds -1 times around what is there.
+    // Below its waist this ball is inverted, so the winding number is -1 there.
     Mesh turned = ball(4, {}, 1);
     for (Vec3& p : turned.positions) p.x *= p.z + 0.63;
     Mesh other = shapes::cube(); // around the lower part

@@ -72,7 +72,7 @@ TEST_CASE("every case with corners on the plane", "[geometry]") {
     ClipSettings drop = at_plane({{1, 0, 0}, {}, 0});
     drop.coplanar = Coplanar::drop;
     CHECK(clip(triangle(0, 0, 0), drop).front.face_count() == 0);
-    drop.keep = Keep::both; // neither side keeps what is dropped
+    drop.keep = Keep::both; // neither side keeps dropped faces
     const ClipResult both = clip(triangle(0, 0, 0), drop);
     CHECK(both.front.face_count() + both.back.face_count() == 0);
     drop.coplanar = Coplanar::keep;
@@ -339,7 +339,7 @@ TEST_CASE("a plane through computed vertices cuts no slivers off at them", "[geo
     const Mesh grid = computed_grid(10);
     ClipSettings settings = at_plane({{1, 1, 0}, {0.2, 0, 0}, 0});
     const ClipResult pure = clip(grid, settings);
-    REQUIRE(pure.cut_faces > 18); // vertices lie beside the plane, by rounding
+    REQUIRE(pure.cut_faces > 18); // vertices are slightly off the plane because of rounding
     settings.snap = true;
     const ClipResult snapped = clip(grid, settings);
     CHECK(snapped.snapped > 0);

@@ -124,7 +124,7 @@ TEST_CASE("a mask and a fixed boundary tear no unwelded copies apart", "[geometr
         for (Index c = 0; c < whole.corner_count(); ++c) CHECK(a.point(c) == b.point(c));
     };
     const CrumpleResult a = crumple(whole, s), b = crumple(loose, s);
-    same(a.mesh, b.mesh); // the boundary is that of the surface, not of every face
+    same(a.mesh, b.mesh); // the boundary of the surface counts, not the boundary of every face
     CHECK(a.moved == 25);
     s.boundary = Boundary::free;
     s.mask.assign(loose.vertex_count(), 1);

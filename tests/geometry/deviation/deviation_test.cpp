@@ -160,7 +160,7 @@ TEST_CASE("the bound of each way is at least the maximum of both", "[geometry]")
 }
 
 TEST_CASE("little work is enough for a bound where little of a surface is far", "[geometry]") {
-    // A large triangle is near many small ones, and parts of it are cut again before those of the next.
+    // A large triangle is near many small triangles, and its pieces are cut again before the next triangle.
     const Surface coarse = surface_of(test::noisy_icosphere(3, 0.004, 2)),
                   fine = surface_of(test::noisy_icosphere(6, 0.004, 1));
     const auto d = deviation_to(coarse, FaceTree(fine), {.certify = true, .certify_work = 400});
@@ -313,7 +313,7 @@ TEST_CASE("isolated vertices are those without faces, in the world", "[geometry]
 
 namespace {
 
-/// What a deviation is by its definition, each point by itself.
+/// The deviation by definition, computed for each point separately.
 struct Plain {
     double maximum = 0, rms = 0, mean = 0;
 };
@@ -463,8 +463,8 @@ TEST_CASE("figures keep their digits at any size", "[geometry]") {
 }
 
 TEST_CASE("slivers that lie askew and meet in one place are measured as others are", "[geometry]") {
-    // A cone of 3,000 slivers from its apex against one of 300. The larger one is farther out everywhere, by
-    // what the chords of the base cut off.
+    // A cone of 3,000 slivers from its apex, compared with a cone of 300. The first is farther out
+    // everywhere, because the chords of its base are shorter.
     const auto cone = [](std::size_t sides) {
         Surface s;
         s.positions.push_back({0, 0, 1});

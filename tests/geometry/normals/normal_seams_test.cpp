@@ -46,7 +46,7 @@ double worst_facing(const Mesh& m) {
     return worst;
 }
 
-/// A prism around the z axis, open at both ends; smooth all around but for a seam at every edge.
+/// A prism around the z axis, open at both ends; smooth all around except for a seam at every edge.
 Mesh prism(int sides, double turn_of_normals) {
     Mesh m;
     for (int i = 0; i < sides; ++i)

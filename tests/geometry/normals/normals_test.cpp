@@ -15,7 +15,7 @@ Vec3 normal_of(const Mesh& m, Index w) {
     return {a.value(w, 0), a.value(w, 1), a.value(w, 2)};
 }
 
-/// The largest distance between a corner's normal and that of its face.
+/// The largest distance between a corner's normal and its face's normal.
 double worst_against_faces(const Mesh& m) {
     double worst = 0;
     for (Index f = 0; f < m.face_count(); ++f) {

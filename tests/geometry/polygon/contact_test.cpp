@@ -194,7 +194,7 @@ TEST_CASE("how large stars and combs meet themselves, one corner moved", "[geome
     }
 }
 
-// Of which nearly all pairs of edges have boxes that meet.
+// The boxes of nearly all pairs of edges overlap.
 TEST_CASE("a star and a comb of 100,000 corners are seen through at once", "[geometry]") {
     Points star, comb;
     for (int i = 0; i < 100'000; ++i) {

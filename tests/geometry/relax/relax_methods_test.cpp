@@ -180,7 +180,7 @@ TEST_CASE("morph targets are relaxed as the surfaces they stand for", "[geometry
 TEST_CASE("degenerate and non-manifold places give numbers", "[geometry]") {
     Mesh mesh = shapes::icosphere(1);
     mesh.positions.push_back({9, 9, 9});                       // of no face
-    mesh.positions.insert(mesh.positions.end(), 3, {5, 5, 5}); // a face in one place
+    mesh.positions.insert(mesh.positions.end(), 3, {5, 5, 5}); // a face with all corners at the same position
     const Index n = 43;
     mesh.corners.insert(mesh.corners.end(), {0, 0, 1, 2, 2, 2, 0, 1, 5, n, n + 1, n + 2, 3, 4, 42});
     for (const Method method : every_method)

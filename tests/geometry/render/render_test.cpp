@@ -28,7 +28,7 @@ std::size_t covered(const Picture& picture) {
     return count;
 }
 
-/// Whether the surface's inner side is seen there: more red than blue, by far.
+/// Whether the pixel shows the inner side: far more red than blue.
 bool inner(const Pixel& p) { return p.r > p.b + 60; }
 
 } // namespace
@@ -89,7 +89,7 @@ int shade(double cosine) {
     return static_cast<int>(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055) + 0.5);
 }
 
-/// Width and height of what is covered.
+/// The width and height of the covered pixels.
 std::pair<int, int> size_of(const Picture& picture) {
     int left = picture.width, right = -1, top = picture.height, bottom = -1;
     for (int y = 0; y < picture.height; ++y)
@@ -171,7 +171,7 @@ TEST_CASE("a box has its sides where the viewer stands", "[geometry]") {
     scene.up = UpAxis::y;
     CHECK(size(Viewpoint::front) == Size{920, 400});
     CHECK(picture_of(scene, seen_from({0, 0, 5})).scale == Approx(92.0 / 4.6));
-    // Left and right are told apart: a square beside the box on the right is seen on the right.
+    // Left and right are not swapped: a square to the right of the box appears on the right.
     Scene two = square();
     two.up = UpAxis::y;
     two.parts[0].mesh.positions[2] = two.parts[0].mesh.positions[1] = {1, 0.5, 0};
@@ -362,7 +362,7 @@ TEST_CASE("folds are darker than planes", "[geometry]") {
         for (const int y : {47, 53}) CHECK(red_at(true, y) < red_at(false, y) - 5);  // at the fold
         for (const int y : {25, 75}) CHECK(red_at(true, y) >= red_at(false, y) - 1); // far from it
     }
-    // A plane hides nothing of itself, however it stands.
+    // A plane does not occlude itself, whatever its orientation.
     PictureSettings steep = seen_from({0.2, 3, 1});
     const Picture with = picture_of(square(), steep);
     steep.occlusion = false;
@@ -568,7 +568,7 @@ TEST_CASE("lines and points without a colour are seen on white and on black", "[
     const auto contrast = [&](float ground) {
         settings.ground = {ground, ground, ground};
         const Picture picture = picture_of(scene, settings);
-        float best = 0; // of the pixels that are not ground: those that are covered whole
+        float best = 0; // only fully covered pixels, not the background
         for (int y = 0; y < 100; ++y)
             for (int x = 0; x < 100; ++x) {
                 const Pixel p = at(picture, x, y), there = at(picture, 0, 0);

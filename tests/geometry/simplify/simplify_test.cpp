@@ -452,7 +452,7 @@ TEST_CASE("levels of detail are one chain", "[geometry]") {
         CHECK(levels[i].largest_error >= levels[i - 1].largest_error);
         CHECK(levels[i].collapses == 2562 - levels[i].vertices_after);
     }
-    // The first level is what a run of its own gives.
+    // The first level equals the result of a separate run.
     CHECK(test::same(levels[1].mesh, simplify(m, {.ratio = 0.5}).mesh));
     CHECK(simplify_levels(shapes::cube(), at_levels({0.5, 0.25}))[1].stop == Stop::stuck);
     CHECK(test::failure([] {
@@ -506,7 +506,7 @@ TEST_CASE("the constrained method keeps its constraints, seams and guarantees", 
     const Mesh m = rough(shapes::icosphere(3), 0.005);
     const auto r = simplify(m, {.method = Method::constrained, .ratio = 0.2});
     CHECK(r.stop == Stop::ratio);
-    CHECK_FALSE(r.largest_error); // OpenMesh does not tell it
+    CHECK_FALSE(r.largest_error); // OpenMesh does not report it
     CHECK(sound(r.mesh, 2));
     CHECK(broken_invariants(r.mesh).empty());
     const auto near =

@@ -145,7 +145,7 @@ TEST_CASE("triangles far away from the others change no distance", "[geometry]")
     }
     for (const FaceTree& tree : trees_of(surface)) {
         const auto found = closest_points(tree, points);
-        for (std::size_t i = 0; i < points.size(); ++i) // as well as the coordinates of a point tell
+        for (std::size_t i = 0; i < points.size(); ++i) // within the accuracy of a point's coordinates
             REQUIRE(found[i].distance ==
                     Approx(distance_by_trial(surface, points[i])).epsilon(1e-14).margin(4e-15 * (1 + far)));
     }

@@ -22,7 +22,7 @@ Lines path(const std::vector<Vec3>& points, bool closed = false) {
     return lines;
 }
 
-/// Of a regular polygon.
+/// The area of a regular polygon.
 double section_area(double thickness, int sides) {
     return sides * std::sin(2 * pi / sides) / 2 * thickness * thickness / 4;
 }
@@ -67,7 +67,7 @@ TEST_CASE("a closed line becomes a ring, planar or not", "[geometry]") {
     check_sound(square.mesh, 0);
     CHECK(*inspect(square.mesh).volume == Approx(16 * section_area(0.5, 8)));
     CHECK_FALSE(square.mesh.all_triangles());
-    // A knot that comes back turned: what is left over is taken up along the way.
+    // A knot whose frame returns rotated: the remaining rotation is spread along the way.
     std::vector<Vec3> knot;
     for (int i = 0; i < 200; ++i) {
         const double t = 2 * pi * i / 200;
