@@ -77,7 +77,8 @@ TEST_CASE("every text mesh of the corpus is read with its counts, or refused whe
         if (row.path == "off/whitespace.off")
             continue; // the manifest's reader takes "OFF8 6 12" for its counts
         if (row.faces >= 0) CHECK(scene.face_count() == static_cast<std::size_t>(row.faces));
-        // The manifest counts three vertices a triangle for STL, and only what faces use for some others.
+        // The manifest counts three vertices per triangle for STL, and for some other files only the used
+        // vertices.
         if (suffix != ".stl" && row.vertices >= 0) CHECK(vertices >= static_cast<std::size_t>(row.vertices));
     }
 }

@@ -116,7 +116,7 @@ TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
     const Loaded alone = load("a.ply", head + edges + "end_header\n" + rows + "3 1\n1 0\n", false);
     REQUIRE(alone.scene.parts.size() == 2);
     CHECK(broken_invariants(alone.scene).empty());
-    const Mesh& points = alone.scene.parts[0].mesh; // what no line uses
+    const Mesh& points = alone.scene.parts[0].mesh; // vertices that no line uses
     CHECK(points.positions == std::vector<Vec3>{Vec3{0, 1, 0}, Vec3{6, 6, 6}});
     CHECK(points.find("heat", Domain::wedge)->value(1, 0) == 5);
     CHECK(alone.scene.parts[1].name == "lines");

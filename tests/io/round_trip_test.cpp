@@ -207,7 +207,8 @@ TEST_CASE("a binary STL of many triangles is welded the same by any number of th
             next = std::max(next, read.corners[c] + 1);
         }
         CHECK(same);
-        CHECK(std::signbit(read.point(static_cast<Index>(first_zero)).z)); // of the first corner there
+        CHECK(std::signbit(
+            read.point(static_cast<Index>(first_zero)).z)); // the sign of the first corner at this position
         const Attribute* extra = read.find("attribute", Domain::face);
         REQUIRE(extra);
         CHECK(extra->value(faces - 1, 0) == 7);

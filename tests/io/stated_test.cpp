@@ -1,4 +1,4 @@
-// What files of formats without a unit and an up axis tell of them in comments.
+// Units and up axes in the comments of formats that cannot state them otherwise.
 #include "io/stated.hpp"
 
 #include "mesh/shapes.hpp"

@@ -596,7 +596,7 @@ TEST_CASE("a diagnostic names the input unless it does already", "[pipeline]") {
 
 namespace {
 
-/// The arms of a foreach over the param `lods`, or what is wrong.
+/// The arms of a foreach over the param `lods`, or the error.
 std::string arms_of(const std::string& param, PlanSettings settings = {}) {
     return outline_of(
         "facetmill: 1\nparams: {lods: " + param +

@@ -1,4 +1,5 @@
-// What clean promises, over made-up meshes, and over a corpus of real ones when FACETMILL_CORPUS names it.
+// Checks the guarantees of clean on generated meshes, and on a corpus of real meshes if FACETMILL_CORPUS is
+// set.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/corpus.hpp"

@@ -79,8 +79,8 @@ ClipSettings both_sides(const Plane& plane) {
     return settings;
 }
 
-/// Rounding moves each cut vertex by a few units in the last place of the box; areas and volumes of these
-/// bodies, all within a few units of the origin, follow by no more than this.
+/// Rounding moves each cut vertex by a few units in the last place of the box. These bodies are within a few
+/// units of the origin, so areas and volumes change by no more than this.
 constexpr double rounding = 1e-12;
 
 void check_law(const std::string& name, const Mesh& mesh, const Plane& plane) {

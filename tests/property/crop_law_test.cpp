@@ -36,8 +36,8 @@ std::vector<Vec2> star(const Vec2& centre, const Vec2& radius, int points, doubl
     return ring;
 }
 
-/// A star with a hole and an island beside it; every third stands on vertices of the mesh, every third is a
-/// rectangle along the axes through two vertices, with straight corners on its sides.
+/// A star with a hole, and an island next to it. Every third has corners on vertices of the mesh. Every
+/// third is an axis-aligned rectangle through two vertices, with straight corners on its sides.
 Rings some_outline(std::uint64_t key, const Mesh& mesh, const Box& box, std::size_t axis) {
     const Vec2 low = seen_along(axis, box.min), extent = seen_along(axis, box.extent());
     const auto at = [&](double u, double v) { return low + Vec2{u * extent.x, v * extent.y}; };
@@ -72,8 +72,8 @@ CropResult cropped(const Mesh& mesh, const Footprint& footprint, std::size_t axi
     return crop(mesh, footprint, settings);
 }
 
-/// The walls of the inside, each turned, are those of the outside; but for triangles between points at one
-/// place.
+/// Whether the reversed walls of the inside are the walls of the outside, except for triangles between
+/// coincident points.
 bool walls_match(const CropResult& in, const CropResult& out) {
     const auto walls = [](const CropResult& r, bool turned) {
         std::vector<std::array<std::array<double, 3>, 3>> all;

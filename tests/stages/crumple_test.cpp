@@ -131,7 +131,7 @@ TEST_CASE("crumple: forbid names faces of the input and a place on them", "[stag
     CHECK((two || std::sscanf(text.c_str() + at, one, &found, &a, &x, &y, &z) == 5));
     CHECK(a < 6);
     CHECK((!two || b < 6));
-    double far = 0; // from the plane of the face that is named
+    double far = 0; // from the plane of the given face
     for (Index c = cube.face_begin(a); c < cube.face_end(a); ++c)
         far = std::max(far, length(cube.point(c) - Vec3{x, y, z}));
     CHECK(far < std::sqrt(2.0));

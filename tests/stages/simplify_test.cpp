@@ -82,7 +82,7 @@ Scene halves() {
     return scene;
 }
 
-/// All parts as one, with vertices at the same place joined.
+/// All parts merged, with vertices at the same position welded.
 test::Counts welded(const Scene& scene) {
     Mesh all;
     for (const Part& part : scene.parts) append(all, part.mesh);
@@ -115,7 +115,8 @@ TEST_CASE("simplify: borders of parts that touch stay matched", "[stages]") {
 TEST_CASE("simplify: where only one of two parts that touch is simplified, the border stays", "[stages]") {
     Scene scene = halves();
     Scene only = scene;
-    only.parts[1].transform.m[0][3] = 0x1p-60; // another node, at the same place as far as doubles tell
+    only.parts[1].transform.m[0][3] =
+        0x1p-60; // another node, at the same position within the accuracy of doubles
     const auto apart = run_stage("simplify", "10%", only);
     CHECK(welded(apart.scene).open == 0);
     CHECK_FALSE(apart.record.result["parts"][0].contains("joint_with"));
@@ -390,7 +391,7 @@ std::size_t faces_of(const test::StageRun& r, std::size_t part) {
     return r.scene.parts[part].mesh.face_count();
 }
 
-/// A sphere and a flat sheet beside it.
+/// A sphere and a flat sheet next to it.
 Scene sphere_and_sheet() {
     Scene scene = scene_of(shapes::icosphere(3));           // 1280 triangles
     scene.parts.push_back({"sheet", shapes::grid(16, 16)}); // 512
@@ -522,7 +523,7 @@ TEST_CASE("simplify: separate boxes do not become slivers, and one warning tells
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-LIMIT"});
     CHECK(r.record.warnings[0].message.starts_with(
         "20 parts, the first part 'box0', stopped at 240 of 240 triangles, above the target"));
-    // What is flat goes all the same.
+    // Flat parts are still simplified.
     scene.parts.push_back({"sheet", shapes::grid(16, 16)});
     scene.parts.back().transform.m[1][3] = 4;
     const auto more = run_stage("simplify", "50%", scene);

@@ -56,7 +56,8 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
     CHECK(failure([&] {
               run_stage("transform", "{fit: 50% of load}", block());
           }).starts_with("stage [E-TRANSFORM]")); // nothing was loaded, which has no diagonal
-    // What the other moves made is what is to fit; a flat part has one side that fits in any case.
+    // fit applies to the result of the other moves. A flat part has a single dimension that fits in any
+    // case.
     check_box(box_after("{scale: [8, 1, 1], rotate: {axis: [0, 1, 0], angle: 90}, fit: 2}", block()),
               {0, 0, -6}, {1, 0.5, -4});
     CHECK(run_stage("transform", "{fit: 6}", scene_of(shapes::grid(2, 3))).record.result["fit_factor"] == 2);

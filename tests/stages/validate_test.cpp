@@ -88,7 +88,7 @@ TEST_CASE("closed means Euler number 2 only for genus 0 with one component", "[s
     append(three, shapes::torus(9, 7));
     CHECK(judged("{closed: true, euler: 4, genus: 1, components: 3}", three) == "");
     CHECK(judged("{closed: true, euler: 2}", three) == "euler: 2, found 4");
-    // And an open surface can have it: a sphere with a piece taken out and an isolated patch put beside.
+    // Open surfaces can have it too: a sphere with a missing face and an isolated patch next to it.
     Mesh open = shapes::icosphere(1);
     open.corners.resize(open.corners.size() - 3);
     append(open, shapes::grid(1, 1));
@@ -105,7 +105,7 @@ TEST_CASE("validate names the locations that speak against a property", "[stages
     CHECK(evidence[0]["at"].size() == 3);
     CHECK(evidence[0]["edges"] == 3);
     CHECK(evidence[0]["length"] == Approx(2 + std::sqrt(2.0)));
-    Mesh third = shapes::cube(); // an edge with three faces and no open edge but those of the third face
+    Mesh third = shapes::cube(); // an edge with three faces; the only open edges are the third face's
     const Index fin[] = {0, 1, 6};
     add_face(third, fin);
     const auto crowded = run_stage("validate", "{edge_manifold: true}", scene_of(third));
@@ -242,12 +242,12 @@ TEST_CASE("validate limits what a scene holds", "[stages]") {
 
 namespace {
 
-/// What every pixel of an image is: black.
+/// A black image.
 io::Pixels black(std::size_t width, std::size_t height) {
     return {width, height, std::vector<std::uint8_t>(4 * width * height), false};
 }
 
-/// A PNG inside a buffer of 1000 bytes and a WebP beside the document.
+/// A PNG inside a buffer of 1000 bytes and a WebP next to the document.
 Scene with_document() {
     Scene scene = scene_of(shapes::cube());
     auto document = std::make_shared<Document>();

@@ -12,7 +12,7 @@ using namespace facetmill;
 
 namespace {
 
-/// Soft colours, with alpha from 0 to 255 to the right where that is asked for.
+/// Soft colours, optionally with alpha from 0 to 255 to the right.
 io::Pixels soft(bool alpha, bool grey) {
     io::Pixels image{48, 32, {}, false};
     for (std::size_t y = 0; y < image.height; ++y)
@@ -135,7 +135,7 @@ TEST_CASE("images are packed anew with the same pixels, or not at all", "[io]") 
         CHECK(io::media_type(packed) == io::media_type(given));
         CHECK(io::decoded_image(packed)->rgba == io::decoded_image(given)->rgba);
         CHECK(io::repacked_image(packed).empty()); // nothing more is gained
-        // What is broken stays as it is.
+        // Broken images stay unchanged.
         CHECK(io::repacked_image(io::Span(given).first(given.size() * 2 / 3)).empty());
         CHECK(io::repacked_image(io::Span(given).first(20)).empty());
     }

@@ -41,7 +41,7 @@ Loaded load(const fs::path& path) {
     return loaded;
 }
 
-/// A quad with the material m of these words; images are beside it.
+/// A quad with the material m from this text, with image files.
 Loaded load_quad(const TemporaryDirectory& dir, const std::string& words, const std::string& obj = quad) {
     put(dir / "a.obj", obj);
     put(dir / "a.mtl", "newmtl m\n" + words);
@@ -65,7 +65,7 @@ TEST_CASE("a transparent MTL material is drawn transparent", "[io]") {
         CHECK(m["pbrMetallicRoughness"]["metallicFactor"] == 0);
     }
     CHECK_FALSE(load_quad(dir, "Kd 1 1 1\nd 1\n").material().contains("alphaMode"));
-    // MeshLab writes so for what is opaque.
+    // MeshLab writes this for opaque materials.
     CHECK_FALSE(load_quad(dir, "Kd 1 1 1\nTr 1\n").material().contains("alphaMode"));
 }
 
@@ -119,8 +119,8 @@ TEST_CASE("options of MTL textures are kept", "[io]") {
     const Json transform = texture["extensions"]["KHR_texture_transform"];
     CHECK(transform["scale"] == Json({2, 4}));
     CHECK(transform["offset"] == Json({0.25, -3.5}));
-    // At the quad's corner (1, 1) OBJ looks at (2.25, 4.5), from the bottom: -3.5 from the top, as glTF does
-    // at (1, 0).
+    // At the quad's corner (1, 1), OBJ reads the texture at (2.25, 4.5), from the bottom. From the top this
+    // is -3.5, where glTF reads at (1, 0).
     CHECK(1 - 4.5 == transform["offset"][1].get<double>() + 4 * 0.0);
     const Json sampler =
         all["samplers"][all["textures"][texture["index"].get<std::size_t>()]["sampler"].get<std::size_t>()];

@@ -105,7 +105,7 @@ TEST_CASE("a texture that cannot be drawn is a warning, and the plain colour", "
     CHECK(told.starts_with("W-TEXTURE images[0]: not drawn: "));
     CHECK(told.ends_with("; the plain colour is drawn in its place"));
     CHECK(warned(scene_with(red_texture, {})).starts_with("W-TEXTURE not drawn: "));
-    CHECK(warned(scene_with(red_texture, {"missing.png"})).empty()); // reading the file has told it
+    CHECK(warned(scene_with(red_texture, {"missing.png"})).empty()); // the reader has already warned
     Scene compressed = scene_with(red_texture, {data_uri(test::red_png())});
     auto document = std::make_shared<Document>(*compressed.documents[0]);
     document->json = Json::parse(document->json)

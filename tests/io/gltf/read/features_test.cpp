@@ -65,7 +65,7 @@ std::set<double> ids_of(const Mesh& mesh) {
     return ids;
 }
 
-/// What the table says, by the view that it names.
+/// The values of the table, from the buffer view that it refers to.
 std::vector<float> table_of(const io::Bytes& glb) {
     const Json json = Json::parse(test::json_of(glb));
     const io::gltf::Chunks chunks = io::gltf::split_glb(glb);

@@ -1,4 +1,5 @@
-// EXT_mesh_gpu_instancing: where parts stand, what moves along, and grids of positions in each place.
+// EXT_mesh_gpu_instancing: the positions of parts, moves together with instances, and grids of positions in
+// each instance.
 #include "base/error.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
@@ -136,7 +137,7 @@ TEST_CASE("the grid of instanced positions is in each place", "[io]") {
         CHECK(steps_moved(all, expanded(glb, "glb")) < (filters ? 2.5 : 0.95));
         CHECK(io::read_back(io::Input::of("a.glb", io::Bytes(glb)), *io::codec_named("glb"), scene, settings)
                   .position_error > 0);
-        // What is on a grid already stays as it is, but for rotations that are rounded once more.
+        // Values that are already on a grid do not change, except for rotations, which are rounded again.
         const io::Bytes again =
             test::written(test::read_bytes(glb, "glb"), "glb", settings).files.at(0).bytes;
         CHECK((filters || again == glb));
@@ -158,7 +159,7 @@ TEST_CASE("instances on a grid have the same bytes for any number of threads", "
 TEST_CASE("places that a grid cannot be in keep the positions as they are, which is said", "[io]") {
     for (const bool far : {true, false}) {
         Json json = four_nodes();
-        if (far) // a step of the grid is beyond float32 there
+        if (far) // a step of the grid exceeds the range of float32
             json["nodes"][3]["extensions"] = places({{"SCALE", add_floats(json, {3e38F, 1, 1, 1, 1, 1}, 3)}});
         else
             json["nodes"][3]["extensions"] = places(Json::object());
@@ -235,7 +236,7 @@ TEST_CASE("the surface of a part counts at all of its instances, and moves with 
     CHECK(ratio < 1.05);
     CHECK(places_of(all) == std::vector<std::vector<Transform>>(8));
     for (Part& part : scene.parts) part.document = -1;
-    CHECK(total(scene).faces * 2 == faces); // what a document says no longer counts
+    CHECK(total(scene).faces * 2 == faces); // the document no longer applies
 }
 
 TEST_CASE("pieces of an instanced part are instanced, too", "[io]") {
@@ -289,6 +290,6 @@ TEST_CASE("the area at a place is that of the surface there, and no less where i
             const auto [area, exact] = estimated(mesh, scales);
             CHECK(area > exact * (1 - 1e-6));
             CHECK(area <
-                  exact * 1.5); // the mean of squares of |cos| over a sphere is 1.33 times that of |cos|
+                  exact * 1.5); // the mean square of |cos| over a sphere is 1.33 times the square of its mean
         }
 }

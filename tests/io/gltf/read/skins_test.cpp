@@ -76,9 +76,10 @@ TEST_CASE("that places are in a bind pose that is not what is shown is told", "[
         {"tile", "0.7"},
         {"section", "y=0.5"},
         {"probe", "[0, 0, 1]"}};
-    for (const auto& [stage, options] : stages) CHECK(told(stage, options) == 0); // the joints stand so
+    for (const auto& [stage, options] : stages)
+        CHECK(told(stage, options) == 0); // the joints are in this pose
     CHECK(told("clean", "{}") == 0);
-    json["nodes"][1]["rotation"] = {0.5, 0.5, 0.5, 0.5}; // what is along y is seen along z
+    json["nodes"][1]["rotation"] = {0.5, 0.5, 0.5, 0.5}; // the y axis appears along z
     for (const auto& [stage, options] : stages) {
         INFO(stage);
         CHECK(told(stage, options) == 1);
@@ -107,7 +108,7 @@ TEST_CASE("a skinned part that is moved plays as before, where it is now", "[io]
             for (Vec3& p : wanted) p = part.transform.point(p);
             check_same(posed(again, knee), wanted);
         }
-        // The bind pose and the part beside it are where they should be, too.
+        // The bind pose and the part next to it are also in the right position.
         io::read_back(io::Input::of("a.glb", written.files[0].bytes), *io::codec_named("glb"), run.scene, {});
         CHECK(length(again.parts.at(1).transform.point({}) - run.scene.parts[1].transform.point({})) < 1e-6);
         const Json json = Json::parse(again.documents[0]->json);
