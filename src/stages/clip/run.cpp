@@ -37,7 +37,7 @@ struct ClipOptions {
 };
 
 struct PartsToClip {
-    ClipSettings settings; ///< the same for all; planes, memory and the caps' primitive are set part by part
+    ClipSettings settings; ///< shared by all parts; planes, memory and the caps' primitive are set per part
     std::string cap_material;
     const char *front = ".front", *back = ".back"; ///< added to the names of both sides
     bool by_box = false;                           ///< for messages
@@ -80,7 +80,7 @@ void declare(Declare<ClipOptions>& d) {
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
 
-/// The value of an option as written, or the whole.
+/// The option's value as written, or the whole map.
 const Value& written(const Value& given, const char* name) {
     const Value* value = given.is_map() ? given.find(name) : nullptr;
     return value ? *value : given;
@@ -94,7 +94,7 @@ std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& c
     return planes;
 }
 
-/// The planes to clip by, in a scene.
+/// The planes that clip a scene.
 class Cutter {
   public:
     /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
@@ -252,7 +252,7 @@ class Reached {
         }
         return !(keep_ == Keep::back && convex_ ? all : any);
     }
-    /// Whether a face lay in a plane, or nearly so.
+    /// Whether any face was in a plane, within the margin.
     bool in_plane() const { return in_plane_; }
 
   private:

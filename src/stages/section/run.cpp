@@ -17,7 +17,7 @@ namespace {
 
 constexpr double max_lines = 5e6;
 
-/// Refuses to draw more lines than anybody can look at, or memory can hold.
+/// Refuses to draw more lines than a viewer can show or memory can hold.
 void check_hatching(const std::vector<Section>& sections, double spacing) {
     double lines = 0;
     for (const Section& s : sections) {
@@ -33,7 +33,7 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
                     "choose a larger spacing, or fewer planes");
 }
 
-/// The extent of the parts selected along the normal.
+/// The extent of the selected parts along the normal.
 Extent extent_of(const Scene& scene, const Plane& plane, const Context& context) {
     Extent extent;
     for (const Part& part : scene.parts)
@@ -79,7 +79,8 @@ std::optional<double> volume_of(const Scene& scene, const Context& context) {
 }
 
 /// One sheet per plane, with the sections of the selected parts and their hatching. Throws the errors of
-/// section and hatch. Throws limit (E-HATCH) if a part of the stack would need more than five million lines.
+/// section and hatch. Throws limit (E-HATCH) if the hatching of a part would need more than five million
+/// lines.
 io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& stack,
                           const std::optional<polygon::HatchSettings>& hatching, Context& context) {
     io::Drawing drawing{context.name(), scene.unit, {}};

@@ -1,5 +1,5 @@
 #pragma once
-// The texts of simplify for help and manual.
+// The help and manual texts of simplify.
 
 namespace facetmill::help::simplify {
 

@@ -15,7 +15,7 @@ bool is_of_part(const Length& length) {
     return length.kind == Length::Kind::percent && length.of == Length::Of::part;
 }
 
-/// The lengths are resolved in the order in which the report has them.
+/// Resolve the lengths in the order of the report.
 SimplifyPartsSettings settings_in(const Scene& scene, const SimplifyOptions& o, Context& context) {
     SimplifyPartsSettings s{.all = simplify_settings(o), .selected = {}, .size_before = {}};
     for (const Part& part : scene.parts) s.selected.push_back(context.selects(part, scene));
@@ -98,7 +98,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;
     std::vector<Limited> limited;
     std::vector<Part> coarser;
-    // An entry is a kilobyte: to grow the list would copy and fault in several times as many.
+    // An entry takes a kilobyte, so growing the list would copy several times as much.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
         scene.parts[number].changed = true;

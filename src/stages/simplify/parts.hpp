@@ -7,8 +7,8 @@
 
 namespace facetmill::simplify_stage {
 
-/// Simplifies the selected parts (geometry/simplify) and reports the results; coarser levels of detail become
-/// parts of their own.
+/// Simplifies the selected parts (geometry/simplify) and reports the results. Coarser levels of detail
+/// become separate parts.
 [[nodiscard]] Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context,
                                    SimplifyReport& report);
 
@@ -18,7 +18,7 @@ struct AskedFor {
     bool less = true, target = true;
 };
 
-/// Warns where a part stopped above its target, had nothing to do, or vanished.
+/// Warns if a part stopped above its target, had nothing to do, or vanished.
 void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context);
 
 /// A part that max_quadric_error stopped above its target.

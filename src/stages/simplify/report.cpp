@@ -54,7 +54,7 @@ template <class T>
 auto of_result(T SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) -> const T& { return p.result.*member; };
 }
-/// ... a length, in scene units.
+/// A length, in scene units.
 auto of_length(std::optional<double> SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) {
         const auto& length = p.result.*member;

@@ -1,5 +1,5 @@
 #pragma once
-// A simplification as reports have it.
+// The report of a simplification.
 
 #include "geometry/simplify/simplify.hpp"
 #include "options/fields.hpp"

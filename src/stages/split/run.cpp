@@ -60,7 +60,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
 
 struct SplitStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override { verify_split(o, given, problems); }
-    /// Smooth methods approach a surface inside the corners of the first, however much that is.
+    /// Smooth methods converge to a surface inside the original corners, so any loss of area is intended.
     MayLose may_lose() const override { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
     /// A grid accepts at most four corners per face, so crossing faces cannot be filled.
     CrossingFacePolicy crossing_faces() const override {

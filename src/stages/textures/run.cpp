@@ -25,7 +25,7 @@ struct TexturesReport {
     std::size_t resized = 0, converted = 0, repacked = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
 };
 
-/// Images of equal bytes, wherever they are.
+/// Images with equal bytes, in any document.
 struct Job {
     const io::DocumentImage* image = nullptr; ///< the first of them
     ImageState before;
@@ -34,7 +34,7 @@ struct Job {
     ProcessedImage processed_image;
 };
 
-/// The materials of each document that parts use which are left out.
+/// Materials used by parts that are left out, for each document.
 std::vector<std::set<int>> held_materials(const Scene& scene, const Context& context) {
     std::vector<std::set<int>> held(scene.documents.size());
     for (const Part& part : scene.parts) {
@@ -85,7 +85,8 @@ Error about_image(const Error& error, const std::string& image) {
             first.hint.empty() ? "facetmill explain E-KTX" : first.hint};
 }
 
-/// Several images at once, but not more pixels than one image may have, which bounds the memory.
+/// Processes several images at once. Their total is limited to the pixels of the largest allowed image,
+/// which bounds the memory.
 void work(std::vector<Job>& jobs, const TexturesOptions& o) {
     using io::max_pixels;
     for (std::size_t begin = 0; begin < jobs.size();) {
@@ -203,7 +204,8 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
     std::vector<Job> jobs = jobs_of(images);
     work(jobs, o);
     put_back(scene, jobs);
-    if (wants_ktx2(o)) context.mark_uncacheable(); // another version of the program may write other bytes
+    if (wants_ktx2(o))
+        context.mark_uncacheable(); // a different version of the program may write different bytes
     tell(jobs, context, report);
     return scene;
 }

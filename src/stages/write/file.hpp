@@ -1,5 +1,5 @@
 #pragma once
-// How write brings a scene into a file's convention and precision, and the file among the outputs of the run.
+// Helpers of write: conversion to the file's convention and precision, and staging of the file.
 
 #include "stages/write/options.hpp"
 
@@ -7,7 +7,7 @@ namespace facetmill::write_stage {
 
 struct WriteReport {
     struct Bits {
-        int position_bits = 0; ///< of the part that has the most
+        int position_bits = 0; ///< in the part with the most
         std::optional<int> least;
         std::string why;
     };
@@ -29,19 +29,19 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 /// Whether precision is automatic, coordinates may be too far from the origin for float32, and the format
 /// stores all digits but no origin.
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds);
-/// How far float32 moves a coordinate of the scene, in the world, at most. O(vertices).
+/// The largest distance that float32 moves a world coordinate of the scene. O(vertices).
 [[nodiscard]] double moved_by_floats(const Scene& scene);
 /// Whether the rounding exceeds a millionth of the diagonal; if so, logs it.
 bool needs_full(double rounding, const Box& bounds, Context& context);
 
-/// By material of the scene, the set of texture coordinates that its map of normals reads, if it has one.
+/// For each material of the scene, the set of texture coordinates of its normal map, if any.
 [[nodiscard]] std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
 /// Adds tangents to a part if one of its materials has a normal map. Returns false, and changes nothing,
 /// without a normal map, normals or texture coordinates. The same applies if existing tangents are to stay.
 bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
                    Context& context);
 
-/// Whether the user gave the bits of positions of a file with a grid.
+/// Whether the user gave the position bits for a file with a grid.
 bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o);
 
 /// Chooses the position bits per part for a file with a grid (Draco, quantize). The given or usual bits

@@ -1,5 +1,5 @@
 #pragma once
-// The texts of write for help and manual.
+// The help and manual texts of write.
 
 namespace facetmill::help::write {
 

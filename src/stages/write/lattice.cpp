@@ -38,7 +38,7 @@ double stretch_of(const Transform& t) {
     return most > 0 ? std::sqrt(most) : 1;
 }
 
-/// How much the transform enlarges everything, when it does nothing else but move; 0 for others.
+/// The uniform scale of a transform without rotation or shear; 0 for other transforms.
 double plain_scale(const Transform& t) {
     const double scale = t.m[0][0];
     for (std::size_t r = 0; r < 3; ++r)
@@ -51,7 +51,7 @@ double plain_scale(const Transform& t) {
 /// bounds. For other parts the grid goes through the part's own zero.
 Vec3 origin_of(const Part& part, const Box& box, double step, bool in_world) {
     const double scale = in_world ? plain_scale(part.transform) : 0;
-    constexpr double exact = 0x1p44; // steps, which doubles count with bits to spare
+    constexpr double exact = 0x1p44; // steps; doubles represent this many exactly
     Vec3 origin;
     for (std::size_t c = 0; c < 3; ++c) {
         double moved = scale > 0 ? part.transform.m[c][3] / scale : 0;
@@ -96,7 +96,7 @@ double step_apart(const Part& part, const Box& box, double step, double least, b
     }
 }
 
-/// The fewest bits whose steps of this length reach as far.
+/// The fewest bits whose steps of this length cover the given length.
 int bits_for(double length, double step, int most) {
     int bits = 1;
     while (bits < most && steps_of(bits) * step < length) ++bits;
@@ -110,7 +110,7 @@ EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, 
     EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
     const double whole = step_of_scene(scene, bits);
     if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
-    std::map<std::pair<int, int>, std::vector<std::size_t>> users; // of a mesh of a document
+    std::map<std::pair<int, int>, std::vector<std::size_t>> users; // the parts that use a mesh of a document
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const Part& part = scene.parts[i];
         const bool shares = part.document >= 0 && part.source_mesh >= 0;

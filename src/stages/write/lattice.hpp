@@ -1,5 +1,5 @@
 #pragma once
-// The same steps of positions for all parts of a scene (grid: even).
+// A common step of positions for all parts of a scene (grid: even).
 
 #include "io/codec.hpp"
 

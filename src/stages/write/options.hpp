@@ -40,7 +40,7 @@ struct TilesOptions {
     bool implicit = false;
 };
 
-/// Which parts with a map of normals get tangents.
+/// The parts with a normal map that get tangents.
 enum class Tangents { keep, missing, all };
 
 struct WriteOptions {

@@ -19,8 +19,8 @@ struct Lent {
     std::size_t part;
     Transform transform;
     bool changed;
-    std::optional<Mesh> mesh{}; ///< with the normals that the scene keeps, when the file has others
-    std::optional<std::vector<Vec3>> positions{}; ///< when the file counts from another origin
+    std::optional<Mesh> mesh{}; ///< the scene's mesh, if the file gets other faces, normals or tangents
+    std::optional<std::vector<Vec3>> positions{}; ///< the scene's positions, if the file uses another origin
 };
 
 /// Triangulates the written parts and saves the scene's own meshes in `lent`.
@@ -34,12 +34,13 @@ void make_triangles(Scene& out, std::vector<Lent>& lent) {
     }
 }
 
-/// The same for normals.
+/// The same, for normals.
 void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.normals == NormalKind::keep) return;
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
-        if (part.mesh.face_count() == 0 && o.normals != NormalKind::none) continue; // points and lines
+        if (part.mesh.face_count() == 0 && o.normals != NormalKind::none)
+            continue; // points and lines have no faces to compute normals from
         if (!lent[k].mesh) lent[k].mesh = part.mesh;
         context.attribute_changes(
             part, give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
@@ -47,7 +48,7 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     }
 }
 
-/// The same for tangents.
+/// The same, for tangents.
 void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.tangents == Tangents::keep) return;
     const auto uvs = normal_map_uvs(out);
@@ -82,7 +83,7 @@ void declare_tiles_written(DeclareFields<io::TilesWritten>& d) {
     d.field("error", &Tiles::error, "The geometric error of the root, in metres.");
 }
 
-/// The names of the formats that are written and can do that.
+/// The names of the written formats with that capability.
 std::vector<std::string> formats_with(bool io::Capabilities::*what) {
     std::vector<std::string> names;
     for (const io::Codec& codec : io::codecs())
