@@ -52,7 +52,7 @@ struct PngWriter {
     static void flush(png_structp) {}
 };
 
-/// The pixels with as many channels as the colour type has.
+/// The pixels, with the channels of the colour type.
 std::vector<std::uint8_t> packed_channels(const Pixels& image, int colour_type) {
     const std::size_t colours = (colour_type & PNG_COLOR_MASK_COLOR) != 0 ? 3 : 1;
     const bool alpha = (colour_type & PNG_COLOR_MASK_ALPHA) != 0;
@@ -65,7 +65,7 @@ std::vector<std::uint8_t> packed_channels(const Pixels& image, int colour_type) 
     return out;
 }
 
-/// Nothing here may need a destructor when the library jumps.
+/// The library may jump out of this function, so no local may need a destructor.
 bool write_png(PngWriter& writer, const Pixels& image, int colour_type, int level,
                const std::vector<std::uint8_t>& channels) {
     if (setjmp(png_jmpbuf(writer.state)) != 0) return false;
@@ -120,7 +120,7 @@ bool write_jpeg(JpegWriter& writer, const Pixels& image, const LossSettings& set
     state.in_color_space = grey ? JCS_GRAYSCALE : JCS_EXT_RGBX;
     ::jpeg_set_defaults(&state);
     ::jpeg_set_quality(&state, settings.quality, TRUE);
-    state.dct_method = JDCT_ISLOW; // integers: the same on every processor
+    state.dct_method = JDCT_ISLOW; // integer arithmetic gives the same bytes on every processor
     state.optimize_coding = TRUE;
     if (settings.as_numbers) {
         state.comp_info[0].h_samp_factor = 1;
@@ -143,7 +143,7 @@ Bytes bytes_from(const std::uint8_t* data, std::size_t size) {
     return {bytes, bytes + size};
 }
 
-// --- JPEG again
+// --- JPEG without loss
 
 /// The output of a JPEG's coefficients.
 struct JpegTarget {
@@ -177,7 +177,7 @@ struct JpegCopy {
         errors.output_message = [](j_common_ptr) {};
         return &errors;
     }
-    /// More scans than any encoder makes.
+    /// Encoders make fewer scans.
     static void limit_scans(j_common_ptr state) {
         constexpr int most = 500;
         if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
@@ -194,8 +194,8 @@ bool writes_itself(const jpeg_compress_struct& to, const jpeg_marker_struct& mar
            (to.write_Adobe_marker && marker.marker == JPEG_APP0 + 14 && begins("Adobe", 5));
 }
 
-/// Reads the coefficients; null where the file is broken. Nothing here may need a destructor when the library
-/// jumps.
+/// Reads the coefficients; null if the file is broken. The library may jump out, so no local may need a
+/// destructor.
 jvirt_barray_ptr* read_coefficients(JpegCopy& copy, Span bytes) {
     copy.from.err = JpegCopy::quiet(copy.from_errors);
     copy.from.client_data = &copy;
@@ -211,7 +211,7 @@ jvirt_barray_ptr* read_coefficients(JpegCopy& copy, Span bytes) {
     return copy.from_errors.num_warnings > 0 ? nullptr : coefficients;
 }
 
-/// False where they cannot be written. Nothing here may need a destructor when the library jumps.
+/// False if they cannot be written. The library may jump out, so no local may need a destructor.
 bool write_coefficients(JpegCopy& copy, JpegTarget& target, jvirt_barray_ptr* coefficients,
                         bool progressive) {
     jpeg_compress_struct& to = target.state;
@@ -270,7 +270,7 @@ namespace {
 
 constexpr int smallest = 9, fastest = 1; // levels of zlib
 
-/// Nothing where it would have more than so many bytes.
+/// No bytes if the result would exceed this number of bytes.
 Bytes png_of_type(const Pixels& image, int colour_type, int level, std::size_t most = SIZE_MAX) {
     PngWriter writer(most);
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
@@ -314,7 +314,8 @@ Bytes repacked_image(Span bytes) {
     Bytes out = jpeg ? repacked_jpeg(bytes) : repacked_png(*image, bytes.size());
     if (out.empty() || out.size() >= bytes.size()) return {};
     const std::optional<Pixels> again = decoded_image(out);
-    if (!again || again->rgba != image->rgba) return {}; // whatever the library did: pixels do not change
+    if (!again || again->rgba != image->rgba)
+        return {}; // in case of a library fault, keep the pixels unchanged
     return out;
 }
 
@@ -335,10 +336,11 @@ Bytes encoded_webp(const Pixels& image, const LossSettings& settings) {
     if (!ready) no_memory_for("WebP");
     config.method = 5;
     config.lossless = settings.lossless;
-    if (settings.lossless) config.quality = 75; // of the search, not of the image
+    if (settings.lossless) config.quality = 75; // the effort of the search, not the image quality
     config.exact = 1;
     config.use_sharp_yuv = settings.as_numbers;
-    writer.picture.use_argb = settings.lossless || settings.as_numbers; // not halved while it is read
+    writer.picture.use_argb =
+        settings.lossless || settings.as_numbers; // avoids chroma subsampling of the input
     writer.picture.width = static_cast<int>(image.width);
     writer.picture.height = static_cast<int>(image.height);
     writer.picture.writer = ::WebPMemoryWrite;

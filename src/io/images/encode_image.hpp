@@ -1,5 +1,5 @@
 #pragma once
-// Pixels as image files.
+// Encodes pixels as image files.
 
 #include "io/images/pixels.hpp"
 
@@ -7,17 +7,17 @@ namespace facetmill::io {
 
 /// Settings for encoding with loss.
 struct LossSettings {
-    int quality = 80;        ///< 1 to 100, as the libraries have it
+    int quality = 80;        ///< 1 to 100, as in the libraries
     bool lossless = false;   ///< WebP only
     bool as_numbers = false; ///< data instead of colours: no chroma subsampling (JPEG), or the best chroma
                              ///< conversion (WebP)
 };
 
-/// A PNG of as few channels as the image needs. Throws limit (E-MEMORY), as all of these do.
+/// A PNG with as few channels as the image needs. Throws limit (E-MEMORY), as all these functions do.
 [[nodiscard]] Bytes encoded_png(const Pixels& image);
-/// A PNG of three channels, or four where one is not opaque, also where all is grey.
+/// A PNG with three channels, or four if any pixel is transparent, even if all pixels are grey.
 [[nodiscard]] Bytes encoded_png_in_colour(const Pixels& image);
-/// A progressive JPEG without the alpha; of one channel where all is grey.
+/// A progressive JPEG without alpha. It has a single channel if all pixels are grey.
 [[nodiscard]] Bytes encoded_jpeg(const Pixels& image, const LossSettings& settings);
 /// A WebP. Keeps the colours of fully transparent pixels. Each side is at most 16383 pixels long.
 [[nodiscard]] Bytes encoded_webp(const Pixels& image, const LossSettings& settings);

@@ -53,7 +53,7 @@ bool jpeg_ends(Span bytes) {
 
 bool webp_ends(Span bytes) { return bytes.size() >= 12 && little_endian(bytes, 4, 4) <= bytes.size() - 8; }
 
-/// Its width and its levels (Khronos Texture 2.0, 3.1 and 3.9.7).
+/// Checks the width and the levels (Khronos Texture 2.0, 3.1 and 3.9.7).
 std::string ktx2_fault(Span bytes) {
     constexpr std::size_t header = 80, width = 20, levels = 40, of_level = 24;
     if (bytes.size() < header) return "its data end early";

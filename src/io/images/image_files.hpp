@@ -14,7 +14,8 @@ namespace facetmill::io {
 [[nodiscard]] std::optional<std::filesystem::path> path_below(const Input& input,
                                                               const std::filesystem::path& relative);
 
-/// How to allow a file that the directory rule refuses; empty where nothing does (an absolute path, a URL).
+/// A hint to allow a file that the directory rule refuses; empty if nothing allows it (an absolute path, a
+/// URL).
 [[nodiscard]] std::string hint_for_asset_root(const Input& input,
                                               const std::optional<std::filesystem::path>& relative);
 
@@ -51,7 +52,7 @@ struct ImageColours {
 /// Whether the file exists with these bytes.
 bool has_bytes(const std::filesystem::path& path, Span bytes);
 
-/// A relative path as a URI: bytes that a URI gives a meaning are written %XX.
+/// A relative path as a URI: special bytes become %XX.
 [[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
 
 /// Names images next to an output. For lamp.gltf, "textures/wood.png" becomes "textures/lamp.wood.png", so
@@ -60,12 +61,12 @@ bool has_bytes(const std::filesystem::path& path, Span bytes);
 class ImageNames {
   public:
     enum class Spelling {
-        kept, ///< as the input has them
+        kept, ///< the same as in the input
         plain ///< for lines of text with a file name among other words: without blanks, quotes ...
     };
-    /// The names of the output's other files are the stem and a suffix of a mesh's files.
+    /// The output's other files are named `stem` with the suffix of a mesh format.
     explicit ImageNames(const std::string& stem, Spelling spelling = Spelling::kept);
-    /// A name for the image that was called so. Names that differ only in case count as the same.
+    /// The output name for an image with that name. Names that differ only in case count as equal.
     std::filesystem::path add(const std::filesystem::path& relative);
 
   private:

@@ -25,19 +25,19 @@ namespace {
 
 // --- messages between the two processes
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; // of an image, either way
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; // maximum size of an image or a result
 
 struct OrderMessage {
     std::uint8_t uastc, srgb, alpha, quality;
     std::uint32_t seconds;
-    std::uint64_t bytes; ///< of the PNG that follows
+    std::uint64_t bytes; ///< size of the PNG that follows
 };
 struct AnswerMessage {
     std::uint64_t good;  ///< 1: a file follows; 0: an error message follows
-    std::uint64_t bytes; ///< that follow
+    std::uint64_t bytes; ///< bytes that follow
 };
 
-// --- the process that runs the program
+// --- the worker process
 
 bool is_toktx(const fs::path& program) { return program.filename().string().starts_with("toktx"); }
 
@@ -59,7 +59,7 @@ std::vector<std::string> arguments_of_toktx(const OrderMessage& order) {
     return all;
 }
 
-/// Before 4.4 ktx calls the transfer function by another name.
+/// Before version 4.4, ktx has another option for the transfer function.
 std::vector<std::string> arguments_of_ktx(const OrderMessage& order, bool is_old) {
     std::vector<std::string> all{"create", "--generate-mipmap", "--threads", "1"};
     for (auto& argument : common_arguments(order, "--qlevel", "--uastc-quality"))
@@ -114,7 +114,7 @@ bool is_before_4_4(const std::string& version) {
            (major < 4 || (major == 4 && minor < 4));
 }
 
-/// Waits for orders until nobody can give any more.
+/// Serves orders until the client has ended.
 class Worker {
   public:
     Worker(fs::path program, const Descriptor& socket) : program_(std::move(program)), socket_(socket) {}

@@ -19,9 +19,9 @@ void start_ktx_workers();
 
 /// The settings for the program.
 struct KtxOrder {
-    bool uastc = false; ///< UASTC, supercompressed by Zstandard; else ETC1S (BasisLZ)
-    bool srgb = false;  ///< the transfer function of the texture; else linear
-    bool alpha = false; ///< four channels; else three
+    bool uastc = false; ///< UASTC, supercompressed by Zstandard; otherwise ETC1S (BasisLZ)
+    bool srgb = false;  ///< sRGB transfer function; otherwise linear
+    bool alpha = false; ///< four channels; otherwise three
     int quality = 80;   ///< of ETC1S, 1 to 100
     std::chrono::seconds limit{600};
 };

@@ -43,10 +43,10 @@ struct PngReader {
     }
 };
 
-/// Everything as 8 bits of red, green, blue and alpha, without a change of gamma.
+/// Converts everything to 8 bits of red, green, blue and alpha, without gamma correction.
 void read_png_rows(PngReader& reader, Pixels& pixels) {
     const png_structp png = reader.state;
-    ::png_set_expand(png); // palettes, fewer than 8 bits, one transparent colour
+    ::png_set_expand(png); // expands palettes, fewer than 8 bits, and a transparent colour
     ::png_set_scale_16(png);
     ::png_set_gray_to_rgb(png);
     ::png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
@@ -57,8 +57,8 @@ void read_png_rows(PngReader& reader, Pixels& pixels) {
             ::png_read_row(png, &pixels.rgba[4 * pixels.width * y], nullptr);
 }
 
-/// Reads into pixels, which the caller holds: nothing here may need a destructor when the library jumps.
-/// header: no more than the size.
+/// Reads into pixels, which the caller owns. The library may jump out, so no local may need a destructor.
+/// header: reads only the size.
 bool read_png(PngReader& reader, bool header, Pixels& pixels) {
     if (setjmp(png_jmpbuf(reader.state)) != 0) return false;
     ::png_set_read_fn(reader.state, &reader, PngReader::next);
@@ -89,14 +89,14 @@ struct JpegErrors {
     std::longjmp(reinterpret_cast<JpegErrors*>(state->err)->back, 1); // the manager is its first member
 }
 
-/// Leaves an image that has been given more scans than any encoder makes.
+/// Stops at an image with more scans than encoders make.
 void limit_scans(j_common_ptr state) {
     constexpr int most = 500;
     if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
         leave_jpeg(state);
 }
 
-/// As read_png.
+/// The same as read_png.
 bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bool header, Pixels& pixels) {
     if (setjmp(errors.back) != 0) return false;
     ::jpeg_create_decompress(&state);
@@ -160,7 +160,7 @@ Bytes png_of(Pixels pixels) {
     return png(picture);
 }
 
-/// header: without pixels.
+/// header: reads no pixels.
 std::optional<Pixels> read_image_file(Span bytes, bool header) {
     const std::string type = media_type(bytes);
     if (type == "image/png") return decoded_png(bytes, header);
@@ -213,7 +213,7 @@ Bytes normals_of_relief(const Pixels& relief, double strength) {
     };
     for (std::size_t y = 0; y < out.height; ++y)
         for (std::size_t x = 0; x < out.width; ++x) {
-            // Rows go down and the texture's second axis up.
+            // Image rows go down, but the texture's second axis points up.
             const Vec3 n = normalised({strength * (height(x + out.width - 1, y) - height(x + 1, y)),
                                        strength * (height(x, y + 1) - height(x, y + out.height - 1)), 1});
             std::uint8_t* to = &out.rgba[4 * (y * out.width + x)];

@@ -1,5 +1,5 @@
 #pragma once
-// Images as pixels, for textures whose channels glTF has in another order or place.
+// Decoded images, also for textures whose channels glTF arranges differently.
 
 #include "io/bytes.hpp"
 
@@ -14,15 +14,15 @@ namespace facetmill::io {
 struct Pixels {
     std::size_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
-    bool damaged = false; ///< a JPEG whose data end early or are broken: the rest is a guess of the library's
+    bool damaged = false; ///< a JPEG with truncated or broken data: the library guessed the rest
 
-    /// The pixel of an image scaled to width x height (its nearest one).
+    /// The nearest pixel at (x, y) of the image scaled to width x height.
     const std::uint8_t* at(std::size_t x, std::size_t y, std::size_t of_width, std::size_t of_height) const {
         return &rgba[4 * (y * height / of_height * width + x * width / of_width)];
     }
 };
 
-/// The pixels of the largest image that is decoded.
+/// The maximum number of pixels to decode.
 constexpr std::size_t max_pixels = std::size_t{1} << 26;
 
 /// Decodes a PNG, JPEG or WebP of at most max_pixels; none for other formats and broken files. Grey becomes
@@ -49,9 +49,8 @@ constexpr int brightness = 4; ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R B
 /// A PNG as large as the largest source image. Smaller images are scaled up.
 [[nodiscard]] Bytes combined_image(const std::array<Channel, 4>& channels);
 
-/// A PNG of the normals of a relief, brighter being higher: its slopes are `strength` times the difference of
-/// the neighbours' brightness. The image is repeated at its borders. Blinn, "Simulation of Wrinkled
-/// Surfaces", 1978.
+/// A PNG with the normals of a height map: slopes are `strength` times the brightness difference of the
+/// neighbours. The image repeats at its borders. Blinn, "Simulation of Wrinkled Surfaces", 1978.
 [[nodiscard]] Bytes normals_of_relief(const Pixels& relief, double strength);
 
 } // namespace facetmill::io

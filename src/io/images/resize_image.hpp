@@ -1,5 +1,5 @@
 #pragma once
-// Images made smaller.
+// Reduces images.
 
 #include "io/images/pixels.hpp"
 
@@ -8,7 +8,7 @@ namespace facetmill::io {
 /// The meaning of an image's numbers, which determines how pixels are mixed.
 enum class PixelKind {
     colours, ///< in sRGB: mixed in linear light
-    normals, ///< directions, each coordinate from -1 to 1: mixed, and of length 1 again
+    normals, ///< directions, each coordinate from -1 to 1: mixed, then normalized
     numbers  ///< other data: mixed without conversion
 };
 
