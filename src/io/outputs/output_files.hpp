@@ -12,16 +12,16 @@ namespace facetmill::io {
 /// errno.
 [[nodiscard]] std::string hint_to_write(const std::filesystem::path& target, int error);
 
-/// Throws output in words for people: E-SPACE, E-DIRECTORY, else E-WRITE. error: an errno.
+/// Throws output with a readable message: E-SPACE, E-DIRECTORY, otherwise E-WRITE. error: an errno.
 [[noreturn]] void cannot_write(const std::filesystem::path& target, int error);
 
-/// Throws as cannot_write, naming the target.
+/// Throws as cannot_write does, with the target's name.
 void write_all(const Descriptor& file, Span bytes, const std::filesystem::path& target);
 
 /// Whether the target is a stream, which a rename cannot replace.
 bool is_stream(const std::filesystem::path& target);
 
-/// The file that is replaced: symbolic links at the end are followed, also when they lead nowhere yet.
+/// The file to replace: follows symbolic links at the end, even if their target does not exist.
 [[nodiscard]] std::filesystem::path followed(std::filesystem::path path);
 
 /// The same path for every spelling of a file's path; "-" stays. Links in unreadable folders are not

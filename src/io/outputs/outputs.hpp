@@ -16,9 +16,9 @@ namespace facetmill::io {
 struct CleanUp; // an action to undo on a signal; see io/outputs/clean_up.hpp
 
 struct CommitSettings {
-    bool keep_unchanged = false; ///< a file that has the bytes already is left alone, with its time
-    bool sync = true;        ///< the bytes are on the disk before a file gets its name, and names at the end
-    bool names_only = false; ///< only list the files: write nothing and commit nothing
+    bool keep_unchanged = false; ///< leave files that already have the right bytes unchanged, with their time
+    bool sync = true;            ///< sync the contents of a file before its rename, and folders at the end
+    bool names_only = false;     ///< only list the files: write nothing and commit nothing
 };
 
 /// The outputs of a run.
@@ -34,7 +34,7 @@ class Outputs {
         std::filesystem::path
             resolved; ///< the file to replace, with symbolic links followed, so that links stay links
         std::filesystem::path temporary; ///< empty for streams (-, devices, FIFOs), which are kept in memory
-        bool is_input = false; ///< an input that has these bytes already: it is left alone, with its time
+        bool is_input = false; ///< an input that already has these bytes: it stays unchanged, with its time
         Bytes stream;
         std::size_t bytes = 0;
         std::string sha256;
@@ -49,8 +49,8 @@ class Outputs {
     /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
     /// already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
-    /// The same for a file that is not in memory: produce hands over its bytes, piece by piece. The target
-    /// is no stream; an input, or one that was staged, is refused whatever its bytes.
+    /// The same for data that is not in memory: `produce` passes it piece by piece. The target must not be a
+    /// stream. Inputs and already staged files are refused, whatever their bytes.
     using Put = std::function<void(Span)>;
     const File& add(const std::filesystem::path& target, const std::function<void(const Put&)>& produce,
                     const Mark& where = {});
@@ -64,7 +64,7 @@ class Outputs {
     /// files. With sync, a loss of power leaves each file either unchanged or complete, but some of several
     /// may be new.
     void commit();
-    /// Forgets everything staged (a failed run).
+    /// Discards all staged files, after a failed run.
     void discard();
     const std::vector<std::unique_ptr<File>>& files() const { return files_; }
 
@@ -101,7 +101,7 @@ class Outputs {
     std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
 };
 
-/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output.
+/// Writes a single file atomically (reports, --save, depfiles). "-" is standard output.
 void write_now(const std::filesystem::path& target, Span bytes, const CommitSettings& settings = {});
 
 /// Installs handlers that remove staged temporaries and end the process by the signal: SIGINT, SIGTERM,
