@@ -6,7 +6,7 @@
 
 namespace facetmill::test {
 
-/// A run of single stages in a directory of its own.
+/// Runs single stages in its own directory.
 struct Bench {
     TemporaryDirectory dir;
     RunState state;

@@ -1,5 +1,5 @@
 #pragma once
-// A solid with a cap, and how far the cap is from the plane of its cut.
+// A solid with a cap, and the distance of the cap from its plane.
 
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"

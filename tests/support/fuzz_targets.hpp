@@ -45,12 +45,12 @@ std::string trouble_of_mesh(io::Bytes bytes) {
     return trouble_reading(std::string("a.") + Extension, std::move(bytes));
 }
 
-/// The model of a 3MF archive, packed so that a damage of the archive does not hide it.
+/// The model of a 3MF archive, packed here so that damage to the archive does not hide it.
 inline std::string trouble_of_model(io::Bytes bytes) {
     return trouble_reading("a.3mf", io::threemf::make_archive({{"3D/3dmodel.model", std::move(bytes)}}));
 }
 
-/// A PLY that is packed with gzip or zstd.
+/// A PLY compressed with gzip or zstd.
 inline std::string trouble_of_packed(io::Bytes bytes) {
     static const TemporaryDirectory folder;
     put(folder / "a.ply", io::as_text(bytes));
@@ -60,8 +60,8 @@ inline std::string trouble_of_packed(io::Bytes bytes) {
     });
 }
 
-/// Triangles under EXT_meshopt_compression: the first six bytes choose how many elements of which size,
-/// under which mode and filter, the others are the stream.
+/// Triangles under EXT_meshopt_compression. The first six bytes choose the number and size of elements, the
+/// mode and the filter. The others are the stream.
 inline std::string trouble_of_meshopt(io::Bytes bytes) {
     constexpr const char* modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
     constexpr const char* filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
@@ -130,7 +130,7 @@ inline std::string trouble_of_table(io::Bytes bytes) {
     return trouble_of([&] { io::read_table(io::Input::of("a.csv", std::move(bytes)), 3); });
 }
 
-/// Textures: an image of some million pixels at most, so that a run is short.
+/// Textures: images of about a million pixels at most, so that a run is short.
 inline std::string trouble_of_image(io::Bytes bytes) {
     constexpr std::size_t most = std::size_t{1} << 20;
     return trouble_of([&] {
@@ -142,12 +142,12 @@ inline std::string trouble_of_image(io::Bytes bytes) {
     });
 }
 
-/// A pipeline file, planned; nothing runs.
+/// A pipeline file. It is planned but not run.
 inline std::string trouble_of_pipeline(io::Bytes bytes) {
     return trouble_of([&] { planned(std::string(io::as_text(bytes))); }, true);
 }
 
-/// A one-liner, an argument a line.
+/// A one-liner, with an argument per line.
 inline std::string trouble_of_pipe(io::Bytes bytes) {
     std::vector<std::string> arguments{"pipe"};
     std::istringstream lines{std::string(io::as_text(bytes))};

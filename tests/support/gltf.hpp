@@ -42,7 +42,7 @@ inline Scene read_text(std::string_view text, io::ReadLog* log = nullptr) {
     return read_bytes(to_bytes(text), "gltf", log);
 }
 
-/// Written as GLB and read again.
+/// Writes a GLB and reads it back.
 inline Scene again(const Scene& scene, const io::WriteSettings& settings = {}) {
     return read_bytes(written(scene, "glb", settings).files.at(0).bytes, "glb");
 }

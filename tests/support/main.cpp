@@ -1,6 +1,6 @@
 // The main function of the test runner. In addition to Catch2's arguments it has --ctest and --ctest-files,
-// which write the script that lists the tests for ctest: each case or each file runs in a process of its own,
-// with its room as label. Files serve sanitizers, under which every process takes long to start.
+// which write the list of tests for ctest. Each case or each file runs in its own process, with its folders
+// as labels. Files serve sanitizers, because their processes take long to start.
 
 #define CATCH_CONFIG_RUNNER
 #include "support/catch.hpp"

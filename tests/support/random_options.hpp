@@ -1,6 +1,6 @@
 #pragma once
-// Random options of any stage, drawn from its declaration: ranges, choices and groups as it has them, all
-// else from its JSON Schema. So a new stage, or a new option, is drawn without a change here.
+// Random options of any stage: ranges, choices and groups come from its declaration, everything else from
+// its JSON Schema. New stages and options therefore need no change here.
 
 #include "base/math/numbers.hpp"
 #include "docs/schema.hpp"
@@ -13,7 +13,7 @@
 
 namespace facetmill::test {
 
-/// A number in the range: small mostly, at its ends often, far off at times.
+/// A number in the range: usually small, often at the ends, sometimes very large.
 inline double random_number(Draw& draw, const Range& range, bool whole) {
     const double low = range.min.value_or(whole ? 0 : -10),
                  high = range.max.value_or(std::max(10.0, 2 * low + 10));
@@ -181,7 +181,7 @@ inline Value from_declaration(Draw& draw, const Declaration& declaration) {
     return map;
 }
 
-/// The value of an example of the stage, "relax: {iterations: 3}", without the keys that all stages have.
+/// The options in an example of the stage, "relax: {iterations: 3}", without the common keys.
 inline Value from_example(Draw& draw, const StageInfo& stage) {
     Problems problems;
     const auto text = std::make_shared<const SourceText>(SourceText{"example", draw.one_of(stage.examples)});
@@ -202,7 +202,7 @@ inline std::optional<Value> random_options(Draw& draw, const StageInfo& stage) {
     return {};
 }
 
-/// As a pipeline would write it.
+/// The value as written in a pipeline.
 inline std::string text_of(const Value& value) {
     std::string text;
     if (value.is_scalar())

@@ -1,5 +1,5 @@
 #pragma once
-// One stage on a scene, as the pipeline would run it; its options written as in a pipeline, or as a value.
+// Runs a stage on a scene as the pipeline does. Options are text as in a pipeline, or a value.
 
 #include "mesh/shapes.hpp"
 #include "pipeline/document.hpp"
@@ -38,7 +38,7 @@ inline std::shared_ptr<Stage> use_of(const StageInfo& info, const Value& value, 
     return stage;
 }
 
-/// The problems of the options go out as one Error; so do the stage's.
+/// Throws the problems of the options as one Error, like the stage's own errors.
 inline StageRun run_stage(const std::string& name, const Value& value, Scene scene) {
     Problems problems;
     const auto stage = use_of(stage_for_test(name), value, problems);
@@ -91,7 +91,7 @@ inline Scene skinned_cube() {
     return scene;
 }
 
-/// A map of scalars, as the command line would give them.
+/// A map of scalars, as from the command line.
 inline Value options(std::vector<std::pair<std::string, std::string>> pairs) {
     Value map = Value::map({});
     for (auto& [key, text] : pairs) map.set(key, Value::scalar(text));

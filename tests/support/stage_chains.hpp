@@ -36,7 +36,7 @@ struct Chain {
     }
 };
 
-/// One to three stages; `only` is the name of the first, where it is not empty.
+/// One to three stages. `only` is the name of the first, unless empty.
 inline Chain random_chain(Draw& draw, const std::string& only = {}) {
     std::vector<const StageInfo*> all;
     for (const auto& stage : stages())
@@ -50,7 +50,7 @@ inline Chain random_chain(Draw& draw, const std::string& only = {}) {
     return chain;
 }
 
-/// A digest of all that stages may change of a scene.
+/// A digest of all scene data that stages may change.
 inline std::string digest(const Scene& scene) {
     std::string bytes;
     const auto add = [&](const auto& values) {
@@ -77,7 +77,7 @@ inline std::string digest(const Scene& scene) {
     return sha256(std::as_bytes(std::span(bytes)));
 }
 
-/// Files that `load` and others find in the folder of a test.
+/// Files for `load` and other stages in the test's folder.
 inline void put_files(const std::filesystem::path& folder) {
     for (const char* format : {"ply", "obj", "stl", "glb"}) {
         io::WriteSettings settings;
@@ -90,13 +90,13 @@ inline void put_files(const std::filesystem::path& folder) {
     }
 }
 
-/// Whether the stage promises that edges of at most two faces stay such.
+/// Whether the stage keeps edges of at most two faces manifold.
 inline bool keeps_edge_manifold(const Link& link) {
     static const std::set<std::string> names{"orient", "relax", "simplify", "textures", "transform"};
     return names.contains(link.stage->name);
 }
 
-/// Whether the stage promises closed parts out of closed ones.
+/// Whether the stage keeps closed parts closed.
 inline bool keeps_closed(const Link& link) {
     static const std::set<std::string> names{"crumple",  "orient",    "relax",       "simplify", "split",
                                              "textures", "transform", "triangulate", "two-sided"};
@@ -107,7 +107,7 @@ inline bool keeps_closed(const Link& link) {
     return names.contains(link.stage->name);
 }
 
-/// Stages that pass the scene on as it came.
+/// Whether the stage returns its scene unchanged.
 inline bool keeps_scene(const StageInfo& stage) {
     static const std::set<std::string> names{"probe", "render", "section", "write"};
     return stage.checks || names.contains(stage.name);
@@ -124,7 +124,7 @@ inline bool all_edge_manifold(const Scene& scene) {
 /// The log of a chain, which must not depend on the number of threads, and the fault.
 struct Outcome {
     std::string told, wrong;
-    std::size_t stages_done = 0; ///< the next one refused
+    std::size_t stages_done = 0; ///< the next stage refused
     Scene scene;
 };
 
@@ -147,7 +147,7 @@ inline bool is_finding(const Error& error) {
     return error.diagnostics().front().id == "E-READBACK";
 }
 
-/// Runs the chain in the folder. Ends at the first stage that refuses, or whose result is beyond all numbers.
+/// Runs the chain in the folder. Ends at the first stage that refuses, or whose result is not finite.
 inline Outcome run_chain(const Chain& chain, const std::filesystem::path& folder) {
     Outcome outcome;
     RunState state;

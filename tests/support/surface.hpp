@@ -14,14 +14,14 @@ struct Counts {
     std::size_t open = 0;       ///< edges with one face
     std::size_t crowded = 0;    ///< edges with more than two faces
     std::size_t unbalanced = 0; ///< edges whose two directions do not cancel
-    std::size_t duplicates = 0; ///< faces with the vertices of an earlier one
+    std::size_t duplicates = 0; ///< faces with the same vertices as an earlier face
     std::size_t pinched = 0;    ///< vertices whose faces form more than one fan
     std::size_t flat = 0;       ///< triangles without area
     bool operator==(const Counts&) const = default;
 };
 
 inline Counts count(const Mesh& m) {
-    std::map<std::pair<Index, Index>, std::pair<std::size_t, int>> edges; // faces, and sum of directions
+    std::map<std::pair<Index, Index>, std::pair<std::size_t, int>> edges; // face count, and sum of directions
     std::map<Index, std::vector<std::pair<Index, Index>>> links;
     std::set<std::set<Index>> faces;
     Counts counts;
@@ -68,7 +68,7 @@ inline Counts count(const Mesh& m) {
     return counts;
 }
 
-/// Closed, manifold, without doubled or flat faces, and of that Euler number.
+/// Whether the mesh is closed and manifold, has that Euler number, and no duplicate or flat faces.
 inline bool sound(const Mesh& m, std::int64_t euler) { return count(m) == Counts{euler}; }
 
 /// Whether all arrays are equal by ==.
