@@ -18,7 +18,7 @@ namespace facetmill {
 
 namespace {
 
-constexpr int band_rows = 32; ///< of samples, developed by one thread
+constexpr int band_rows = 32; ///< rows of samples, shaded by a single thread
 constexpr std::size_t large = std::size_t{1}
                               << 14; ///< triangles with more samples are drawn by several threads
 
@@ -144,8 +144,8 @@ class PictureDrawing {
             1);
     }
 
-    /// Draws the small triangles among some and returns the large ones. Data of later triangles is
-    /// prefetched, because it may be anywhere in memory.
+    /// Draws the small triangles of a range and returns the large triangles. Prefetches data of later
+    /// triangles, because it may be anywhere in memory.
     Faces draw_small(const PartDrawing& part, const std::vector<SamplesAt>& at, std::size_t begin,
                      std::size_t end) {
         struct Asked {
@@ -211,7 +211,7 @@ class PictureDrawing {
         }
     }
 
-    /// As dots, a sample apart, each like the nearer end.
+    /// Draws lines as dots, a sample apart.
     void draw_lines(const PartDrawing& part) {
         const Mesh& mesh = part.mesh();
         for (std::size_t l = 0; l < mesh.line_count(); ++l) {
@@ -258,7 +258,7 @@ class PictureDrawing {
                         settings_.coarse_occlusion);
     }
 
-    /// The rows of pixels of a band.
+    /// Shades the rows of pixels of a band.
     void develop(std::size_t band, Picture& picture) const {
         LastFacings last;
         const Layers layers(bands_[band], first_row(band), last_row(band), canvas_, drawing_, shader_, last);
@@ -287,7 +287,7 @@ class PictureDrawing {
         return sum;
     }
 
-    /// The solid surface at each sample of a pixel; one shade for each face among them.
+    /// The opaque surface at each sample of a pixel, with a single shade per face.
     std::array<Texel, Canvas::samples * Canvas::samples> solid_samples(int x, int y, float open,
                                                                        LastFacings& last) const {
         constexpr int n = Canvas::samples;

@@ -12,7 +12,7 @@ constexpr double ambient = 0.16, direct = 0.84;
 Texel opaque(const Colour& c) { return {c[0], c[1], c[2], 1}; }
 
 std::pair<double, double> coordinates_at(const Attribute& uv, const FacePlace& place) {
-    double u = 0, v = 0; // in doubles: far from zero floats are too coarse for differences
+    double u = 0, v = 0; // doubles, because floats are too coarse for differences far from zero
     for (std::size_t k = 0; k < 3; ++k) {
         u += place.weights[k] * uv.value(place.wedges[k], 0);
         v += place.weights[k] * uv.value(place.wedges[k], 1);
@@ -22,7 +22,7 @@ std::pair<double, double> coordinates_at(const Attribute& uv, const FacePlace& p
 
 } // namespace
 
-/// The steps to the neighbouring pixels are needed for footprints of textures.
+/// The derivatives between neighbouring pixels give the footprint of textures.
 struct Shader::Spot {
     const PartDrawing& part;
     const CanvasTriangle& t;
@@ -90,7 +90,7 @@ std::optional<std::pair<Vec3, Vec3>> Shader::tangents(const Spot& spot, const Ve
                      normalised(against_v - normal * dot(normal, against_v)));
 }
 
-/// The normal as the normal texture bends it.
+/// The normal, perturbed by the normal map.
 Vec3 Shader::bumped(const Spot& spot, const Vec3& normal) const {
     const auto axes = tangents(spot, normal);
     if (!axes) return normal;
@@ -109,9 +109,9 @@ const LastFacings::Facing& Shader::facing(std::uint32_t number, const PartDrawin
     return facing = {number, part.front(corners), facing_normal(corners)};
 }
 
-/// The normal of the side that is seen. facing: facing_normal.
+/// The normal of the visible side. facing: facing_normal.
 Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
-    Vec3 outer = facing; // towards the viewer: the outer one of a front
+    Vec3 outer = facing; // towards the viewer: the outer normal of a front face
     if (const auto own = spot.part.normal(view_, spot.at))
         outer = *own;
     else if (!spot.front)

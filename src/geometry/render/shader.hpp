@@ -11,10 +11,10 @@ class LastFacings {
   public:
     struct Facing {
         std::uint32_t number = none; ///< of the triangle
-        bool front = false;          ///< its outer side is seen
+        bool front = false;          ///< whether its outer side is visible
         Vec3 normal;                 ///< Shader::facing_normal
     };
-    /// The place of that triangle, which may hold another.
+    /// The cache slot for that triangle, which may hold another.
     Facing& at(std::uint32_t number) { return all_[number % all_.size()]; }
 
   private:
@@ -38,7 +38,7 @@ class Shader {
     Vec3 facing_normal(const std::array<Vec3, 3>& corners) const;
 
   private:
-    struct Spot; // a point and its values that are needed repeatedly
+    struct Spot; // a surface point with values that are needed repeatedly
 
     Texel base_colour(const Spot& spot, bool inside) const;
     Texel textured(const Spot& spot, const Texture& texture) const;

@@ -1,11 +1,11 @@
 #pragma once
-// How a picture looks at the world.
+// The projection of the world to a picture.
 
 #include "geometry/render/render.hpp"
 
 namespace facetmill {
 
-/// World to samples: x right, y down, z towards the viewer, 0 in the middle of the visible scene. In
+/// Maps world to samples: x right, y down, z towards the viewer, 0 at the centre of the visible scene. In
 /// perspective, z grows with the inverse of the distance, so that planes stay planes.
 struct View {
     Vec3 right, up, towards;
@@ -18,7 +18,7 @@ struct View {
 
     Vec3 of(const Vec3& p) const;
     /// The position of a canvas point before perspective: x right, y down, z towards the viewer, in samples
-    /// at the depth of the scene's middle. In parallel projection it is the point itself.
+    /// at the depth of the scene's centre. In parallel projection it is the point itself.
     Vec3 place(const Vec3& seen) const;
     /// The inverse of the distance from the viewer, up to a factor. Interpolation weights are multiplied
     /// with it.
