@@ -183,7 +183,7 @@ TEST_CASE("info writes a picture, too", "[cli]") {
     const std::string mesh = (folder.path() / "a.obj").string(), image = (folder.path() / "a.png").string();
     std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     CHECK(message({"info", mesh, "--picture", "a.jpg"}).find("E-PICTURE") != std::string::npos);
-    const auto before = std::filesystem::file_size(mesh); // it is not taken for the picture
+    const auto before = std::filesystem::file_size(mesh); // the mesh must not be mistaken for the picture
     const std::string forgotten = message({"info", "--picture", mesh});
     CHECK(forgotten.find("error[E-PICTURE]: --picture is followed by the .png file to write, found '" + mesh +
                          "'") != std::string::npos);

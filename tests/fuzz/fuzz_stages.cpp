@@ -59,7 +59,7 @@ double spent() {
 
 std::size_t peak_mib() { return static_cast<std::size_t>(used().ru_maxrss) >> 10; }
 
-/// SIGPROF ends a chain that does not end; 0: none.
+/// Ends a hanging chain by SIGPROF; 0: no limit.
 void allow_seconds(int seconds) {
     itimerval timer{};
     timer.it_value.tv_sec = seconds;

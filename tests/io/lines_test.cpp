@@ -27,7 +27,7 @@ Loaded load(const std::string& name, std::string_view text, bool lines = true) {
     return loaded;
 }
 
-/// Two lines of four points: a strip, a loop or a list, as the mode says, below a moved node.
+/// Two lines of four points below a moved node: a strip, a loop or a list, by the mode.
 std::string gltf_lines(int mode, const std::string& more = "") {
     return fmt::format(
         R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"name": "wire", "mesh": 0,

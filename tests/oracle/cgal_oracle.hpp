@@ -25,7 +25,7 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error);
 /// The union of two closed meshes by CGAL's corefinement. Edge-manifold triangle meshes that do not intersect
 /// themselves.
 Mesh union_of(const Mesh& a, const Mesh& b);
-/// The first without the second, likewise.
+/// The difference, in the same way.
 Mesh difference_of(const Mesh& a, const Mesh& b);
 
 /// CGAL's Polygon_2.

@@ -430,7 +430,7 @@ TEST_CASE("a condition on a property or a variable as other languages have it sa
     // Words that only others call properties by may be mere words; and no bound is made up that is refused.
     CHECK(hint_of("points == points").empty());
     CHECK(hint_of("solid != shell").empty());
-    CHECK(hint_of("inside_out == true").empty()); // no property says it so
+    CHECK(hint_of("inside_out == true").empty()); // no property has this name
     CHECK(hint_of("points > 10") == "write when: {vertices: {min: 11}}");
     CHECK(hint_of("faces > 1000.5") == "write when: {faces: {min: ..., max: ...}}");
     CHECK(hint_of("max_extent > large") == "write when: {max_extent: {min: ..., max: ...}}");

@@ -71,7 +71,7 @@ TEST_CASE("files that are not allowed are refused, in threads that start later t
              [&] { return sandbox_hint(folder / "other", EACCES).find("--no-sandbox") != std::string::npos; },
              [&] { return sandbox_hint(folder / "other", ENOENT).empty(); },
              [] { return active_protections().files > 0; }}) == 0);
-    CHECK(sandbox_hint(folder / "other", EACCES).empty()); // here there is none
+    CHECK(sandbox_hint(folder / "other", EACCES).empty()); // no sandbox is active in this process
 }
 
 TEST_CASE("processes and sockets are refused, threads are not", "[base]") {

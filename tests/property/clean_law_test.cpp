@@ -42,7 +42,7 @@ Mesh on_lattice(Mesh mesh, double cell) {
     return mesh;
 }
 
-/// Some faces gone, others doubled, some of them turned round.
+/// Removes some faces, duplicates others, and reverses some of these.
 Mesh damaged(const Mesh& mesh, std::uint64_t seed) {
     Mesh result;
     result.positions = mesh.positions;

@@ -32,7 +32,7 @@ Plane oblique_plane(std::uint64_t key, const Box& box) {
     return plane;
 }
 
-/// Every third plane goes through a vertex, every third along an axis through one.
+/// Every third plane goes through a vertex, and every third is axis-aligned through a vertex.
 Plane some_plane(std::uint64_t key, const Mesh& mesh, const Box& box) {
     Plane plane = oblique_plane(key, box);
     if (key % 3 == 0) return plane;
@@ -58,7 +58,7 @@ bool adds_up(const Mesh& whole, const ClipResult& r, double area) {
     return std::fabs(static_cast<double>(lost)) <= 4 * 2.2e-16 * reach * area;
 }
 
-/// Around the faces that the plane meets: those get points.
+/// The total perimeter of the faces that the plane meets, because these get new points.
 double length_of_cut(const Mesh& mesh, const Plane& plane) {
     double sum = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -125,7 +125,7 @@ bool closed_read_again(const Mesh& mesh, ClipCounts& counts) {
     for (const char* name : {"side.ply", "side.stl"}) {
         auto written = io::codec_for(name)->write(scene, {});
         io::ReadLog log;
-        io::ReadSettings settings; // seams come apart in a file, and are welded
+        io::ReadSettings settings; // files split vertices at seams, so weld them
         settings.weld = io::Weld::exact;
         const Scene again =
             io::read_scene(io::Input::of(name, std::move(written.files.at(0).bytes)), settings, log);
@@ -148,10 +148,10 @@ void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, 
     CHECK(front.closed);
     CHECK(back.closed);
     CHECK(broken_invariants(r.front).empty());
-    // Faces without area lie in sections without a trace, and their caps touch.
+    // Faces without area leave no trace in sections, and their caps touch.
     if (whole.edge_manifold && whole.degenerate_faces == 0)
         CHECK(edge_manifold_too(r, front, back, tangled(mesh, settings.planes[0]), counts));
-    // A face that is not flat has no volume below it of its own; its pieces come near to it only.
+    // A face that is not flat has no defined volume below it, and its pieces only approximate it.
     if (mesh.all_triangles() && !mesh.find("cut_id", Domain::face)) {
         ++counts.sums;
         CHECK(adds_up(mesh, r, whole.area + front.area + back.area));

@@ -165,7 +165,7 @@ TEST_CASE("open meshes add up in area, with whatever can be capped", "[property]
             const ClipResult r = clip(mesh, settings);
             CHECK(broken_invariants(r.front).empty());
             CHECK(broken_invariants(r.back).empty());
-            // A quad that is not flat has no area of its own; its pieces come near to it only.
+            // A quad that is not flat has no defined area, and its pieces only approximate it.
             if (mesh.all_triangles())
                 CHECK(std::fabs(test::area(r.front) + test::area(r.back) - test::area(mesh)) < rounding);
         }

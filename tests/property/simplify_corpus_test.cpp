@@ -89,7 +89,7 @@ template <class Check>
 int over_corpus(const fs::path& corpus, Check&& check) {
     int compared = 0;
     for (const auto& path : test::meshes_below(corpus)) {
-        if (fs::file_size(path) >= 4000000) continue; // the large ones would take minutes
+        if (fs::file_size(path) >= 4000000) continue; // larger files would take minutes
         for (const Part& part : test::read_or_nothing(path).parts) {
             INFO(path.string() << ", part " << part.name);
             check(part.mesh);

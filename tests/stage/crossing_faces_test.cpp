@@ -100,7 +100,7 @@ TEST_CASE("stages that cut faces cut what faces that cross themselves cover", "[
     CHECK(test::area(half.mesh()) == Approx(floor_area + walls_area / 2));
     CHECK(test::area(run_stage("split", "centroid", scene_of(bow_tie_prism())).mesh()) ==
           Approx(2 * floor_area + walls_area));
-    // Its two triangles face opposite ways; each gets a wall behind it.
+    // Its two triangles have opposite normals, and each gets its own wall.
     CHECK(test::volume(run_stage("thicken", "1", scene_of(bow_tie())).mesh()) == Approx(9 + 1));
     CHECK(run_stage("thicken", "{thickness: 1%, mode: edges}", scene_of(bow_tie()))
               .record.result["parts"][0]["cylinders"] == 4);

@@ -179,7 +179,7 @@ TEST_CASE("crop keeps the points of a cloud, each on one side", "[stages]") {
         return run_stage("crop", options, scene_of(cloud));
     };
     const auto inside = points("inside");
-    REQUIRE(inside.mesh().vertex_count() == 3); // 1 and 3 lie on the outline
+    REQUIRE(inside.mesh().vertex_count() == 3); // 1 and 3 are on the outline
     CHECK(inside.mesh().positions[0] == Vec3{1, 1, 0});
     CHECK(inside.warnings().empty());
     CHECK(points("outside").mesh().vertex_count() == 2);

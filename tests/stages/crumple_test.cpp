@@ -79,7 +79,7 @@ TEST_CASE("crumple: parts that meet stay together", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts.front());
     scene.parts[1].name = "other";
-    scene.parts[1].transform.m[0][3] = 1; // its face x = 0 lies on the first one's x = 1
+    scene.parts[1].transform.m[0][3] = 1; // its face x = 0 coincides with the first's x = 1
     const auto r = run_stage("crumple", options({{"grid", "1"}, {"amplitude", "0.05"}}), scene);
     int met = 0;
     const Mesh cube = shapes::cube();

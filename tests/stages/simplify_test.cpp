@@ -199,7 +199,7 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
     CHECK(problems("{ratio: 10%, weights: 0}") == "");
     CHECK(problems("{ratio: 10%, lock: {box: {min: [0, 0, 0], max: [0, 1, 1]}}}").find("E-BOX") !=
           std::string::npos);
-    // A ratio that may be a count asks which.
+    // A number that could be a ratio or a count is refused with a question.
     CHECK(problems("1").find("write 100%, or name the option that counts (faces: 1)") != std::string::npos);
     CHECK(problems("5000").find("a ratio has a point or a % (50%); for a count write faces: 5000") !=
           std::string::npos);
@@ -412,7 +412,7 @@ TEST_CASE("simplify: several parts keep their triangles where they are needed", 
     const auto by_error = run_stage("simplify", "50%", sphere_and_sheet());
     const auto equal = run_stage("simplify", "{ratio: 50%, share: equal}", sphere_and_sheet());
     CHECK(faces_of(equal, 0) == 640);
-    CHECK(faces_of(equal, 1) >= 255); // a collapse at the boundary takes one
+    CHECK(faces_of(equal, 1) >= 255); // a collapse at the boundary removes one
     CHECK(faces_of(equal, 1) <= 256);
     CHECK(by_error.scene.face_count() == 896);
     CHECK(faces_of(by_error, 1) < 64); // it is flat
@@ -462,7 +462,7 @@ TEST_CASE("simplify: parts with one mesh and one scale share alike, and each of 
     CHECK(test::same(r.scene.parts[0].mesh, r.scene.parts[3].mesh));
     const std::size_t target = 3 * 640 + 256;
     CHECK(r.scene.face_count() <= target);
-    CHECK(r.scene.face_count() + 6 > target); // one collapse takes two faces of each of the three
+    CHECK(r.scene.face_count() + 6 > target); // a collapse removes two faces of each of the three
 }
 
 TEST_CASE("simplify: parts share a target by error also within max_error and without crossings", "[stages]") {
@@ -527,7 +527,7 @@ TEST_CASE("simplify: separate boxes do not become slivers, and one warning tells
     scene.parts.push_back({"sheet", shapes::grid(16, 16)});
     scene.parts.back().transform.m[1][3] = 4;
     const auto more = run_stage("simplify", "50%", scene);
-    CHECK(more.scene.face_count() >= 375); // a collapse at the boundary takes one
+    CHECK(more.scene.face_count() >= 375); // a collapse at the boundary removes one
     CHECK(more.scene.face_count() <= 376);
     CHECK(more.warnings().empty());
 }

@@ -181,7 +181,7 @@ TEST_CASE("what would not be smaller stays", "[stages]") {
 TEST_CASE("repack makes images smaller that would stay, and nothing else", "[stages]") {
     const io::Bytes tight = io::encoded_png(picture(64, 64));
     io::Bytes loose = tight;
-    loose.resize(loose.size() + 100); // behind the end of the image
+    loose.resize(loose.size() + 100); // after the end of the image
     const auto run =
         run_stage("textures", "{repack: true}",
                   textured({loose, tight}, every_role, R"({"source":0},{"source":1},{"source":1})"));

@@ -205,7 +205,7 @@ TEST_CASE("what is fixed is told", "[stages]") {
     Gate gate("closed: true, faces: {max: 9}, boundary_edges: 0");
     gate.learn(cube_without({3, across()}));
     const auto half = gate.judge(cube_without({across()}));
-    CHECK_FALSE(Gate::all_passed(half)); // more faces than there were
+    CHECK_FALSE(Gate::all_passed(half)); // more failing faces than before
     Gate open("closed: true, boundary_edges: 0, isolated_vertices: 0");
     Mesh mesh = cube_without({3, across()});
     mesh.positions.push_back({7, 7, 7});

@@ -223,10 +223,10 @@ TEST_CASE("validate knows what a purpose needs", "[stages]") {
     CHECK(judged("{for: printing}", shapes::icosphere(2)) == "");
     CHECK(judged("{for: simulation}", shapes::icosphere(2)) == "");
     CHECK(judged("{for: web}", shapes::grid(2, 2)) ==
-          ""); // open, without normals and weights: none is missed
+          ""); // open, without normals and weights, which the profile does not require
     CHECK(judged("{for: solid}", flipped(shapes::cube())) == "outward_oriented: true, found false");
     CHECK(judged("{for: solid, outward_oriented: false}", flipped(shapes::cube())) ==
-          ""); // what is given counts
+          ""); // given assertions override the profile
 }
 
 TEST_CASE("validate limits what a scene holds", "[stages]") {
@@ -404,6 +404,6 @@ TEST_CASE("validate says that a bare value of a measure is asked for exactly", "
     CHECK(hint("{longest_edge: 2}") == exactly);
     CHECK(hint("{volume: 2}") == exactly);
     CHECK(hint("{min_angle: {min: 60}}") == "relax makes faces more regular");
-    CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // what is counted may well be one number
+    CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // an exact count is a sensible requirement
     CHECK(hint("{volume: 0}") != exactly);
 }

@@ -34,7 +34,7 @@ write_stage::EvenGrid grid_of(const Scene& scene, int bits = 14) {
     return write_stage::even_grid(scene, usual, bits, bits, std::vector<bool>(scene.parts.size()));
 }
 
-/// The file as it is read again.
+/// The file after reading it back.
 Scene written(Bench& b, const std::string& options) {
     Problems problems;
     const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
@@ -44,7 +44,7 @@ Scene written(Bench& b, const std::string& options) {
     return io::read_scene(io::Input::open(b.dir / "a.glb"), {}, log);
 }
 
-/// Half of a sphere, whose open border lies in the plane x = 0.
+/// Half of a sphere, with its open border in the plane x = 0.
 Mesh half_ball(bool right) {
     const Mesh ball = shapes::icosphere(3);
     Mesh half;

@@ -62,7 +62,7 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
             p[axis] = static_cast<double>(static_cast<float>(p[axis]));
     CHECK(run_stage("write", (dir / "c.ply").string(), rounded).record.said.empty());
     for (const char* options : {"{{path: {}}}", "{{path: {}, draco: true}}"})
-        for (const Scene& one : {far_away(0), scene}) // which gets an origin of its own
+        for (const Scene& one : {far_away(0), scene}) // the scene that gets its own origin
             CHECK(warnings_of(one, fmt::format(fmt::runtime(options), glb)).empty());
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("far from the origin, the nodes of a file take the offset", "[stages]"
         b.run("write", pipeline::parse_yaml(source, problems));
         for (const auto& w : b.record.warnings) FAIL_CHECK(w.id << " " << w.message);
         CHECK(b.record.result["origin"]["parts"] == 1);
-        // The scene itself is as it was.
+        // The scene itself is unchanged.
         CHECK(b.scene.parts[0].mesh.positions == given.parts[0].mesh.positions);
         CHECK(b.scene.parts[0].transform.identity());
         CHECK(!b.scene.parts[0].changed);

@@ -146,7 +146,7 @@ std::string told_of(Bench& b, const Value& value) {
     return text;
 }
 
-/// Two cubes that touch along an edge, whose corners there are different vertices.
+/// Two cubes that touch along an edge without sharing its vertices.
 Mesh touching_cubes() {
     Mesh mesh = shapes::cube(), other = shapes::cube();
     for (Vec3& p : other.positions) p += Vec3{1, 1, 0};

@@ -17,7 +17,7 @@ using namespace facetmill::cells;
 
 namespace {
 
-/// How many places clean leaves alone, and how many faces it changes, say whether a test tests anything.
+/// Compares clean in cells with clean in memory. The returned counts show whether the test is meaningful.
 CleanCounts check_clean(const Mesh& mesh, std::uint64_t most, const CleanSettings& settings = {}) {
     const test::TemporaryDirectory folder;
     const CellResources means{folder.path(), test::cell_memory};

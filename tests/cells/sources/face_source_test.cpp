@@ -234,7 +234,7 @@ TEST_CASE("digests are those of the files, however far they were read", "[cells]
     const test::TemporaryDirectory folder;
     Scene scene;
     scene.parts.emplace_back().mesh = test::noisy_icosphere(3, 0.01, 7);
-    Scene with_lines = scene; // a PLY has them behind the faces
+    Scene with_lines = scene; // PLY stores them after the faces
     with_lines.parts.emplace_back().mesh.positions = {{0, 0, 0}, {0, 0, 1}};
     with_lines.parts.back().mesh.lines = {0, 1};
     for (const char* name : {"m.ply", "lines.ply", "m.stl", "m.obj"}) {

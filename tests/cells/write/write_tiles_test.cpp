@@ -114,7 +114,8 @@ class Cuts {
     Vec3 origin_;
 };
 
-/// Checks that cuts of a closed mesh of one component are, too; returns how many were of several levels.
+/// Checks that cuts of a closed connected mesh are closed and connected. Returns the number of cuts with
+/// several levels.
 std::size_t closed_cuts(const Cuts& cuts, std::uint64_t count) {
     std::size_t mixed = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed) {

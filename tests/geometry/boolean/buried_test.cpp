@@ -34,7 +34,7 @@ Mesh block(const Vec3& low, const Vec3& high, bool squares = false) {
     return mesh;
 }
 
-/// A turn that takes no axis to an axis: by a unit quaternion of rounded numbers.
+/// A rotation that maps no axis to an axis, by a unit quaternion of rounded numbers.
 Mesh turned_by(Mesh mesh, std::uint64_t seed) {
     const Vec3 v = random_point(1, seed, 31);
     const double w = between(-1, 1, seed, 32), n = w * w + dot(v, v);
@@ -68,7 +68,7 @@ std::vector<IntegerBox> random_blocks(std::uint64_t seed, std::size_t count, int
             b.high[k] = b.low[k] + size;
         }
         all.push_back(b);
-        if (number(0, 8) == 0) all.push_back(b); // there twice
+        if (number(0, 8) == 0) all.push_back(b); // present twice
     }
     return all;
 }
@@ -93,7 +93,7 @@ class LatticeCubes {
         });
         return count;
     }
-    /// V - E + F of the surface; none where cubes touch at an edge or at a vertex only, or leave such a gap.
+    /// V - E + F of the surface. None if cubes touch at an edge or a vertex only, or leave such a gap.
     std::optional<int> euler() const {
         int total = area();
         bool is_manifold = true;
@@ -292,7 +292,7 @@ TEST_CASE("nothing is buried by its own faces, by cavities, or where solids only
                thick = block({3, 3, 3}, {7, 7, 7});
     const Mesh filled = sound_one({hollow, bar, across, thick}, Task::unite).mesh;
     CHECK(test::volume(filled) == Approx(1000 - 216 + 64 + 16));
-    // A solid that passes through itself, inside out at one end, is not taken for more than it is.
+    // A solid that passes through itself, inside out at one end, does not hide more than its actual inside.
     Mesh eight = block({0, 0, 0}, {4, 1, 1});
     for (Vec3& p : eight.positions)
         if (p.x > 2) p = {p.x, 0.2 - 0.4 * p.y + 0.3, p.z}; // turned over, and smaller

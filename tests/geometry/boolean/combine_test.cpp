@@ -211,7 +211,7 @@ TEST_CASE("combine refuses what is no solid, and says which it is", "[geometry][
     CHECK(names(why(unsure), 1, "inconsistently oriented"));
     const Mesh turned = orient(test::moved(solid, {0.5, 0, 0}), {OrientMethod::flip, {}}).mesh;
     CHECK(names(why(turned), 1, "is inside out"));
-    const Mesh within = orient(solid, {OrientMethod::flip, {}}).mesh; // a cavity only of its own mesh
+    const Mesh within = orient(solid, {OrientMethod::flip, {}}).mesh; // a cavity of its own mesh only
     Mesh around = solid;
     for (Vec3& p : around.positions) p *= 2.0;
     CHECK(combine({around, within}, {}).failure);
@@ -251,7 +251,7 @@ TEST_CASE("combine says when rounding is why solids cannot be combined", "[geome
 
 TEST_CASE("combine takes no more memory than the run may", "[geometry][combine]") {
     const Mesh a = shapes::icosphere(3), b = test::moved(a, {0.5, 0.1, 0.2});
-    const auto why_within = [&](std::uint64_t bytes) { // more than there are in use
+    const auto why_within = [&](std::uint64_t bytes) { // above the memory in use
         std::uint64_t limit = std::uint64_t{1} << 20;
         for (set_memory_limit(limit); *memory_left() == 0; set_memory_limit(limit)) limit *= 2;
         set_memory_limit(limit - *memory_left() + bytes);

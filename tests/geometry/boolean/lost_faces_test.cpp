@@ -80,7 +80,7 @@ TEST_CASE("pairs of faces that are lost are not looked for", "[geometry][combine
     const auto all = crossings_and_rings(p.both, place, max_pairs, {});
     const auto lost = lost_faces(p.both, p.second, CombineOperation::intersect);
     const auto some = crossings_and_rings(p.both, place, max_pairs, lost);
-    CHECK(some.found.pairs == all.found.pairs); // none of one operand
+    CHECK(some.found.pairs == all.found.pairs); // no pairs within an operand
     CHECK(some.rings == all.rings);
     CHECK(some.found.box_pairs * 2 < all.found.box_pairs);
 }

@@ -82,7 +82,7 @@ TEST_CASE("a drilled plate has the corners of the plate and of the holes", "[geo
     const auto r = made_of(meshes, Operation::subtract);
     CHECK(r.mesh.vertex_count() == 8 + 16 * 2 * 16);
     CHECK(test::euler(r.mesh) == 2 - 2 * 16);
-    for (Index f = 0; f < r.mesh.face_count(); ++f) { // a side of a hole is of its drill
+    for (Index f = 0; f < r.mesh.face_count(); ++f) { // the sides of a hole come from its drill
         const bool upright = r.mesh.point(3 * f).z != r.mesh.point(3 * f + 1).z ||
                              r.mesh.point(3 * f).z != r.mesh.point(3 * f + 2).z;
         const Vec3 middle = (r.mesh.point(3 * f) + r.mesh.point(3 * f + 1) + r.mesh.point(3 * f + 2)) / 3;

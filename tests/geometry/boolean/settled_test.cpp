@@ -138,7 +138,7 @@ TEST_CASE("what is not tidy is seen where vertices are not settled", "[geometry]
     Mesh at_one_place = ball;
     at_one_place.positions[far] = at_one_place.positions[a];
     CHECK_FALSE(tidy(at_one_place, {a, far}));
-    Mesh walled = ball; // a sheet of two faces of its own
+    Mesh walled = ball; // a separate sheet of two faces
     const auto v = static_cast<Index>(ball.vertex_count());
     for (const Vec3& p : {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, 1, 0}}) walled.positions.push_back(p);
     add_face(walled, std::array{v, v + 1, v + 2});

@@ -255,7 +255,7 @@ TEST_CASE("clean carries texture coordinates to where solids are cut", "[geometr
         CHECK(r.mesh.find("heat", Domain::vertex)->value(v, 0) ==
               Approx(r.mesh.positions[v].x).margin(1e-13));
     const Attribute* side = r.mesh.find("group", Domain::face);
-    for (Index f = 0; f < r.mesh.face_count(); ++f) { // nearer to the sphere that it came from
+    for (Index f = 0; f < r.mesh.face_count(); ++f) { // nearer to its original sphere
         Vec3 middle;
         for (Index c = 3 * f; c < 3 * f + 3; ++c) middle += r.mesh.point(c) / 3;
         const double a = std::abs(length(middle) - 1), b = std::abs(length(middle - Vec3{0.7, 0.2, 0.1}) - 1);
@@ -326,7 +326,7 @@ TEST_CASE("triangles without area are taken out of a closed surface", "[geometry
     work.mesh = shapes::tetrahedron(); // faces 0 2 1, 0 1 3, 1 2 3, 2 0 3
     work.mesh.positions.push_back({0.5, 0, 0});
     work.mesh.positions.push_back({0.25, 0, 0});
-    // The first face ends at 4, and flat faces on 0 1 and on 0 4 lead from there to the second.
+    // The first face ends at 4. Flat faces on 0 1 and on 0 4 connect it with the second.
     work.mesh.corners = {0, 2, 4, 4, 2, 1, 0, 4, 5, 5, 4, 0, 0, 4, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
     REQUIRE(test::closed(work.mesh));
     REQUIRE(inspect(work.mesh).degenerate_faces == 3);

@@ -196,7 +196,7 @@ TEST_CASE("clean keeps doubled faces that hold a closed surface closed", "[geome
     REQUIRE(inspect(mesh).closed);
     REQUIRE(inspect(mesh).duplicate_faces == 1);
     CHECK(inspect(clean(mesh, {}).mesh).closed);
-    // A second copy of a face of a closed surface goes.
+    // A second copy of a face of a closed surface is removed.
     Mesh copied = shapes::cube();
     for (const Index c : {0U, 1U, 2U, 0U, 1U, 2U}) copied.corners.push_back(copied.corners[c]);
     CHECK(clean(copied, {}).mesh.corners == shapes::cube().corners);

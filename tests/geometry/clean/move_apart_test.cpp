@@ -43,7 +43,7 @@ Mesh together(Mesh a, const Mesh& b) {
     return a;
 }
 
-/// How far a vertex is from where it was at most; of meshes whose vertices are the same.
+/// The largest move of a vertex. Both meshes must have the same vertices.
 double farthest_move(const Mesh& before, const Mesh& after) {
     double most = 0;
     for (std::size_t v = 0; v < before.positions.size(); ++v)

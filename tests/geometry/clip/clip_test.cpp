@@ -38,7 +38,7 @@ std::vector<Index> sizes_in_front(double a, double b, double c) {
     return sizes;
 }
 
-/// The open square from -1 to 1 in n x n cells, with coordinates as they are computed.
+/// The open square from -1 to 1 in n x n cells, with unrounded coordinates.
 Mesh computed_grid(int n) {
     Mesh mesh = shapes::grid(n, n);
     for (Vec3& p : mesh.positions) p = {-1 + 2.0 / n * p.x, -1 + 2.0 / n * p.y, 0};

@@ -28,7 +28,7 @@ CropResult cropped(const Mesh& mesh, const Rings& rings, CropBy by = CropBy::cut
     return r;
 }
 
-/// Edges of one face only whose ends lie on no outline: there the crop tore something apart.
+/// Counts boundary edges with ends off the outline, where the crop tore the surface.
 std::size_t cracks(const Mesh& mesh, const Rings& rings, const Mesh& before) {
     const Box box = before.bounds();
     std::size_t count = 0;
@@ -415,7 +415,7 @@ TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
     const Rings outline{{at(0.65, 1.85), at(35.05, 5.1), at(31.25, 32.75), at(5.1, 30.45)}};
     const double wanted =
         0.5 * std::fabs(cross(outline[0][2] - outline[0][0], outline[0][3] - outline[0][1]));
-    for (const double height : {0.0, 1.0 / 3}) { // all floats, and none
+    for (const double height : {0.0, 1.0 / 3}) { // exact in float32, and not exact
         INFO(height);
         Mesh terrain;
         for (Index i = 0; i < side * side; ++i)

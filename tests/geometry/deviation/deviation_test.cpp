@@ -64,7 +64,7 @@ TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
 
 TEST_CASE("a surface with a part missing is far one way only", "[geometry]") {
     const auto d = deviation(shapes::grid(2, 1), shapes::grid(1, 1), {.mean_error = 0, .certify = true});
-    CHECK(d.forward.maximum == 1); // at a vertex: those are samples as well
+    CHECK(d.forward.maximum == 1); // at a vertex, because vertices are samples too
     CHECK(d.forward.from.x == 2);
     CHECK(d.forward.to.x == 1);
     CHECK(d.forward.face == none);
@@ -108,7 +108,7 @@ TEST_CASE("the bound of a corrugated sheet is what its slopes say", "[geometry]"
         CHECK(*d.forward.bound <= height * 1.01 + 1e-6 * d.diagonal);
         CHECK(d.backward.maximum <= truth * (1 + 1e-12));
         CHECK(*d.backward.bound >= truth * (1 - 1e-12));
-        CHECK(*d.backward.bound <= height * 1.01 + 1e-6 * d.diagonal); // the larger of both is asked about
+        CHECK(*d.backward.bound <= height * 1.01 + 1e-6 * d.diagonal); // only the larger direction is bounded
         const auto back = deviation_to(surface_of(flat), FaceTree(surface_of(ridges)),
                                        {.samples = samples, .certify = true});
         CHECK(*back.bound >= truth * (1 - 1e-12));
@@ -434,7 +434,7 @@ TEST_CASE("means of some of the samples are those of all, and the maximum is tha
         set_threads(0);
     }
     CHECK(fewer >= 8);
-    CHECK(uneven > 0); // no more 18ths than it takes, which need not be ninths
+    CHECK(uneven > 0); // no more 18ths than needed, which need not be ninths
 }
 
 TEST_CASE("where deviation is rare all samples are averaged", "[geometry]") {
@@ -486,7 +486,7 @@ TEST_CASE("slivers that lie askew and meet in one place are measured as others a
 }
 
 TEST_CASE("triangles that are all in one place are not searched one by one", "[geometry]") {
-    Surface one; // a search of each of these points for the lowest of these triangles would take minutes
+    Surface one; // searching the lowest of these triangles for each of these points would take minutes
     one.positions.assign(200000, Vec3{1, 2, 3});
     for (Index i = 0; i < 3 * 60000; ++i) one.corners.push_back(i);
     Surface other = one;

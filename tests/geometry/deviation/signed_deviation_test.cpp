@@ -110,7 +110,7 @@ TEST_CASE("what closes a cut is not measured, unless the reference has it", "[ge
         CHECK(found.low == Approx(0).margin(1e-12)); // cut edges lie on the ball's faces, except for rounding
         CHECK(found.high ==
               (mesh.vertex_count() > half.front.vertex_count() ? Approx(2) : Approx(0).margin(1e-12)));
-        REQUIRE(found.scene.parts.size() == 2); // the caps are there to be seen
+        REQUIRE(found.scene.parts.size() == 2); // the caps are visible
         CHECK(found.scene.parts[1].mesh.face_count() == half.cap_faces);
         CHECK(found.scene.parts[1].mesh.attributes.empty());
     }

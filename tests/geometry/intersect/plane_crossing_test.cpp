@@ -37,7 +37,7 @@ Vec3 exact_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) 
     return place;
 }
 
-/// By Cramer's rule; none of planes without just one point in common.
+/// By Cramer's rule; none if the planes do not meet in a single point.
 std::optional<Vec3> exact_crossing(const std::array<std::array<Vec3, 3>, 3>& planes) {
     std::array<Exact, 3> normal;
     Exact height;

@@ -14,7 +14,7 @@ namespace {
 
 const double thirty = 30 * pi / 180;
 
-/// Every corner a wedge of its own, with the normal of its face.
+/// Gives every corner a separate wedge with the face's normal.
 Mesh flat_shaded(Mesh m) {
     Attribute normals{"NORMAL", Domain::wedge, Role::normal, 3, false, {}};
     std::vector<float> data;

@@ -82,7 +82,7 @@ TEST_CASE("the normals of a sphere point away from its centre", "[geometry]") {
 
 TEST_CASE("seams of other attributes stay, with one normal on both sides", "[geometry]") {
     Mesh m = centred_cube();
-    // Every corner has a texture point of its own.
+    // Every corner has its own texture point.
     std::vector<Index> vertices;
     std::vector<float> uvs;
     for (Index c = 0; c < m.corner_count(); ++c) {

@@ -37,7 +37,7 @@ bool back(const Piece& e, const Piece& f) {
     return turn_of(e.a, e.b, f.b) == 0 && dot(e.b - e.a, f.b - f.a) < 0;
 }
 
-/// All pairs, as the words of Contact say.
+/// Tests all pairs, by the definition of Contact.
 Contact contact_by_pairs(const Many& rings) {
     std::vector<Piece> pieces;
     for (const Points& ring : rings) {

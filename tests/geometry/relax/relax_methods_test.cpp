@@ -28,7 +28,7 @@ RelaxSettings by(Method method, std::int64_t iterations = 1) {
 
 Mesh noisy_sphere() { return crumple(shapes::icosphere(4), {.amplitude = 0.01, .seed = 1}).mesh; }
 
-/// How far the vertices are from the unit sphere's shape: the deviation of their distances from their mean.
+/// The roughness of the unit sphere: the deviation of the distances from their mean.
 double roughness(const Mesh& mesh) {
     double mean = 0, sum = 0;
     for (const Vec3& p : mesh.positions) mean += length(p);

@@ -64,7 +64,7 @@ TEST_CASE("the inner side of a surface is orange, unless its material is double-
 
 namespace {
 
-/// A flat square in the plane z = 0 that looks towards +z, seen from there at 20 pixels a side or so.
+/// A flat square in the plane z = 0 that faces +z, seen from +z at about 20 pixels per side.
 Scene square(bool turned = false) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -118,7 +118,7 @@ TEST_CASE("the cosine between normal and light shades a face, or its absolute va
     both.parts[0].mesh.primitives.resize(1);
     both.parts[0].mesh.primitives[0].material = 0;
     CHECK(middle(both, Shading::one_sided) == shade(facing));
-    // Doubled faces: the front is seen, whichever comes first.
+    // Doubled faces: the front is visible, whichever comes first.
     for (const bool first : {false, true}) {
         Scene doubled = square(first);
         append(doubled.parts[0].mesh, square(!first).parts[0].mesh);
@@ -584,7 +584,7 @@ TEST_CASE("lines and points without a colour are seen on white and on black", "[
     };
     for (const bool lines : {false, true}) {
         if (lines) mesh.lines = {0, 1, 1, 2, 2, 0};
-        for (const bool white : {false, true}) { // the material of glTF that says nothing
+        for (const bool white : {false, true}) { // with glTF's default material
             scene.materials.resize(white);
             mesh.primitives.assign(white, {0, {}, {}});
             for (const float ground : {0.0f, 0.01f, 0.9f, 1.0f}) CHECK(contrast(ground) > 3);

@@ -1,4 +1,4 @@
-// The costs of edges four at a time, against those one by one.
+// Compares the costs of edges computed four at a time with single costs.
 #include "support/catch.hpp"
 
 #include "base/math/portable_math.hpp"
@@ -64,7 +64,7 @@ Mesh double_sheet(int n, bool slivers) {
         for (std::size_t k = 3; k-- > 0;)
             back.push_back(on_border(corners[f + k]) ? corners[f + k] : corners[f + k] + front);
         m.corners.insert(m.corners.end(), back.begin(), back.end());
-        std::size_t open = 3; // the edge of this face that is to get a sliver
+        std::size_t open = 3; // the edge of this face that gets a sliver
         for (std::size_t k = 0; k < 3 && slivers; ++k)
             if (uses[std::minmax(corners[f + k], corners[f + (k + 1) % 3])] == 1) open = k;
         if (open == 3) {

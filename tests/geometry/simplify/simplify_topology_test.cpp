@@ -71,8 +71,8 @@ TEST_CASE("topology: allow goes down to nothing, and counts what it does", "[geo
 }
 
 TEST_CASE("topology: allow goes down to a number of faces and not far below it", "[geometry]") {
-    // Cubes that are all alike: each ends as a tetrahedron, whose last collapse takes four faces. At most the
-    // last one goes beyond the target.
+    // Equal cubes: each ends as a tetrahedron, whose last collapse removes four faces. At most the last
+    // collapse goes beyond the target.
     Mesh m;
     for (int i = 0; i < 3000; ++i) {
         Mesh cube = shapes::cube();

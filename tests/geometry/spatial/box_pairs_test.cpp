@@ -26,7 +26,7 @@ Pairs pairs_of(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& a
             a.insert(b.begin(), b.end());
             return a;
         });
-    CHECK(count == pairs.size()); // none twice
+    CHECK(count == pairs.size()); // no pair twice
     return pairs;
 }
 

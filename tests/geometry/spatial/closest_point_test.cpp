@@ -14,8 +14,7 @@ using namespace facetmill;
 
 namespace {
 
-/// The trees that know distances: of all uses, for near points, that with what far points need, for few and
-/// for far fewer; and those over a surface that stays.
+/// Trees of all uses that find distances, some of them flattened, and trees over an existing surface.
 std::vector<FaceTree> trees_of(const Surface& surface) {
     std::vector<FaceTree> trees;
     trees.emplace_back(surface);

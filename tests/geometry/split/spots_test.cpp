@@ -1,5 +1,5 @@
-// Split where faces cannot be cut each by itself: concave faces, faces that share two edges, large polygons,
-// and targets that are not reached.
+// Splits faces that cannot be cut independently: concave faces, faces that share two edges, large polygons.
+// Also tests targets that are not reached.
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/split/split.hpp"
 #include "mesh/invariants.hpp"

@@ -123,7 +123,7 @@ TEST_CASE("thicken says where walls that are not filled fold over", "[geometry]"
     CHECK(std::abs(waist.first_turned->x) < 1.5);
     const auto thin = thicken(dumbbell(), {.thickness = 0.01});
     CHECK(is_sound(thin));
-    Mesh trough = shapes::icosphere(3); // an open half: there is no inside to fill
+    Mesh trough = shapes::icosphere(3); // an open half has no inside to fill
     std::vector<Index> below;
     for (Index f = 0; f < trough.face_count(); ++f)
         if (trough.point(3 * f).z < 0)

@@ -87,7 +87,7 @@ TEST_CASE("a closed line becomes a ring, planar or not", "[geometry]") {
 TEST_CASE("lines follow one another whatever their order and direction, up to a fork", "[geometry]") {
     Lines lines;
     lines.points = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}, {1, 0, 0}, {3, 1, 5}, {3, 4, 1}};
-    lines.segments = {{3, 2}, {0, 1}, {2, 4}}; // point 4 lies where 1 does
+    lines.segments = {{3, 2}, {0, 1}, {2, 4}}; // point 4 coincides with point 1
     CHECK(tubes(lines, {0.1, 5}).tubes == 1);
     lines.segments.push_back({3, 5});
     lines.segments.push_back({6, 3});
@@ -95,7 +95,7 @@ TEST_CASE("lines follow one another whatever their order and direction, up to a 
     CHECK((forked.tubes == 3 && forked.segments == 5));
     CHECK(inspect(forked.mesh).components == 3);
     lines.segments.push_back({1, 4}); // without length
-    lines.segments.push_back({1, 0}); // there already
+    lines.segments.push_back({1, 0}); // already present
     CHECK(tubes(lines, {0.1, 5}).skipped == 2);
     CHECK(tubes(lines, {0.1, 5}).mesh.positions == forked.mesh.positions);
 }

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// True when the tool is there; else says so, and fails when it is required.
+/// Whether the tool is installed. If not, the test says so, and fails if the tool is required.
 bool available(bool there, const char* what) {
     if (there) return true;
     std::cout << "skipped: " << what << "\n";

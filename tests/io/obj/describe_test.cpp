@@ -65,7 +65,7 @@ std::string warnings_of(const io::Written& written) {
     return all;
 }
 
-/// Puts the sampler and the digest of its image in the place of each texture's index.
+/// Replaces each texture index by the sampler and the digest of its image.
 void resolve(Json& json, const Json& document, const std::vector<io::Bytes>& images) {
     if (!json.is_object()) return;
     for (auto& [key, value] : json.items()) {

@@ -75,7 +75,7 @@ TEST_CASE("interleaved attributes have the numbers that they have apart", "[io]"
             CHECK(together.size() < apart.size()); // fewer views to declare
             const Scene a = test::read_bytes(apart, "glb"), b = test::read_bytes(together, "glb");
             CHECK(test::drawn(a.parts.at(0).mesh) == test::drawn(b.parts.at(0).mesh));
-            // The morph target has a view of its own.
+            // The morph target has its own view.
             const auto target = primitive["targets"][0]["POSITION"].get<std::size_t>();
             CHECK_FALSE(after["accessors"][target].contains("byteOffset"));
             // Interleaving a second time changes nothing. Without the option, only rewritten attributes are
@@ -94,7 +94,7 @@ TEST_CASE("primitives that share an attribute share the interleaved view", "[io]
         const Scene one = test::read_bytes(bytes, "glb");
         Json primitive = json["meshes"][0]["primitives"][0];
         primitive["attributes"].erase("TEXCOORD_0");
-        primitive["mode"] = 0; // points, which are left as they are
+        primitive["mode"] = 0; // points, which stay unchanged
         json["meshes"][0]["primitives"].push_back(primitive);
         Scene changed = one;
         auto document = std::make_shared<Document>(*one.documents.at(0));

@@ -111,7 +111,7 @@ void separate_corners(Mesh& mesh) {
     separate_wedges(mesh, own);
 }
 
-/// The document of a torus at a node, changed before it is read.
+/// Reads a document with a torus at a node, after changing it.
 template <class Change>
 Scene torus_in(Change&& change) {
     const Scene scene = test::scene_in_metres(dressed(1));
@@ -210,7 +210,7 @@ TEST_CASE("a node that something depends on gets the grid's transform below it",
                       settings);
         return json_of(written);
     };
-    // By itself it takes the grid, whatever its transform is made of.
+    // A single part uses the grid, whatever its transform.
     CHECK(nodes([](Json& j) { j["nodes"][0]["rotation"] = {0.6, 0, 0, 0.8}; })["nodes"].size() == 1);
     CHECK(nodes([](Json& j) {
               j["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 4, 5, 6, 1};
@@ -611,7 +611,7 @@ TEST_CASE("what named the corners of a mesh that has changed is not written", "[
     settings.mesh_manifold = true;
     Scene manifold = test::again(scene, settings);
     settings.mesh_manifold = false;
-    CHECK(json_of(test::written(manifold, "glb", settings)).contains("extensionsUsed")); // as it is
+    CHECK(json_of(test::written(manifold, "glb", settings)).contains("extensionsUsed")); // unchanged
     settings.meshopt.on = settings.quantize.on = true;
     const io::Written written = test::written(manifold, "glb", settings);
     const Json json = json_of(written);

@@ -31,7 +31,7 @@ Mesh fields(float step = 7) {
     return mesh;
 }
 
-/// The grid in a file that has a table of a property of each feature, which says 1, 2, 3, 4 in float32.
+/// The grid in a file with a property table, which has 1, 2, 3, 4 in float32 for the features.
 Scene with_table(Mesh mesh) {
     const io::Bytes glb = test::written(test::scene_in_metres(std::move(mesh)), "glb").files.at(0).bytes;
     Json json = Json::parse(test::json_of(glb));

@@ -37,8 +37,9 @@ Json places(Json attributes) {
     return {{"EXT_mesh_gpu_instancing", {{"attributes", std::move(attributes)}}}};
 }
 
-/// A torus away from zero that four nodes have: at three places with mirrors and uneven scales below a scaled
-/// node, once, at two places that the first node has, too, and at one place of no size and another one.
+/// A torus away from zero in four nodes: `three` with three mirrored or unevenly scaled instances, `plain`
+/// with one, `two` with two, and `flat` with two instances of sizes 0 and 4. `three` and `two` are below a
+/// scaled group.
 Json four_nodes() {
     Mesh torus = shapes::torus(16, 12);
     for (Vec3& p : torus.positions) p = p * 0.5 + Vec3{20, -7, 3};
@@ -85,7 +86,7 @@ const Part& named(const Scene& scene, const std::string& name) {
     return *found;
 }
 
-/// The largest distance of a vertex of any instance to where it was, in steps of its own grid.
+/// The largest move of a vertex of any instance, in steps of its own grid.
 double steps_moved(const Scene& before, const Scene& after) {
     REQUIRE(before.parts.size() == after.parts.size());
     double most = 0;

@@ -12,7 +12,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A triangle on two joints, "hip" and, under it, "knee", which an animation moves; and a part of its own.
+/// A triangle on the joint "hip" and its child "knee", which an animation moves, and a separate part.
 const char* const leg = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,3]}],
  "nodes":[{"name":"leg","mesh":0,"skin":0},{"name":"hip","children":[2]},{"name":"knee","translation":[0,1,0]},
  {"name":"box","mesh":1,"translation":[5,0,0]}],
@@ -127,7 +127,7 @@ TEST_CASE("pictures show skinned parts as the nodes place their joints", "[io]")
     check_same(seen->parts.at(0).mesh.positions, posed(scene, {3, 1, 0}));
     CHECK(seen->parts[0].mesh.positions[2] != scene.parts[0].mesh.positions[2]);
     CHECK(seen->parts.at(1).mesh.positions == scene.parts.at(1).mesh.positions);
-    // A joint that is no node, and matrices that are no matrices: drawn as it is.
+    // An invalid joint and invalid matrices: drawn without skinning.
     for (const char* member : {"joints", "inverseBindMatrices"}) {
         Scene broken = scene;
         json["skins"][0][member] = member[0] == 'j' ? Json{1, 99} : Json(0);

@@ -1,4 +1,4 @@
-// A glTF document that is read and written again keeps everything that was not asked to change.
+// Rewriting a glTF document keeps all data that no stage was asked to change.
 #include "io/codec.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -48,7 +48,7 @@ TEST_CASE("a changed part changes its mesh only", "[io]") {
     Json before = Json::parse(rich), after = written_json(scene);
     CHECK(after["meshes"][0]["name"] == "m");
     CHECK(after["meshes"][0]["extras"] == before["meshes"][0]["extras"]);
-    CHECK(after["accessors"].size() == 2); // the old positions are gone
+    CHECK(after["accessors"].size() == 2); // the old positions are removed
     for (Json* json : {&before, &after})
         for (const char* key : {"meshes", "accessors", "bufferViews", "buffers"}) json->erase(key);
     CHECK(after == before);
