@@ -56,7 +56,7 @@ TEST_CASE("steps have parts of a share by their lengths, rounds half of what is 
         ProgressScope::report(0);
         CHECK(heard.last() == 0.75);
         steps.next();
-        steps.next(); // there are no more
+        steps.next(); // no further step exists
         CHECK(heard.last() == 1);
     }
     {

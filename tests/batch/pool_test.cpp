@@ -12,7 +12,7 @@ using namespace facetmill::batch;
 
 namespace {
 
-/// What ran, and how much of it at a time.
+/// The jobs that ran, and how many ran at the same time.
 struct Trace {
     std::mutex guard;
     std::vector<std::size_t> begun;
@@ -49,7 +49,7 @@ std::vector<Job> jobs_of(std::vector<std::uint64_t> memory) {
     return jobs;
 }
 
-/// The program sets the limit of all arenas before it makes one.
+/// Limits the threads of all arenas before any is made, as the program does.
 struct Threads {
     explicit Threads(int count) { set_threads(count); }
     ~Threads() { set_threads(0); }
@@ -71,7 +71,7 @@ TEST_CASE("jobs wait for memory, and one that exceeds it runs alone", "[batch]")
     const Threads threads(4);
     Trace trace;
     Pool({4, 100, nullptr}, jobs_of({60, 60, 500, 40, 60, 10}), trace.work()).run();
-    std::sort(trace.begun.begin(), trace.begun.end()); // two that run at a time come here in either order
+    std::sort(trace.begun.begin(), trace.begun.end()); // two parallel jobs may begin in either order
     CHECK(trace.begun == std::vector<std::size_t>{0, 1, 2, 3, 4, 5});
     CHECK(trace.max_memory == 500);
     Trace small;

@@ -1,4 +1,4 @@
-// What is stored of a scene comes back with every member of it.
+// A stored scene is restored with all its members.
 
 #include "support/catch.hpp"
 
@@ -267,7 +267,7 @@ TEST_CASE("keys tell texts apart however they are divided", "[cache]") {
 TEST_CASE("the digest of a scene is that of its bytes", "[cache]") {
     Scene scene = full_scene();
     CHECK(cache::digest_of(scene) == sha256(cache::encoded(scene)));
-    // More than is taken at a time: numbers that are floats and that are not, indices of each width.
+    // More than one block: numbers that fit and do not fit into float32, indices of each width.
     Mesh& mesh = scene.parts[1].mesh;
     constexpr Index n = 400'000;
     for (Index i = 0; i < n; ++i) mesh.positions.push_back({i * 0.5, i * 1.0, 0});

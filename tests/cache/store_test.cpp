@@ -13,7 +13,7 @@ using cache::Store;
 
 namespace {
 
-/// A store in a folder of its own, and what it told.
+/// A store in its own folder, and its messages.
 struct Shop {
     test::TemporaryDirectory folder;
     std::vector<std::string> told;

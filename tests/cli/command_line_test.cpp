@@ -127,7 +127,7 @@ TEST_CASE("a stage typed as a command is answered with the same words for pipe",
     CHECK(meant({"section", "a.stl", "z=0", "o.svg"}) == "load a.stl ! section z=0 --path o.svg");
     CHECK(meant({"generate", "sphere"}) == "generate sphere ! write OUT");
     CHECK(meant({"simplify", "a.ply", "--reduction", "0.9"}) ==
-          "load a.ply ! simplify --reduction 0.9 ! write OUT"); // pipe says what it is here
+          "load a.ply ! simplify --reduction 0.9 ! write OUT"); // pipe explains the option
     CHECK(meant({"write"}) == "load IN ! write ...");
     CHECK(meant({"write", "a.ply", "b.glb"}) == "load a.ply ! write b.glb");
     CHECK(meant({"load", "a.ply", "b.glb"}) == "load a.ply b.glb ! write OUT");
@@ -183,7 +183,7 @@ TEST_CASE("info writes a picture, too", "[cli]") {
     const std::string mesh = (folder.path() / "a.obj").string(), image = (folder.path() / "a.png").string();
     std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     CHECK(message({"info", mesh, "--picture", "a.jpg"}).find("E-PICTURE") != std::string::npos);
-    const auto before = std::filesystem::file_size(mesh); // it is not taken for the picture
+    const auto before = std::filesystem::file_size(mesh); // the mesh must not be mistaken for the picture
     const std::string forgotten = message({"info", "--picture", mesh});
     CHECK(forgotten.find("error[E-PICTURE]: --picture is followed by the .png file to write, found '" + mesh +
                          "'") != std::string::npos);

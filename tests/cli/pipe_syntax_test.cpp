@@ -7,7 +7,7 @@ using namespace facetmill;
 
 namespace {
 
-/// The one-liner as the YAML that says the same; messages instead when something is wrong.
+/// The YAML for a one-liner, or its error messages.
 std::string yaml(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "pipe");
     const cli::CommandLine line(std::move(arguments));

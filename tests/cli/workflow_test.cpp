@@ -22,7 +22,7 @@ std::vector<Job> jobs_of(const std::vector<std::uint64_t>& megabytes) {
     return jobs;
 }
 
-/// The most memory that jobs of both kinds take at a time.
+/// The largest memory that jobs of both kinds use at the same time.
 std::uint64_t most(const std::vector<Job>& jobs, const Lanes& lanes) {
     std::uint64_t small = 0, large = 0;
     for (const Job& job : jobs) {

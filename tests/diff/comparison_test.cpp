@@ -314,7 +314,7 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
           "(transform --matrix 0,1,0,0,0,0,1,0,1,0,0,0)");
     for (Vec3& p : turned.parts[0].mesh.positions) p = {-p.x, p.y, p.z}; // mirrored is not turned
     CHECK(hint(mm, turned).empty());
-    // A box with its middle at 0 is the same in all ways up but for what lies in it.
+    // A box centred at 0 looks the same in each orientation, except for its contents.
     const auto cube_at_0 = [](const Mesh& inside) {
         Mesh mesh = shapes::cube();
         append(mesh, inside);
@@ -327,7 +327,7 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
     Scene lying = low;
     for (Vec3& p : lying.parts[0].mesh.positions) p = {p.x, p.z, -p.y};
     CHECK(hint(low, lying).find("turned from z up to y up") != std::string::npos);
-    Scene cloud = low; // of a cloud the vertices tell
+    Scene cloud = low; // clouds are compared by their vertices
     cloud.parts[0].mesh = {};
     cloud.parts[0].mesh.positions = low.parts[0].mesh.positions;
     Scene lying_cloud = cloud;
@@ -366,7 +366,7 @@ Scene z_to_y(Scene scene) {
     return scene;
 }
 
-/// As the command line has files read: what they do not state is as it says.
+/// As on the command line: files that state no unit or axis get the given ones.
 std::string hint_with(const Scene& a, Scene b, const io::Convention& said_a, const io::Convention& said_b) {
     const auto stated = [](const Scene& scene, const io::Convention& said) {
         return io::Convention{scene.unit == Unit::unknown ? said.unit : scene.unit,
@@ -481,10 +481,10 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     CHECK(text.find("| noted | deviation rms |") != std::string::npos); // it has no limit
     CHECK(text.find("| same | reversed |") != std::string::npos);
     CHECK(text.find("<details><summary>Line by line</summary>") < text.find("| differs | faces |"));
-    // Percentages are of one length, wherever distances are from.
+    // Percentages refer to the same length in both directions.
     CHECK(pictures.backward->diagonal == pictures.forward->diagonal);
     CHECK(page.find("Percentages are of the diagonal of the second") == std::string::npos);
-    // Of points nobody says surfaces.
+    // Messages about points must not mention surfaces.
     const auto points = [](const char* name, double x) {
         Scene scene = scene_called(Mesh{});
         scene.parts[0].name = name;

@@ -1,4 +1,4 @@
-// The sweep over the registry: what every stage owes its readers.
+// Checks the documentation of every registered stage.
 
 #include "docs/describe.hpp"
 #include "docs/ready.hpp"
@@ -125,7 +125,7 @@ TEST_CASE("ready pipelines are embedded and right", "[docs]") {
 
 namespace {
 
-/// Whether no two fields of a record, or of one within it, have one name and may both be there.
+/// Whether field names are distinct within a record and its nested records, if both fields may be present.
 bool names_differ(const Fields& fields) {
     std::set<std::string> always;
     for (const Field& field : fields.all) {

@@ -1,7 +1,7 @@
-// libFuzzer over what reads bytes (support/fuzz_targets.hpp): FACETMILL_TARGET=ply fuzz_bytes [options]
+// Runs libFuzzer on the readers (support/fuzz_targets.hpp): FACETMILL_TARGET=ply fuzz_bytes [options]
 // CORPUS... `make fuzz TARGET=ply` builds it with clang, AddressSanitizer and UndefinedBehaviorSanitizer. It
-// ends at the first thing that is wrong, whose bytes it writes to a file; those belong into
-// tests/data/fuzz/TARGET once it is mended.
+// stops at the first fault and writes the bytes to a file. Add that file to tests/data/fuzz/TARGET after the
+// fix.
 
 #include "support/fuzz_targets.hpp"
 

@@ -1,7 +1,7 @@
-// Random meshes through random chains of stages, for as long as it is let: fuzz_stages SECONDS [FIRST_SEED
-// [STAGE]]. Prints the seed and the chain of everything that is wrong, what was slow, and how often each
-// stage ran, and ends with 1 when anything was wrong. STAGE: all chains begin with it.
-// tests/property/stage_chains_test.cpp runs some of the seeds.
+// Runs random meshes through random chains of stages for a given time: fuzz_stages SECONDS [FIRST_SEED
+// [STAGE]]. Prints the seed and the chain of each fault and each slow run, and how often each stage ran.
+// Exits with 1 after a fault. STAGE: all chains begin with it. tests/property/stage_chains_test.cpp runs
+// some of the seeds.
 
 #include "support/stage_chains.hpp"
 
@@ -28,7 +28,7 @@ using namespace facetmill;
 
 namespace {
 
-/// Of the processor, for one chain with one and three threads and its file: what takes longer hangs.
+/// Processor time for a chain with one and three threads and its file. A longer run counts as hanging.
 constexpr int most_seconds = WITH_SANITIZER ? 1200 : 300; // which make some chains thirty times as long
 constexpr double slow_seconds = 10;
 constexpr std::size_t most_mib = 3000;
@@ -59,14 +59,14 @@ double spent() {
 
 std::size_t peak_mib() { return static_cast<std::size_t>(used().ru_maxrss) >> 10; }
 
-/// SIGPROF ends a chain that does not end; 0: none.
+/// Ends a hanging chain by SIGPROF; 0: no limit.
 void allow_seconds(int seconds) {
     itimerval timer{};
     timer.it_value.tv_sec = seconds;
     ::setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-/// Told what was slow, or took much memory.
+/// Reports chains that were slow or used much memory.
 test::Verdict watched(const test::Chain& chain, const std::string& told, test::Draw& draw,
                       const std::filesystem::path& folder) {
     fmt::format_to_n(current, sizeof current - 1, "ended in {}\n{}", told, '\0');

@@ -1,4 +1,4 @@
-// Values of attributes that are no number: what is kept of them, and where they become 0.
+// Attribute values that are not numbers: which formats keep them, and where they become 0.
 #include "io/attributes.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

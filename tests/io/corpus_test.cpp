@@ -75,9 +75,10 @@ TEST_CASE("every text mesh of the corpus is read with its counts, or refused whe
         std::size_t vertices = 0;
         for (const auto& part : scene.parts) vertices += part.mesh.vertex_count();
         if (row.path == "off/whitespace.off")
-            continue; // the manifest's reader takes "OFF8 6 12" for its counts
+            continue; // the manifest's reader misreads "OFF8 6 12" as counts
         if (row.faces >= 0) CHECK(scene.face_count() == static_cast<std::size_t>(row.faces));
-        // The manifest counts three vertices a triangle for STL, and only what faces use for some others.
+        // The manifest counts three vertices per triangle for STL, and for some other files only the used
+        // vertices.
         if (suffix != ".stl" && row.vertices >= 0) CHECK(vertices >= static_cast<std::size_t>(row.vertices));
     }
 }

@@ -59,7 +59,7 @@ TEST_CASE("columns are found by the names of the heading", "[io]") {
     CHECK(read("east,north,up,id\n1,2,3,9\n-4,0.5,6,9\n") == expected); // no such names: the first ones
     CHECK(read("1,2,3\n-4,0.5,6\n") == expected);
     CHECK(read("x,y,z\n1 2 3\n-4,,0.5;6\n") ==
-          expected); // where they stand first, cells may be separated freely
+          expected); // if the coordinates come first, cells may be separated freely
     CHECK(complaint("id,x,y,z\n7,1,2\n", names).find("3 columns in a row, expected 4") != std::string::npos);
     CHECK(complaint("id,x,y,z\n7,1,,3\n", names).find("expected a number") != std::string::npos);
     CHECK(complaint("id,x,y,z\n7,1,2,3m\n", names).find("expected a number, found '3m'") !=

@@ -27,7 +27,7 @@ Loaded load(const std::string& name, std::string_view text, bool lines = true) {
     return loaded;
 }
 
-/// Two lines of four points: a strip, a loop or a list, as the mode says, below a moved node.
+/// Two lines of four points below a moved node: a strip, a loop or a list, by the mode.
 std::string gltf_lines(int mode, const std::string& more = "") {
     return fmt::format(
         R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"name": "wire", "mesh": 0,
@@ -116,7 +116,7 @@ TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
     const Loaded alone = load("a.ply", head + edges + "end_header\n" + rows + "3 1\n1 0\n", false);
     REQUIRE(alone.scene.parts.size() == 2);
     CHECK(broken_invariants(alone.scene).empty());
-    const Mesh& points = alone.scene.parts[0].mesh; // what no line uses
+    const Mesh& points = alone.scene.parts[0].mesh; // vertices that no line uses
     CHECK(points.positions == std::vector<Vec3>{Vec3{0, 1, 0}, Vec3{6, 6, 6}});
     CHECK(points.find("heat", Domain::wedge)->value(1, 0) == 5);
     CHECK(alone.scene.parts[1].name == "lines");

@@ -188,7 +188,7 @@ TEST_CASE("a binary STL of many triangles is welded the same by any number of th
         while (mesh.point(static_cast<Index>(c)).z != 0) ++c;
         return c;
     }();
-    bytes.at(84 + 50 * (faces - 1) + 48) = std::byte{7}; // two bytes behind the last triangle
+    bytes.at(84 + 50 * (faces - 1) + 48) = std::byte{7}; // two bytes after the last triangle
     const auto sign = [&](std::size_t c) -> std::byte& {
         return bytes.at(84 + c / 3 * 50 + 12 * (c % 3 + 1) + 11);
     };
@@ -200,14 +200,15 @@ TEST_CASE("a binary STL of many triangles is welded the same by any number of th
         io::ReadLog log;
         const Mesh read = io::read_scene(io::Input::of("mesh.stl", bytes), {}, log).parts.at(0).mesh;
         REQUIRE(read.vertex_count() == mesh.vertex_count());
-        Index next = 0; // places are numbered as they come
+        Index next = 0; // positions are numbered in order of appearance
         bool same = true;
         for (Index c = 0; c < 3 * faces; ++c) {
             same &= read.corners[c] <= next && read.point(c).z == static_cast<float>(mesh.point(c).z);
             next = std::max(next, read.corners[c] + 1);
         }
         CHECK(same);
-        CHECK(std::signbit(read.point(static_cast<Index>(first_zero)).z)); // of the first corner there
+        CHECK(std::signbit(
+            read.point(static_cast<Index>(first_zero)).z)); // the sign of the first corner at this position
         const Attribute* extra = read.find("attribute", Domain::face);
         REQUIRE(extra);
         CHECK(extra->value(faces - 1, 0) == 7);
@@ -336,7 +337,7 @@ TEST_CASE("a file that does not hold what was written is found out", "[io]") {
 }
 
 TEST_CASE("what a file says to have moved is the distance to the nearest point, either way", "[io]") {
-    // The file's faces come in another order, so its points have no number in common with those written.
+    // The file's faces are in another order, so the numbers of its points differ from the written numbers.
     Scene scene = scene_in_metres(noisy_icosphere(4, 0.02, 3));
     for (Vec3& p : scene.parts[0].mesh.positions) p += Vec3{100, 0, 0};
     const io::Codec& codec = *io::codec_named("glb");

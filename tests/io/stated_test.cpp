@@ -1,4 +1,4 @@
-// What files of formats without a unit and an up axis tell of them in comments.
+// Units and up axes in the comments of formats that cannot state them otherwise.
 #include "io/stated.hpp"
 
 #include "mesh/shapes.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("the unit and the up axis of a scene are read back from what is writte
                 CHECK(header.up == up);
                 CHECK(io::file_header(input, {.unit = Unit::km, .up = UpAxis::y}).unit == Unit::km);
             }
-    // A scene that knows neither has a file without them.
+    // The file of a scene without unit and axis does not state them.
     CHECK(text_of(written(cube_in(Unit::unknown, UpAxis::unknown), "obj").files.at(0).bytes)
               .starts_with("# written by facetmill\no "));
 }

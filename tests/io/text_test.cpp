@@ -11,7 +11,7 @@ using io::scan_integer, io::scan_real, io::take_digits;
 
 namespace {
 
-/// Up to 24 digits, in memory that ends where they do, or goes on with something else.
+/// Up to 24 digits, at the end of the memory or before other text.
 struct DrawnDigits {
     std::string digits, text;
 };

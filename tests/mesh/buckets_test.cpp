@@ -1,4 +1,4 @@
-// Items of faces by vertex: what is in which bucket, and how many of them are worth a thread.
+// Buckets of faces by vertex: their contents, and the number of items per thread.
 #include "mesh/buckets.hpp"
 
 #include "mesh/shapes.hpp"

@@ -9,7 +9,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A line, and another one that goes on at a vertex of its own at the same place.
+/// Two lines that meet at the same position, each with its own vertex.
 Mesh two_lines() {
     Mesh mesh;
     mesh.positions = {{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}};

@@ -127,8 +127,8 @@ TEST_CASE("weld_exact joins vertices in the order of their first occurrence", "[
 }
 
 TEST_CASE("number_places counts by first occurrence, for any number of threads and any guess", "[mesh]") {
-    // 30,000 places in an order of their own, then all of them again and again, every second point at a
-    // place that came shortly before.
+    // 30,000 positions in a permuted order, then all of them repeatedly. Every second point repeats a recent
+    // position.
     const std::size_t places = 30000;
     const auto place_of = [&](std::size_t i) {
         return i < places ? i : (i % 2 == 0 ? i : i / 32 * 32) * 7919 % places;

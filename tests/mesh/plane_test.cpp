@@ -75,7 +75,7 @@ TEST_CASE("planes of any length are told apart exactly", "[geometry]") {
         CHECK_FALSE(same_plane(plane, turned));
         CHECK_FALSE(same_plane(plane, moved));
     }
-    // In proportion as far as doubles tell: 3 * 0.1 is not 0.3.
+    // Proportional within the accuracy of doubles: 3 * 0.1 is not 0.3.
     CHECK_FALSE(same_plane({{0.1, 1, 0}, {}, 0}, {{0.30000000000000004, 3, 0}, {}, 0}));
     CHECK_FALSE(same_plane({{0.1, 1, 0}, {}, 0}, {{0.3, 3, 0}, {}, 0}));
     CHECK(same_plane({{0.1, 1, 0}, {}, 0}, {{0.2, 2, 0}, {}, 0}));

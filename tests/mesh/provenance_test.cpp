@@ -195,7 +195,8 @@ TEST_CASE("points on edges between points that were made before", "[mesh]") {
     to.positions.resize(5);
     inherit_attributes(to, from, d);
     CHECK(std::get<std::vector<float>>(to.attributes[0].data) == std::vector<float>{0, 8, 4, 6, 4.5});
-    CHECK(std::get<Bytes>(to.attributes[1].data) == Bytes{0, 255, 128, 192, 144}); // each rounded anew
+    CHECK(std::get<Bytes>(to.attributes[1].data) ==
+          Bytes{0, 255, 128, 192, 144}); // each is rounded separately
     CHECK(std::get<Bytes>(to.attributes[2].data) == Bytes{3, 3, 3, 3, 3});
     CHECK(std::get<std::vector<float>>(to.attributes[3].data) == std::vector<float>{1, 1, 1, 1, 1});
 }

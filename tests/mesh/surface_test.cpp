@@ -44,7 +44,7 @@ TEST_CASE("the bounds of a surface are those of its finite corners", "[mesh]") {
         check_bounds(broken);
         CHECK(broken.bounds().max.y < 2);
     }
-    Surface flat = ball; // zeros of both signs: that of the first corner counts
+    Surface flat = ball; // zeros of both signs: the first corner's sign counts
     for (std::size_t v = 0; v < flat.positions.size(); ++v) flat.positions[v].z = v % 2 ? -0.0 : 0.0;
     check_bounds(flat);
     std::swap(flat.corners.front(), flat.corners.back());

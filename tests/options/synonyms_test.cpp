@@ -21,7 +21,8 @@ TEST_CASE("options are found by what other programs call them, where the option 
           "here it is components: {keep: 1}");
     CHECK(hint_for_option("keep_largest", validate).find("keep: 1") == std::string::npos);
     CHECK(options_of_same_value("reduction", simplify).empty());
-    CHECK(options_called("reduction", simplify) == std::vector<std::string>{"ratio"}); // whatever it takes
+    CHECK(options_called("reduction", simplify) ==
+          std::vector<std::string>{"ratio"}); // by name, whatever its values
     CHECK(hint_for_option("junit", validate).starts_with("a report is written by the command: --report"));
     CHECK(hint_for_option("unti", validate) == "did you mean 'unit'?");
     CHECK(options_called("watertight", simplify).empty());

@@ -14,7 +14,8 @@ namespace facetmill::oracle {
 /// oriented triangle mesh, each (lower, higher), sorted.
 std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh);
 
-/// The side of the plane through a, b, c that d is on, in rational numbers: 1 where (b - a) x (c - a) points.
+/// The side of d relative to the plane through a, b, c, in rational numbers: 1 on the side of (b - a) x (c -
+/// a).
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// An upper bound of the largest distance from a point of the first mesh to the second, no more than `error`
@@ -24,7 +25,7 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error);
 /// The union of two closed meshes by CGAL's corefinement. Edge-manifold triangle meshes that do not intersect
 /// themselves.
 Mesh union_of(const Mesh& a, const Mesh& b);
-/// The first without the second, likewise.
+/// The difference, in the same way.
 Mesh difference_of(const Mesh& a, const Mesh& b);
 
 /// CGAL's Polygon_2.
@@ -34,7 +35,7 @@ class Polygon {
     ~Polygon();
     double area() const;
     bool is_simple() const;
-    /// Of a simple one, as are the following.
+    /// Requires a simple polygon, as do the following functions.
     bool is_convex() const;
     int orientation() const;
     /// 1: inside, 0: on the boundary, -1: outside.

@@ -1,5 +1,5 @@
 #pragma once
-// Whether triangles meet inside one of them, by exact constructions: another way than the product's.
+// Whether triangles meet inside any of them, by exact constructions, independently of the tested code.
 
 #include "base/math/vec.hpp"
 

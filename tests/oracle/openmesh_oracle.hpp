@@ -1,5 +1,5 @@
 #pragma once
-// What OpenMesh says: its own subdividers on its own mesh, as a second opinion.
+// OpenMesh's subdividers on its own mesh, as a reference.
 
 #include "geometry/split/split.hpp"
 

@@ -32,6 +32,6 @@ TEST_CASE("what is left of the memory for a run is less than its limit", "[base]
     CHECK(memory_left() == std::optional<std::uint64_t>(0));
     std::uint64_t limit = 1;
     for (; *memory_left() == 0; set_memory_limit(limit)) limit *= 2;
-    CHECK(*memory_left() <= limit / 2); // half was not enough for what is in use
+    CHECK(*memory_left() <= limit / 2); // half of the limit was below the memory in use
     set_memory_limit(0);
 }

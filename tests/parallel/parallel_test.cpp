@@ -39,7 +39,7 @@ TEST_CASE("an error ends its loop, and no loop inside of another chunk", "[base]
         std::atomic<std::size_t> begun{0}, cut_short{0};
         std::atomic<bool> thrown{false};
         const auto body = [&](std::size_t i) {
-            if (begun++ == 0) { // once another chunk has begun, where there is a thread for it
+            if (begun++ == 0) { // after another chunk has begun, if a thread is free
                 for (int wait = 0; wait < 1000 && begun < 2; ++wait) std::this_thread::yield();
                 thrown = true;
                 throw std::runtime_error(std::to_string(i));

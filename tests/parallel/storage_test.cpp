@@ -33,7 +33,7 @@ TEST_CASE("asking for pages changes no contents", "[base]") {
 
 namespace {
 
-/// What the kernel says of the memory at that place: the line VmFlags of its mapping.
+/// The kernel's flags for the memory at this address: the line VmFlags of its mapping.
 std::string flags_of_memory_at(const void* place) {
     std::ifstream maps("/proc/self/smaps");
     const auto wanted = reinterpret_cast<std::uintptr_t>(place);

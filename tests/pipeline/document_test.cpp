@@ -26,7 +26,7 @@ Value parsed(const std::string& text) {
     return value;
 }
 
-/// The tree on one line, to compare: quoted scalars in quotes, the places left out.
+/// The tree on a single line for comparison: quoted scalars in quotes, without positions.
 std::string shown(const Value& value) {
     std::string out;
     switch (value.kind) {

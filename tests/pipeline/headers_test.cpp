@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-/// A directory with inputs, and what their headers say of a pipeline in it.
+/// A directory with inputs, and the result of checking a pipeline against their headers.
 struct Folder {
     test::TemporaryDirectory directory;
     Folder() {

@@ -11,7 +11,7 @@ using pipeline::PlanSettings;
 
 namespace {
 
-/// The names of the steps and what they were given, one after the other.
+/// The names of the steps and their options, in order.
 std::string stages_in(const pipeline::Steps& steps) {
     std::string out;
     for (const auto& step : steps) out += step.name + " " + pipeline::emit_flow(step.given) + "; ";
@@ -94,7 +94,7 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
         "deep31.yaml:2:20: error[E-INCLUDE]: 'deep32.yaml' is included through more than 32");
     CHECK(problems_in(folder, "  - test-load: a.ply\n  - include: deep2.yaml\n").find("E-INCLUDE") ==
           std::string::npos);
-    // The pipeline is the first link of a chain; what follows is not judged by what is unknown.
+    // The pipeline is the first of a chain of includes. Unknown contents do not cause errors in later steps.
     test::put(folder / "first.yaml", "facetmill: 1\nstages: [{include: second.yaml}, {test-write: o.glb}]\n");
     test::put(folder / "second.yaml", "facetmill: 1\nstages: [{include: first.yaml}]\n");
     Problems problems;

@@ -430,7 +430,7 @@ TEST_CASE("a condition on a property or a variable as other languages have it sa
     // Words that only others call properties by may be mere words; and no bound is made up that is refused.
     CHECK(hint_of("points == points").empty());
     CHECK(hint_of("solid != shell").empty());
-    CHECK(hint_of("inside_out == true").empty()); // no property says it so
+    CHECK(hint_of("inside_out == true").empty()); // no property has this name
     CHECK(hint_of("points > 10") == "write when: {vertices: {min: 11}}");
     CHECK(hint_of("faces > 1000.5") == "write when: {faces: {min: ..., max: ...}}");
     CHECK(hint_of("max_extent > large") == "write when: {max_extent: {min: ..., max: ...}}");
@@ -596,7 +596,7 @@ TEST_CASE("a diagnostic names the input unless it does already", "[pipeline]") {
 
 namespace {
 
-/// The arms of a foreach over the param `lods`, or what is wrong.
+/// The arms of a foreach over the param `lods`, or the error.
 std::string arms_of(const std::string& param, PlanSettings settings = {}) {
     return outline_of(
         "facetmill: 1\nparams: {lods: " + param +

@@ -1,4 +1,4 @@
-// What plan lists is what run writes, also where stages change the images that are written beside a mesh.
+// Checks that plan lists exactly the files that run writes, even if stages change the images of a mesh.
 #include "pipeline/rehearsal.hpp"
 
 #include "pipeline/run.hpp"
@@ -40,7 +40,7 @@ class Textured {
         run("load: a.obj", "write: b.gltf", folder_.path());
     }
 
-    /// The names that plan has, and those that run writes.
+    /// The names that plan lists, and the names that run writes.
     std::pair<std::vector<std::string>, std::vector<std::string>> both(const std::string& load,
                                                                        const std::string& rest) const {
         const TemporaryDirectory out;

@@ -188,7 +188,7 @@ TEST_CASE("checks in a row all run before a failure ends the branch; other branc
     CHECK(ran(record) ==
           "test-load one/test-judge one/test-judge-2 two/test-fail three/test-judge three/test-write");
     CHECK(record.errors.size() == 3);
-    CHECK(record.exit_code == 5); // what went wrong in earnest, not the check before it
+    CHECK(record.exit_code == 5); // the actual failure determines the code, not the earlier check
     CHECK(ground.directory.names() == Names{"a.ply"});
 }
 
@@ -361,7 +361,7 @@ TEST_CASE("a stage that leaves the range of numbers fails at its place in the pi
 
 namespace {
 
-/// The largest share that passes while nothing is told; all must lie from 0 to 1, none below one before.
+/// The largest step between progress reports. All shares must lie from 0 to 1 and never decrease.
 double largest_gap(const std::vector<double>& shares) {
     double gap = 0, last = 0;
     for (const double share : shares) {

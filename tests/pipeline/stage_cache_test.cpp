@@ -1,4 +1,4 @@
-// What a run takes from the cache, and what it does when the cache or an input is another by then.
+// Checks which results a run takes from the cache, also after changes of the cache or an input.
 
 #include "support/catch.hpp"
 
@@ -36,7 +36,7 @@ struct Works {
         if (!result.problems.empty()) FAIL(result.problems);
         return pipeline::run_plan(result.plan, settings);
     }
-    /// The steps, by the first letters of what became of them: "load r, write a".
+    /// The steps, by the first letters of their outcome: "load r, write a".
     std::string ways() const {
         const char* words[] = {"ran", "recalled", "again", "always", "skipped"};
         std::string out;

@@ -16,8 +16,8 @@ using namespace facetmill;
 
 namespace {
 
-/// The number of the first of these that is not so, from 1, in a process of its own, since there is no way
-/// back; 0: all are.
+/// The number, from 1, of the first condition that fails; 0 if all hold. Runs in a separate process, because
+/// the sandbox cannot be undone.
 int first_that_fails(const std::function<bool()>& close_it, const std::vector<std::function<bool()>>& all) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -71,7 +71,7 @@ TEST_CASE("files that are not allowed are refused, in threads that start later t
              [&] { return sandbox_hint(folder / "other", EACCES).find("--no-sandbox") != std::string::npos; },
              [&] { return sandbox_hint(folder / "other", ENOENT).empty(); },
              [] { return active_protections().files > 0; }}) == 0);
-    CHECK(sandbox_hint(folder / "other", EACCES).empty()); // here there is none
+    CHECK(sandbox_hint(folder / "other", EACCES).empty()); // no sandbox is active in this process
 }
 
 TEST_CASE("processes and sockets are refused, threads are not", "[base]") {

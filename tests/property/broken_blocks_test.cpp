@@ -1,4 +1,4 @@
-// admesh's blocks, each broken in one way, come out good; when FACETMILL_CORPUS names a folder that has them.
+// Repairs admesh's blocks, each broken in a different way. Needs a folder with them in FACETMILL_CORPUS.
 #include "support/catch.hpp"
 #include "support/corpus.hpp"
 

@@ -1,4 +1,5 @@
-// What clean promises, over made-up meshes, and over a corpus of real ones when FACETMILL_CORPUS names it.
+// Checks the guarantees of clean on generated meshes, and on a corpus of real meshes if FACETMILL_CORPUS is
+// set.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/corpus.hpp"
@@ -41,7 +42,7 @@ Mesh on_lattice(Mesh mesh, double cell) {
     return mesh;
 }
 
-/// Some faces gone, others doubled, some of them turned round.
+/// Removes some faces, duplicates others, and reverses some of these.
 Mesh damaged(const Mesh& mesh, std::uint64_t seed) {
     Mesh result;
     result.positions = mesh.positions;

@@ -32,7 +32,7 @@ Plane oblique_plane(std::uint64_t key, const Box& box) {
     return plane;
 }
 
-/// Every third plane goes through a vertex, every third along an axis through one.
+/// Every third plane goes through a vertex, and every third is axis-aligned through a vertex.
 Plane some_plane(std::uint64_t key, const Mesh& mesh, const Box& box) {
     Plane plane = oblique_plane(key, box);
     if (key % 3 == 0) return plane;
@@ -47,8 +47,8 @@ struct ClipCounts {
                 tangled = 0, rows = 0, read_back = 0, sums = 0;
 };
 
-/// Points of the cut are off their edges by a unit in the last place of their coordinates or two, and all
-/// faces there share them: so the volume is off by that times the area.
+/// Points of the cut are off their edges by a unit or two in the last place of their coordinates. All faces
+/// at the cut share them, so the volume error is that times the area.
 bool adds_up(const Mesh& whole, const ClipResult& r, double area) {
     const Box box = whole.bounds();
     const Vec3 o = box.centre();
@@ -58,7 +58,7 @@ bool adds_up(const Mesh& whole, const ClipResult& r, double area) {
     return std::fabs(static_cast<double>(lost)) <= 4 * 2.2e-16 * reach * area;
 }
 
-/// Around the faces that the plane meets: those get points.
+/// The total perimeter of the faces that the plane meets, because these get new points.
 double length_of_cut(const Mesh& mesh, const Plane& plane) {
     double sum = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -76,8 +76,8 @@ double length_of_cut(const Mesh& mesh, const Plane& plane) {
     return sum;
 }
 
-/// Without caps the two sides have the whole's area, but for the rounding of points on the edges of the faces
-/// cut. What lies in the plane stays on one side.
+/// Without caps the two sides have the area of the whole, except for rounding of points on cut edges. Faces
+/// in the plane stay on one side.
 bool areas_add_up(const Mesh& whole, const ClipResult& r, const Plane& plane) {
     const auto uncapped = [](const Mesh& side) {
         const Attribute* cut = side.find("cut_id", Domain::face);
@@ -91,8 +91,8 @@ bool areas_add_up(const Mesh& whole, const ClipResult& r, const Plane& plane) {
                                   64 * std::numeric_limits<long double>::epsilon() * all;
 }
 
-/// Whether contours of the section meet: the mesh crosses or touches itself there, and what covers a place
-/// twice has two caps.
+/// Whether contours of the section meet: the mesh crosses or touches itself there. Doubly covered regions
+/// have two caps.
 bool tangled(const Mesh& mesh, const Plane& plane) {
     SectionSettings settings;
     settings.plane = plane;
@@ -106,7 +106,7 @@ bool edge_manifold_too(const ClipResult& r, const Properties& front, const Prope
         ++counts.tangled;
         return true;
     }
-    if (r.on_plane > 0) { // a plane through a vertex or an edge may join what only touched
+    if (r.on_plane > 0) { // a plane through a vertex or an edge may connect touching contours
         ++counts.through_vertices;
         counts.pinched += !front.edge_manifold || !back.edge_manifold;
         return true;
@@ -115,8 +115,8 @@ bool edge_manifold_too(const ClipResult& r, const Properties& front, const Prope
     return front.edge_manifold && back.edge_manifold;
 }
 
-/// Whether a side is closed when it was written and read again: as PLY, which keeps the faces, and as STL,
-/// which rounds to float32 and is welded.
+/// Whether a side is closed after writing and reading. PLY keeps the faces. STL rounds to float32 and is
+/// welded.
 bool closed_read_again(const Mesh& mesh, ClipCounts& counts) {
     ++counts.read_back;
     Scene scene;
@@ -125,7 +125,7 @@ bool closed_read_again(const Mesh& mesh, ClipCounts& counts) {
     for (const char* name : {"side.ply", "side.stl"}) {
         auto written = io::codec_for(name)->write(scene, {});
         io::ReadLog log;
-        io::ReadSettings settings; // seams come apart in a file, and are welded
+        io::ReadSettings settings; // files split vertices at seams, so weld them
         settings.weld = io::Weld::exact;
         const Scene again =
             io::read_scene(io::Input::of(name, std::move(written.files.at(0).bytes)), settings, log);
@@ -148,10 +148,10 @@ void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, 
     CHECK(front.closed);
     CHECK(back.closed);
     CHECK(broken_invariants(r.front).empty());
-    // Faces without area lie in sections without a trace, and their caps touch.
+    // Faces without area leave no trace in sections, and their caps touch.
     if (whole.edge_manifold && whole.degenerate_faces == 0)
         CHECK(edge_manifold_too(r, front, back, tangled(mesh, settings.planes[0]), counts));
-    // A face that is not flat has no volume below it of its own; its pieces come near to it only.
+    // A face that is not flat has no defined volume below it, and its pieces only approximate it.
     if (mesh.all_triangles() && !mesh.find("cut_id", Domain::face)) {
         ++counts.sums;
         CHECK(adds_up(mesh, r, whole.area + front.area + back.area));

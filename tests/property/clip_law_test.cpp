@@ -79,8 +79,8 @@ ClipSettings both_sides(const Plane& plane) {
     return settings;
 }
 
-/// Rounding moves each cut vertex by a few units in the last place of the box; areas and volumes of these
-/// bodies, all within a few units of the origin, follow by no more than this.
+/// Rounding moves each cut vertex by a few units in the last place of the box. These bodies are within a few
+/// units of the origin, so areas and volumes change by no more than this.
 constexpr double rounding = 1e-12;
 
 void check_law(const std::string& name, const Mesh& mesh, const Plane& plane) {
@@ -165,7 +165,7 @@ TEST_CASE("open meshes add up in area, with whatever can be capped", "[property]
             const ClipResult r = clip(mesh, settings);
             CHECK(broken_invariants(r.front).empty());
             CHECK(broken_invariants(r.back).empty());
-            // A quad that is not flat has no area of its own; its pieces come near to it only.
+            // A quad that is not flat has no defined area, and its pieces only approximate it.
             if (mesh.all_triangles())
                 CHECK(std::fabs(test::area(r.front) + test::area(r.back) - test::area(mesh)) < rounding);
         }

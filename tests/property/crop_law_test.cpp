@@ -36,8 +36,8 @@ std::vector<Vec2> star(const Vec2& centre, const Vec2& radius, int points, doubl
     return ring;
 }
 
-/// A star with a hole and an island beside it; every third stands on vertices of the mesh, every third is a
-/// rectangle along the axes through two vertices, with straight corners on its sides.
+/// A star with a hole, and an island next to it. Every third has corners on vertices of the mesh. Every
+/// third is an axis-aligned rectangle through two vertices, with straight corners on its sides.
 Rings some_outline(std::uint64_t key, const Mesh& mesh, const Box& box, std::size_t axis) {
     const Vec2 low = seen_along(axis, box.min), extent = seen_along(axis, box.extent());
     const auto at = [&](double u, double v) { return low + Vec2{u * extent.x, v * extent.y}; };
@@ -72,8 +72,8 @@ CropResult cropped(const Mesh& mesh, const Footprint& footprint, std::size_t axi
     return crop(mesh, footprint, settings);
 }
 
-/// The walls of the inside, each turned, are those of the outside; but for triangles between points at one
-/// place.
+/// Whether the reversed walls of the inside are the walls of the outside, except for triangles between
+/// coincident points.
 bool walls_match(const CropResult& in, const CropResult& out) {
     const auto walls = [](const CropResult& r, bool turned) {
         std::vector<std::array<std::array<double, 3>, 3>> all;
@@ -116,15 +116,15 @@ void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Cr
     CHECK(broken_invariants(in.mesh).empty());
     CHECK(broken_invariants(out.mesh).empty());
     counts.matched += walls_match(in, out);
-    if (!mesh.all_triangles()) return; // a bent face has no volume below it of its own
+    if (!mesh.all_triangles()) return; // a bent face has no defined volume below it
     const Vec3 o = whole.bounds.centre();
     const double reach = length(whole.bounds.min) + length(whole.bounds.max);
     const auto lost =
         test::volume_about(in.mesh, o) + test::volume_about(out.mesh, o) - test::volume_about(mesh, o);
-    // A vertex that snap takes as on a wall is at most one float32 ulp off it, and so are the ends of an edge
-    // on the wall. Where the closing puts one on the other, the vertex is at most two off the edge, and the
-    // triangles made there stay that near to the face that was flat. Both sides together have each face once,
-    // so they gain or lose at most that times the area; and nothing where nothing was snapped.
+    // A vertex that snap puts on a wall is at most one float32 ulp off it, and so are the ends of an edge on
+    // the wall. If the closing joins them, the vertex is at most two ulps off the edge. The triangles made
+    // there stay equally near to the flat face. Both sides together have each face once, so they gain or
+    // lose at most that times the area. Without snapping the error is 0.
     const double bent = in.snapped > 0 ? 2 * float32_ulp(whole.bounds) * whole.area : 0;
     CAPTURE(in.snapped, out.snapped);
     CHECK(in.snapped == out.snapped);

@@ -1,5 +1,5 @@
-// Meshes as large or as small as doubles go. Powers of two round nothing, so what is right of a mesh is
-// right, scaled, of its image: to the last bit, as long as the result is a number at all.
+// Meshes near the limits of doubles. Scaling by powers of two rounds nothing. Results for the scaled mesh
+// are therefore the same to the last bit, as long as they are finite.
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
@@ -69,7 +69,7 @@ TEST_CASE("a needle longer than its square has a volume", "[geometry]") {
     const Mesh needle = scaled(shapes::cube(), 1000, -990, -5);
     CHECK(*inspect(needle).volume == 32);
     CHECK(inspect(needle).area ==
-          std::ldexp(1, 996)); // two sides of 2^1000 by 2^-5, the others vanish beside them
+          std::ldexp(1, 996)); // two sides of 2^1000 by 2^-5; the others are negligible
     const auto mass = measure_mass(needle);
     CHECK(mass.solid->volume == 32);
     CHECK(mass.solid->centroid == Vec3{std::ldexp(0.5, 1000), std::ldexp(0.5, -990), std::ldexp(0.5, -5)});

@@ -1,4 +1,4 @@
-// The files with which fuzzing began and those that it found, through the same functions.
+// Runs the fuzz targets on the seed files and on files that fuzzing found.
 #include "support/catch.hpp"
 #include "support/fuzz_targets.hpp"
 

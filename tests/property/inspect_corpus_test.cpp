@@ -1,4 +1,4 @@
-// The properties of a corpus of real meshes, against those that another tool found (its MANIFEST.tsv).
+// Compares the properties of a corpus of real meshes with the results of another tool (its MANIFEST.tsv).
 #include "support/catch.hpp"
 #include "support/corpus.hpp"
 #include "support/temporary.hpp"
@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the other tool did before it counted: all parts in one, equal positions welded, polygons cut, faces
-/// that name a vertex twice dropped.
+/// The other tool's preparation: merge all parts, weld equal positions, triangulate polygons, drop faces
+/// with repeated vertices.
 Mesh as_counted_there(const Scene& scene) {
     Mesh all;
     for (const Part& part : scene.parts) {

@@ -1,4 +1,4 @@
-// Laws of the mesh layer and of what is counted on it, on random meshes.
+// Laws of the mesh layer and of its counts, on random meshes.
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Polygons cut, unused vertices gone: what the counts of the result can be compared with.
+/// The mesh with triangulated polygons and without unused vertices, comparable with the counts of the
+/// result.
 Mesh comparable(Mesh mesh) {
     mesh = triangulated(mesh);
     drop_unused(mesh);
@@ -37,7 +38,7 @@ void check_kept(const Mesh& given, const SimplifyResult& r) {
     CHECK(after.edge_manifold == before.edge_manifold);
     CHECK(after.vertex_manifold == before.vertex_manifold);
     CHECK(after.oriented == before.oriented);
-    // Polygons are cut so that a manifold stays one: the mesh as it came tells, too.
+    // Triangulation keeps manifold edges, so the input mesh gives a condition too.
     if (inspect(given).edge_manifold) CHECK(after.edge_manifold);
     CHECK(after.boundary_loops == before.boundary_loops);
     if (before.genus) CHECK(after.genus == before.genus);
@@ -48,7 +49,7 @@ void check_kept(const Mesh& given, const SimplifyResult& r) {
         CHECK(static_cast<double>(r.faces_after) <= std::ceil(0.1 * static_cast<double>(r.faces_before)));
 }
 
-/// What holds even where topology may go: closedness, flips and doubles with topology: allow.
+/// Conditions that hold even with topology: allow, for closedness, flips and duplicates.
 void check_allowed(const Mesh& given, const SimplifyResult& r) {
     CHECK(broken_invariants(r.mesh).empty());
     const Properties before = inspect(comparable(given)), after = inspect(r.mesh);
@@ -61,8 +62,8 @@ void check_allowed(const Mesh& given, const SimplifyResult& r) {
     CHECK((r.stop != SimplifyResult::Stop::ratio || r.faces_after <= target(r)));
 }
 
-/// What holds of cells: every face has three vertices, none comes twice on one side, and no vertex is
-/// outside.
+/// Conditions for clusters: every face has three distinct vertices, no face occurs twice on one side, and no
+/// vertex is outside.
 void check_clustered(const Mesh& given, const SimplifyResult& r) {
     CHECK(broken_invariants(r.mesh).empty());
     const Properties before = inspect(comparable(given)), after = inspect(r.mesh);
@@ -88,7 +89,7 @@ template <class Check>
 int over_corpus(const fs::path& corpus, Check&& check) {
     int compared = 0;
     for (const auto& path : test::meshes_below(corpus)) {
-        if (fs::file_size(path) >= 4000000) continue; // the large ones would take minutes
+        if (fs::file_size(path) >= 4000000) continue; // larger files would take minutes
         for (const Part& part : test::read_or_nothing(path).parts) {
             INFO(path.string() << ", part " << part.name);
             check(part.mesh);

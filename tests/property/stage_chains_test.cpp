@@ -1,5 +1,5 @@
-// Random meshes through random chains of stages. FACETMILL_CHAINS=FIRST:COUNT runs other seeds than the usual
-// ones; tests/fuzz/fuzz_stages.cpp runs them for as long as it is let.
+// Random meshes through random chains of stages. FACETMILL_CHAINS=FIRST:COUNT selects the seeds.
+// tests/fuzz/fuzz_stages.cpp runs them for a given time.
 #include "support/catch.hpp"
 #include "support/stage_chains.hpp"
 

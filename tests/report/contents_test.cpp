@@ -20,7 +20,7 @@ TEST_CASE("what a check found goes into a baseline and back", "[report]") {
     }
     const double nan = std::nan("");
     const auto box = found_of(parse_json(found_json(report::Corners{{nan, 0, 0}, {1, 1, 1}}).dump()));
-    CHECK(std::isnan(std::get<report::Corners>(box.value()).min.x)); // a file has null there
+    CHECK(std::isnan(std::get<report::Corners>(box.value()).min.x)); // files have null instead
     for (const char* text : {R"({"min": [0, 0, 0]})", R"({"min": [0, 0], "max": [1, 1, 1]})",
                              R"({"min": [0, 0, "0"], "max": [1, 1, 1]})", R"([1])", R"(["a", null])"}) {
         CAPTURE(text);

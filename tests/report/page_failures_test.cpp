@@ -9,7 +9,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A cube in the middle of another, twelve triangles each, in two parts or in one.
+/// A cube in the middle of another, twelve triangles each, in two parts or in a single part.
 Scene cube_in_cube() {
     Scene scene = test::scene_of(shapes::cube());
     scene.parts[0].name = "inner";
@@ -59,7 +59,7 @@ TEST_CASE("a failing face inside of others is seen in the close view", "[pipelin
     for (Index f = 0; f < 12; ++f) {
         const auto check = check_of_face("inner", f, middle_of(scene.parts[0], f));
         CHECK(is_red_in_the_middle(scene, check));
-        // Only what lies before it goes: one side of the outer cube.
+        // Only geometry in front of it is removed: one side of the outer cube.
         const auto close = report::close_view(report::with_failing_faces(scene, check), check, {});
         CHECK(close.scene.parts[0].mesh.face_count() == 12);
         CHECK(close.scene.parts[1].mesh.face_count() == 10);

@@ -94,8 +94,8 @@ RunRecord full_record() {
     return record;
 }
 
-/// Validates documents by schemas with python's jsonschema. Without it the test says so, unless it must not
-/// be missing.
+/// Validates documents by schemas with python's jsonschema. If it is missing, the test says so, and fails if
+/// it is required.
 void validate(const std::vector<std::pair<Json, Json>>& schemas_and_documents) {
     if (std::system("python3 -c 'import jsonschema' 2>/dev/null") != 0) {
         if (std::getenv("FACETMILL_REQUIRE_VALIDATOR")) FAIL("python3 has no jsonschema");
@@ -137,7 +137,7 @@ TEST_CASE("the schema names every key of a report, and nothing else", "[report]"
     CHECK(keys(published["properties"]) == keys(document));
     CHECK(keys(published["$defs"]["stage"]["properties"]) == keys(document["stages"][0]));
     CHECK(keys(published["$defs"]["check"]["properties"]) == keys(document["checks"][0]));
-    // Properties of quality are there only when a check asked for them, so the schema does not require them.
+    // Quality properties are present only if a check needs them, so the schema does not require them.
     const Json& scene = published["$defs"]["scene"];
     auto always = scene["required"].get<std::vector<std::string>>();
     std::sort(always.begin(), always.end());

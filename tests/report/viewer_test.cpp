@@ -55,7 +55,7 @@ TEST_CASE("what closes a cut has no distance in a view, and does not widen the s
     settings.planes = {{{0, 0, 1}, {0, 0, 0.25}}};
     settings.cap = settings.cap_numbers = true;
     Mesh mesh = clip(ball, settings).front;
-    mesh.positions.push_back({0, 0, 0.25}); // a corner of a cap that lies inside the ball
+    mesh.positions.push_back({0, 0, 0.25}); // a corner of a cap inside the ball
     mesh.corners.back() = static_cast<Index>(mesh.vertex_count() - 1);
     REQUIRE(mesh.find("cut_id", Domain::face)->value(mesh.face_count() - 1, 0) == 1);
     const Scene half = scene_of(std::move(mesh));

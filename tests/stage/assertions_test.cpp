@@ -24,7 +24,7 @@ Box unit_box() {
     return box;
 }
 
-/// In a scene of metres whose diagonal is that of the unit cube.
+/// Judged in a scene in metres with the diagonal of the unit cube.
 report::Check judged_limits(const Value& value, const Properties& properties) {
     Problems problems;
     Assertions out;

@@ -60,7 +60,7 @@ TEST_CASE("only selects by the materials of faces, lines and points, not of what
     Scene scene = two_parts();
     Mesh& mesh = scene.parts[0].mesh;
     mesh.primitives.push_back(
-        {.material = 1, .attributes = {}, .json = {}}); // as clip leaves a primitive behind
+        {.material = 1, .attributes = {}, .json = {}}); // clip can leave such a primitive
     const auto rubber = [&] { return PartFilter{{"rubber"}}.selects(scene.parts[0], scene); };
     CHECK_FALSE(rubber());
     mesh.attributes = {{std::string(primitive_attribute), Domain::face, Role::index, 1, false,

@@ -1,4 +1,5 @@
-// A prism over a bow-tie, whose floor and roof cross themselves, through all that goes by what faces cover.
+// A prism over a bow-tie, whose floor and roof cross themselves, in all stages that depend on the area
+// covered by faces.
 #include "support/catch.hpp"
 
 #include "geometry/deviation/deviation.hpp"
@@ -99,7 +100,7 @@ TEST_CASE("stages that cut faces cut what faces that cross themselves cover", "[
     CHECK(test::area(half.mesh()) == Approx(floor_area + walls_area / 2));
     CHECK(test::area(run_stage("split", "centroid", scene_of(bow_tie_prism())).mesh()) ==
           Approx(2 * floor_area + walls_area));
-    // Its two triangles face opposite ways; each gets a wall behind it.
+    // Its two triangles have opposite normals, and each gets its own wall.
     CHECK(test::volume(run_stage("thicken", "1", scene_of(bow_tie())).mesh()) == Approx(9 + 1));
     CHECK(run_stage("thicken", "{thickness: 1%, mode: edges}", scene_of(bow_tie()))
               .record.result["parts"][0]["cylinders"] == 4);
@@ -117,7 +118,7 @@ TEST_CASE("stages that move vertices leave no faces that cross themselves", "[st
         const auto ids = run.warnings();
         CHECK(std::count(ids.begin(), ids.end(), "W-FANS") == 0);
     }
-    // A grid takes faces of four corners at most: they stay, and are named.
+    // A grid accepts at most four corners per face: these faces stay, and a warning lists them.
     for (const auto& [stage, options] :
          {std::pair{"crumple", "0.1%"}, {"crumple", "{amplitude: 0.1%, grid: 1}"}, {"split", "{grid: 2}"}}) {
         INFO(stage << ": " << options);
@@ -129,7 +130,7 @@ TEST_CASE("stages that move vertices leave no faces that cross themselves", "[st
 TEST_CASE("what is measured is what faces that cross themselves cover", "[stages]") {
     CHECK(inspect(bow_tie()).area == Approx(floor_area));
     CHECK(surface_size(bow_tie()).area == Approx(floor_area));
-    const auto probed = run_stage("probe", "[2, 3, 0]", scene_of(bow_tie())); // beside it
+    const auto probed = run_stage("probe", "[2, 3, 0]", scene_of(bow_tie())); // next to it
     CHECK(probed.record.result["answers"][0]["distance"].get<double>() == Approx(std::sqrt(0.5)));
     const auto rays = run_stage("probe", "{rays: [2, 3, 1, 0, 0, -1]}", scene_of(bow_tie()));
     CHECK(rays.record.result["answers"][0]["hits"].empty());

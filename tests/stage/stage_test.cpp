@@ -14,7 +14,7 @@ TEST_CASE("stages are found by what other programs call them", "[stage]") {
         CHECK(stage_called(word) != nullptr);
         CHECK(stage_named(word) == nullptr);
     }
-    // What a few stages do together.
+    // Operations that combine several stages.
     for (const char* word : {"remesh", "Remeshing", "isotropic-remeshing"})
         CHECK(hint_for_stage(word, stage_names()) ==
               "edges of about one length come of three stages: split: {max_edge: 2%}, simplify: {ratio: 40%, "

@@ -107,12 +107,13 @@ TEST_CASE("what one stage leaves of the surface is what the next one finds", "[s
     REQUIRE(surfaces);
     CHECK(surfaces->at(0).faces == 8);
     CHECK(surfaces->at(0).area == surfaces_of_parts(leaving(8)(sheet())).at(0).area);
-    CHECK(eaten() == 0); // eight of eight, as it was told
+    CHECK(eaten() == 0); // the recorded size is eight faces, so none was lost
     surfaces->at(0).area = 1e3;
     CHECK(eaten() == 1);
 
     surfaces->at(0).area = 1e-3;
-    stage.facts.crossing_faces = CrossingFacePolicy::fill; // before the stage, as others left none
+    stage.facts.crossing_faces =
+        CrossingFacePolicy::fill; // before the stage, as after stages that leave none
     CHECK(eaten() == 1);
     stage.facts.may_lose = MayLose::all;
     CHECK(eaten() == 0);
@@ -150,7 +151,7 @@ TEST_CASE("the size that a stage measured is what the next one finds, part by pa
         CHECK(context.size_before(entering, 0).area == surface_size(part.mesh, part.transform).area);
         CHECK(context.size_before(entering, 1).volume == told.volume);
         context.keep_size(1, told);
-        entering.parts.pop_back(); // the size is of none of the parts
+        entering.parts.pop_back(); // the recorded size belongs to none of the parts
         return entering;
     };
     Context second(*run.state, run.record, all, scene.bounds(), {});

@@ -83,7 +83,7 @@ TEST_CASE("clean reports what it united; true is all, false is off", "[stages]")
     CHECK(failure([&] {
               run_stage("clean", "{self_intersections: yes}", scene_of(mesh));
           }).find("E-CHOICE") != std::string::npos);
-    // A turned cube is inside out there, and said to be.
+    // A reversed cube is inside out, and a warning says so.
     for (Index f = 12; f < 24; ++f) std::swap(mesh.corners[3 * f], mesh.corners[3 * f + 1]);
     const auto run = run_stage("clean", "{self_intersections: union}", scene_of(mesh));
     REQUIRE(run.record.warnings.size() == 1);

@@ -282,7 +282,8 @@ TEST_CASE("clip says when vertices far from the origin count as on the plane", "
         const auto ids = test::run_stage("clip", options, test::scene_of(mesh)).warnings();
         return std::count(ids.begin(), ids.end(), "W-SNAPPED");
     };
-    CHECK(warned(far_away, "{plane: y=5400010.3}") == 1); // floats are half a metre apart there
+    CHECK(warned(far_away, "{plane: y=5400010.3}") ==
+          1); // at these coordinates, float32 has steps of half a metre
     CHECK(warned(far_away, "{plane: y=5400010.3, snap: 0}") == 0);
     CHECK(warned(far_away, "{plane: y=5400005.2}") == 0);
     for (Vec3& p : far_away.positions) p.y += 1e-9; // no floats, within four roundings of a double

@@ -54,7 +54,7 @@ TEST_CASE("combine takes parts away, and removes them from the scene", "[stages]
     CHECK(numbered >= 6);
     REQUIRE(run.warnings() == std::vector<std::string>{"W-COMBINE-IDLE"});
     CHECK(run.record.warnings[0].message == "combine: 'far drill' takes nothing away");
-    // Numbers go on from those that are there.
+    // New numbers continue after existing numbers.
     Scene again = cube_and_drills();
     again.parts[0].mesh = run.mesh();
     again.parts[1].transform.m[0][3] = 0.75;
@@ -84,7 +84,7 @@ TEST_CASE("combine takes groups of its tools for those of caps alone", "[stages]
     CHECK_FALSE(without.mesh().find("group", Domain::face));
     CHECK(later_caps(without.mesh(), 0).empty());
     CHECK(change_of_group(without) == AttributeChange::Kind::dropped);
-    // The block keeps its own, and of the drill only what closes a cut.
+    // The block keeps its own faces, and the drill contributes only faces that close a cut.
     numbered(scene.parts[0].mesh, "group", [](Index) { return 3U; });
     numbered(drill, "cut_id", [](Index f) { return f < 2 ? 5U : 0U; });
     const auto run = run_stage("combine", "{operation: intersection, with: \"*drill\"}", scene);

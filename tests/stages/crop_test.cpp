@@ -135,7 +135,7 @@ TEST_CASE("crop knows a footprint in degrees beside a mesh in metres", "[stages]
     CHECK(hint().find("degrees") == std::string::npos); // both may be metres
     for (Vec3& p : scene.parts[0].mesh.positions) p += Vec3{500000, 4649000, 0};
     CHECK(hint().starts_with("is the footprint in degrees?"));
-    // What is near 0, 0, or as large as a country, counts from another origin.
+    // Coordinates near 0, 0, or as large as a country, count from a different origin.
     for (const char* local :
          {"[[0, 0], [1, 0], [1, 1]]", "[[-2, -2], [2, -2], [2, 2]]", "[[20, 30], [60, 30], [60, 80]]"})
         CHECK(hint(local).find("that both count from one origin") != std::string::npos);
@@ -179,7 +179,7 @@ TEST_CASE("crop keeps the points of a cloud, each on one side", "[stages]") {
         return run_stage("crop", options, scene_of(cloud));
     };
     const auto inside = points("inside");
-    REQUIRE(inside.mesh().vertex_count() == 3); // 1 and 3 lie on the outline
+    REQUIRE(inside.mesh().vertex_count() == 3); // 1 and 3 are on the outline
     CHECK(inside.mesh().positions[0] == Vec3{1, 1, 0});
     CHECK(inside.warnings().empty());
     CHECK(points("outside").mesh().vertex_count() == 2);

@@ -79,7 +79,7 @@ TEST_CASE("crumple: parts that meet stay together", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts.front());
     scene.parts[1].name = "other";
-    scene.parts[1].transform.m[0][3] = 1; // its face x = 0 lies on the first one's x = 1
+    scene.parts[1].transform.m[0][3] = 1; // its face x = 0 coincides with the first's x = 1
     const auto r = run_stage("crumple", options({{"grid", "1"}, {"amplitude", "0.05"}}), scene);
     int met = 0;
     const Mesh cube = shapes::cube();
@@ -131,7 +131,7 @@ TEST_CASE("crumple: forbid names faces of the input and a place on them", "[stag
     CHECK((two || std::sscanf(text.c_str() + at, one, &found, &a, &x, &y, &z) == 5));
     CHECK(a < 6);
     CHECK((!two || b < 6));
-    double far = 0; // from the plane of the face that is named
+    double far = 0; // from the plane of the given face
     for (Index c = cube.face_begin(a); c < cube.face_end(a); ++c)
         far = std::max(far, length(cube.point(c) - Vec3{x, y, z}));
     CHECK(far < std::sqrt(2.0));

@@ -174,7 +174,8 @@ TEST_CASE("the table of faces tells the kind, the signed area and the second mom
     CHECK(std::stod(rows[0]["ixy_origin"]) == Approx(1.5));
     CHECK(std::stod(rows[0]["ix_centroid"]) == Approx(24.0 / 36));
     CHECK(rows[1]["kind"] == "self_intersecting");
-    CHECK(std::stod(rows[1]["area"]) == Approx(4.0 / 3 + 1.0 / 3)); // what it winds around, either way
+    CHECK(std::stod(rows[1]["area"]) ==
+          Approx(4.0 / 3 + 1.0 / 3)); // both enclosed regions count, whatever their winding
     CHECK(std::stod(rows[1]["signed_area"]) == Approx(-5.0 / 3));
     CHECK(std::stod(rows[1]["x"]) == Approx((4.0 / 3 * (14.0 / 9) + 1.0 / 3 * (2.0 / 9)) / (5.0 / 3)));
     CHECK(std::stod(rows[1]["iy_origin"]) > 0);

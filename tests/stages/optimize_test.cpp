@@ -57,7 +57,7 @@ void separate_corners(Mesh& mesh) {
     separate_wedges(mesh, own);
 }
 
-/// What is drawn, in the world.
+/// The drawn geometry in world space.
 std::vector<std::vector<float>> drawn_in_world(Scene scene) {
     std::vector<std::vector<float>> all;
     for (Part& part : scene.parts) {
@@ -289,7 +289,7 @@ TEST_CASE("attributes of one's own go on request only", "[stages]") {
     CHECK_FALSE(has_attribute(dropped.scene, "quality"));
     CHECK(has_attribute(dropped.scene, "TEXCOORD_0"));
     CHECK(dropped.record.result["dropped_attributes"] == Json::array({"_weight", "quality"}));
-    // Where an extension of a primitive may read them, they stay.
+    // They stay if an extension of a primitive may read them.
     for (Primitive& p : scene.parts[0].mesh.primitives)
         p.json = R"({"extensions":{"EXT_mesh_features":{"featureIds":[{"featureCount":1}]}}})";
     CHECK(has_attribute(run_stage("optimize", "{drop_own: true}", scene).scene, "_weight"));
@@ -557,12 +557,12 @@ TEST_CASE("what is in the scene and what is not are not joined, and that it is n
         return told;
     };
     CHECK(names_told(of_roots(R"([{"nodes":[0,1,2]}])")).empty());
-    CHECK(names_told(of_roots("[]", false)).empty()); // no scene is told from another
+    CHECK(names_told(of_roots("[]", false)).empty()); // nothing distinguishes scenes
     CHECK(names_told(of_roots(R"([{"nodes":[1,2]}])")) == "hidden");
     CHECK(names_told(of_roots(R"([{"nodes":[2]},{"nodes":[0]}])", false)) == "hidden, seen");
     Json levels = of_roots(R"([{"nodes":[1,2]}])");
     levels["nodes"][1]["extensions"]["MSFT_lod"]["ids"] = {0};
-    CHECK(names_told(levels).empty()); // shown in place of the node that names it
+    CHECK(names_told(levels).empty()); // shown instead of the node that refers to it
 
     const auto run = run_stage("optimize", "{}", read_text(of_roots(R"([{"nodes":[1,2]}])").dump()));
     REQUIRE(run.scene.parts.size() == 2);

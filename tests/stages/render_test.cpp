@@ -168,7 +168,8 @@ TEST_CASE("views beside a legend have one scale, however small a direction is", 
             .record.result["pixels_per_unit"]
             .get<double>();
     };
-    // The record has that of the first picture: the end of the box, which alone would be larger.
+    // The record has the scale of the first picture, the end of the box, which alone would have a larger
+    // scale.
     CHECK(scale("view: left") > 1.5 * scale("view: front"));
     CHECK(scale("views: [left, front]") == Approx(scale("view: front")));
     CHECK(scale("from: [1e-200, 0, 0]") == Approx(scale("from: [1, 0, 0]")));
@@ -217,7 +218,7 @@ TEST_CASE("render measures an attribute that no part has", "[stages]") {
     const auto equal =
         run_stage("render", drawing_options(folder, "attribute: min_angle"), scene_of(shapes::octahedron()));
     CHECK(equal.record.said.at(0).find("min_angle 60 everywhere") != std::string::npos);
-    // An attribute of the scene comes first.
+    // An attribute of the scene has priority.
     Scene own = scene_of(shapes::cube());
     own.parts[0].mesh.attributes.push_back(
         {"thickness", Domain::vertex, Role::generic, 1, false, std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7}});
@@ -286,7 +287,7 @@ TEST_CASE("a stray face that makes the rest small is told, and what shows it", "
     CHECK(run_stage("render", drawing_options(folder, "view: front"), scene_of(shapes::icosphere(3)))
               .warnings()
               .empty());
-    // One point has no extent: there is no scale.
+    // A single point has no extent, so it has no scale.
     Mesh point;
     point.positions = {{1, 2, 3}};
     const auto one = run_stage("render", drawing_options(folder, "view: front"), scene_of(point));

@@ -97,7 +97,7 @@ TEST_CASE("an open mesh is said", "[stages]") {
     REQUIRE(run.record.warnings.size() == 1);
     CHECK(run.record.warnings[0].id == "W-OPEN-SECTION");
     CHECK(run.record.warnings[0].hint.starts_with("of a surface without an inside (a terrain, a sheet)"));
-    // Beside closed contours, what is open has a hole.
+    // Next to closed contours, an open contour means a hole.
     Scene two = scene_of(shapes::cube());
     append(two.parts[0].mesh, shapes::grid(2, 2));
     const auto some = run_stage("section", "x=0.5", two);

@@ -71,7 +71,7 @@ TEST_CASE("parts without groups stay as they are among others", "[stages]") {
     CHECK(run.parts[0].name == "part");
     CHECK(run.parts[1].name == "other.0");
     CHECK(run.parts[2].mesh.face_count() == 10);
-    // An attribute that was asked for by name is to be there.
+    // An attribute given by name must exist.
     CHECK(failure([&] {
               run_stage("separate", "{by: group, attribute: patch}", scene);
           }).find("no face attribute 'patch'") != std::string::npos);

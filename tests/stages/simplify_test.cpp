@@ -82,7 +82,7 @@ Scene halves() {
     return scene;
 }
 
-/// All parts as one, with vertices at the same place joined.
+/// All parts merged, with vertices at the same position welded.
 test::Counts welded(const Scene& scene) {
     Mesh all;
     for (const Part& part : scene.parts) append(all, part.mesh);
@@ -115,7 +115,8 @@ TEST_CASE("simplify: borders of parts that touch stay matched", "[stages]") {
 TEST_CASE("simplify: where only one of two parts that touch is simplified, the border stays", "[stages]") {
     Scene scene = halves();
     Scene only = scene;
-    only.parts[1].transform.m[0][3] = 0x1p-60; // another node, at the same place as far as doubles tell
+    only.parts[1].transform.m[0][3] =
+        0x1p-60; // another node, at the same position within the accuracy of doubles
     const auto apart = run_stage("simplify", "10%", only);
     CHECK(welded(apart.scene).open == 0);
     CHECK_FALSE(apart.record.result["parts"][0].contains("joint_with"));
@@ -198,7 +199,7 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
     CHECK(problems("{ratio: 10%, weights: 0}") == "");
     CHECK(problems("{ratio: 10%, lock: {box: {min: [0, 0, 0], max: [0, 1, 1]}}}").find("E-BOX") !=
           std::string::npos);
-    // A ratio that may be a count asks which.
+    // A number that could be a ratio or a count is refused with a question.
     CHECK(problems("1").find("write 100%, or name the option that counts (faces: 1)") != std::string::npos);
     CHECK(problems("5000").find("a ratio has a point or a % (50%); for a count write faces: 5000") !=
           std::string::npos);
@@ -390,7 +391,7 @@ std::size_t faces_of(const test::StageRun& r, std::size_t part) {
     return r.scene.parts[part].mesh.face_count();
 }
 
-/// A sphere and a flat sheet beside it.
+/// A sphere and a flat sheet next to it.
 Scene sphere_and_sheet() {
     Scene scene = scene_of(shapes::icosphere(3));           // 1280 triangles
     scene.parts.push_back({"sheet", shapes::grid(16, 16)}); // 512
@@ -411,7 +412,7 @@ TEST_CASE("simplify: several parts keep their triangles where they are needed", 
     const auto by_error = run_stage("simplify", "50%", sphere_and_sheet());
     const auto equal = run_stage("simplify", "{ratio: 50%, share: equal}", sphere_and_sheet());
     CHECK(faces_of(equal, 0) == 640);
-    CHECK(faces_of(equal, 1) >= 255); // a collapse at the boundary takes one
+    CHECK(faces_of(equal, 1) >= 255); // a collapse at the boundary removes one
     CHECK(faces_of(equal, 1) <= 256);
     CHECK(by_error.scene.face_count() == 896);
     CHECK(faces_of(by_error, 1) < 64); // it is flat
@@ -461,7 +462,7 @@ TEST_CASE("simplify: parts with one mesh and one scale share alike, and each of 
     CHECK(test::same(r.scene.parts[0].mesh, r.scene.parts[3].mesh));
     const std::size_t target = 3 * 640 + 256;
     CHECK(r.scene.face_count() <= target);
-    CHECK(r.scene.face_count() + 6 > target); // one collapse takes two faces of each of the three
+    CHECK(r.scene.face_count() + 6 > target); // a collapse removes two faces of each of the three
 }
 
 TEST_CASE("simplify: parts share a target by error also within max_error and without crossings", "[stages]") {
@@ -522,11 +523,11 @@ TEST_CASE("simplify: separate boxes do not become slivers, and one warning tells
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-LIMIT"});
     CHECK(r.record.warnings[0].message.starts_with(
         "20 parts, the first part 'box0', stopped at 240 of 240 triangles, above the target"));
-    // What is flat goes all the same.
+    // Flat parts are still simplified.
     scene.parts.push_back({"sheet", shapes::grid(16, 16)});
     scene.parts.back().transform.m[1][3] = 4;
     const auto more = run_stage("simplify", "50%", scene);
-    CHECK(more.scene.face_count() >= 375); // a collapse at the boundary takes one
+    CHECK(more.scene.face_count() >= 375); // a collapse at the boundary removes one
     CHECK(more.scene.face_count() <= 376);
     CHECK(more.warnings().empty());
 }

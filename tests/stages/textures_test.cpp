@@ -30,7 +30,7 @@ std::string uri_for(const io::Bytes& bytes) {
     return "data:" + io::media_type(bytes) + ";base64," + io::base64(bytes);
 }
 
-/// A triangle with these materials; texture i has image i, or what textures says.
+/// A triangle with these materials. Texture i has image i, unless `textures` is given.
 Scene textured(const std::vector<io::Bytes>& images, const std::string& materials,
                const std::string& textures = "") {
     std::string all, own;
@@ -141,7 +141,7 @@ TEST_CASE("alpha that is used never becomes JPEG", "[stages]") {
         run_stage("textures", "{format: jpeg, max_size: 32}", textured({leaf, leaf, leaf}, every_role));
     CHECK(image_result(scaled, 0)["after"]["format"] == "png");
     CHECK(image_result(scaled, 0)["after"]["width"] == 32);
-    // Of an opaque material, it is not.
+    // For an opaque material it is not.
     const auto opaque = run_stage("textures", "{format: jpeg}", textured({leaf}, coloured));
     CHECK(opaque.warnings().empty());
     CHECK(image_result(opaque, 0)["after"]["format"] == "jpeg");
@@ -181,7 +181,7 @@ TEST_CASE("what would not be smaller stays", "[stages]") {
 TEST_CASE("repack makes images smaller that would stay, and nothing else", "[stages]") {
     const io::Bytes tight = io::encoded_png(picture(64, 64));
     io::Bytes loose = tight;
-    loose.resize(loose.size() + 100); // behind the end of the image
+    loose.resize(loose.size() + 100); // after the end of the image
     const auto run =
         run_stage("textures", "{repack: true}",
                   textured({loose, tight}, every_role, R"({"source":0},{"source":1},{"source":1})"));

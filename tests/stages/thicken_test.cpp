@@ -67,7 +67,8 @@ TEST_CASE("parts of one shape get one solid, and are told as each by itself", "[
     for (int i = 0; i < 4; ++i) {
         Part& part = scene.parts.emplace_back();
         part.name = "p" + std::to_string(i);
-        part.mesh = test::noisy_icosphere(2, 0.3, 1); // its walls turn over: the place of that is told
+        part.mesh =
+            test::noisy_icosphere(2, 0.3, 1); // its walls turn over, and the warning gives the position
         part.transform.m[0][3] = 8.0 * i;
     }
     scene.parts[2].transform.m[1][1] = 2;      // another shape in the world

@@ -65,7 +65,7 @@ TEST_CASE("tile puts the points of a cloud into the cells", "[stages]") {
         for (int x = 0; x < 5; ++x)
             cloud.positions.push_back({static_cast<double>(x), static_cast<double>(y), 0});
     const auto run = run_stage("tile", "2", scene_of(cloud));
-    REQUIRE(run.scene.parts.size() == 9); // 4 lies where the third tile begins
+    REQUIRE(run.scene.parts.size() == 9); // 4 is the start of the third tile
     CHECK(run.scene.parts[0].name == "part.x0.y0");
     CHECK(run.scene.parts[0].mesh.vertex_count() == 4);
     CHECK(run.scene.parts[8].name == "part.x2.y2");

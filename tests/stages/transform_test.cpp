@@ -46,7 +46,7 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
     check_box(box_after("{fit: 12cm}", block()), {60, 0, 0}, {90, 60, 120});
     check_box(box_after("{fit: 8, pivot: centre}", block()), {1.5, -1, -2}, {3.5, 3, 6});
     check_box(box_after("{fit: [10, 1, 10], ground: true}", block()), {1, 0, 0}, {1.5, 1, 2});
-    // A percentage is of the side that there is, not of the diagonal: of the longest, or of each.
+    // A percentage refers to the current side, the longest or each, and not to the diagonal.
     check_box(box_after("{fit: 50%}", block()), {1, 0, 0}, {1.5, 1, 2});
     check_box(box_after("{fit: [200%, 300%, 150%]}", block()), {3, 0, 0}, {4.5, 3, 6});
     check_box(box_after("{scale: 3, fit: 50%}", block()), {3, 0, 0}, {4.5, 3, 6});
@@ -56,7 +56,8 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
     CHECK(failure([&] {
               run_stage("transform", "{fit: 50% of load}", block());
           }).starts_with("stage [E-TRANSFORM]")); // nothing was loaded, which has no diagonal
-    // What the other moves made is what is to fit; a flat part has one side that fits in any case.
+    // fit applies to the result of the other moves. A flat part has a single dimension that fits in any
+    // case.
     check_box(box_after("{scale: [8, 1, 1], rotate: {axis: [0, 1, 0], angle: 90}, fit: 2}", block()),
               {0, 0, -6}, {1, 0.5, -4});
     CHECK(run_stage("transform", "{fit: 6}", scene_of(shapes::grid(2, 3))).record.result["fit_factor"] == 2);

@@ -1,4 +1,4 @@
-// Baselines of validate: what is known is waived by its places, and by nothing else.
+// Baselines of validate: known failures are waived by their locations only.
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/meshes.hpp"
@@ -169,7 +169,7 @@ TEST_CASE("the order and the numbers of faces and vertices do not matter", "[sta
         CAPTURE(property.name);
         Assertion assertion{.property = std::string(property.name)};
         assertion.bound.min = 40;
-        assertion.bound.max = 41; // what most faces are beyond
+        assertion.bound.max = 41; // most faces exceed it
         const auto keys = location_keys(scene, assertion);
         CHECK(keys == location_keys(other, assertion));
         with_locations += !keys.empty();
@@ -205,7 +205,7 @@ TEST_CASE("what is fixed is told", "[stages]") {
     Gate gate("closed: true, faces: {max: 9}, boundary_edges: 0");
     gate.learn(cube_without({3, across()}));
     const auto half = gate.judge(cube_without({across()}));
-    CHECK_FALSE(Gate::all_passed(half)); // more faces than there were
+    CHECK_FALSE(Gate::all_passed(half)); // more failing faces than before
     Gate open("closed: true, boundary_edges: 0, isolated_vertices: 0");
     Mesh mesh = cube_without({3, across()});
     mesh.positions.push_back({7, 7, 7});

@@ -88,7 +88,7 @@ TEST_CASE("closed means Euler number 2 only for genus 0 with one component", "[s
     append(three, shapes::torus(9, 7));
     CHECK(judged("{closed: true, euler: 4, genus: 1, components: 3}", three) == "");
     CHECK(judged("{closed: true, euler: 2}", three) == "euler: 2, found 4");
-    // And an open surface can have it: a sphere with a piece taken out and an isolated patch put beside.
+    // Open surfaces can have it too: a sphere with a missing face and an isolated patch next to it.
     Mesh open = shapes::icosphere(1);
     open.corners.resize(open.corners.size() - 3);
     append(open, shapes::grid(1, 1));
@@ -105,7 +105,7 @@ TEST_CASE("validate names the locations that speak against a property", "[stages
     CHECK(evidence[0]["at"].size() == 3);
     CHECK(evidence[0]["edges"] == 3);
     CHECK(evidence[0]["length"] == Approx(2 + std::sqrt(2.0)));
-    Mesh third = shapes::cube(); // an edge with three faces and no open edge but those of the third face
+    Mesh third = shapes::cube(); // an edge with three faces; the only open edges are the third face's
     const Index fin[] = {0, 1, 6};
     add_face(third, fin);
     const auto crowded = run_stage("validate", "{edge_manifold: true}", scene_of(third));
@@ -223,10 +223,10 @@ TEST_CASE("validate knows what a purpose needs", "[stages]") {
     CHECK(judged("{for: printing}", shapes::icosphere(2)) == "");
     CHECK(judged("{for: simulation}", shapes::icosphere(2)) == "");
     CHECK(judged("{for: web}", shapes::grid(2, 2)) ==
-          ""); // open, without normals and weights: none is missed
+          ""); // open, without normals and weights, which the profile does not require
     CHECK(judged("{for: solid}", flipped(shapes::cube())) == "outward_oriented: true, found false");
     CHECK(judged("{for: solid, outward_oriented: false}", flipped(shapes::cube())) ==
-          ""); // what is given counts
+          ""); // given assertions override the profile
 }
 
 TEST_CASE("validate limits what a scene holds", "[stages]") {
@@ -242,12 +242,12 @@ TEST_CASE("validate limits what a scene holds", "[stages]") {
 
 namespace {
 
-/// What every pixel of an image is: black.
+/// A black image.
 io::Pixels black(std::size_t width, std::size_t height) {
     return {width, height, std::vector<std::uint8_t>(4 * width * height), false};
 }
 
-/// A PNG inside a buffer of 1000 bytes and a WebP beside the document.
+/// A PNG inside a buffer of 1000 bytes and a WebP next to the document.
 Scene with_document() {
     Scene scene = scene_of(shapes::cube());
     auto document = std::make_shared<Document>();
@@ -404,6 +404,6 @@ TEST_CASE("validate says that a bare value of a measure is asked for exactly", "
     CHECK(hint("{longest_edge: 2}") == exactly);
     CHECK(hint("{volume: 2}") == exactly);
     CHECK(hint("{min_angle: {min: 60}}") == "relax makes faces more regular");
-    CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // what is counted may well be one number
+    CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // an exact count is a sensible requirement
     CHECK(hint("{volume: 0}") != exactly);
 }

@@ -34,7 +34,7 @@ write_stage::EvenGrid grid_of(const Scene& scene, int bits = 14) {
     return write_stage::even_grid(scene, usual, bits, bits, std::vector<bool>(scene.parts.size()));
 }
 
-/// The file as it is read again.
+/// The file after reading it back.
 Scene written(Bench& b, const std::string& options) {
     Problems problems;
     const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
@@ -44,7 +44,7 @@ Scene written(Bench& b, const std::string& options) {
     return io::read_scene(io::Input::open(b.dir / "a.glb"), {}, log);
 }
 
-/// Half of a sphere, whose open border lies in the plane x = 0.
+/// Half of a sphere, with its open border in the plane x = 0.
 Mesh half_ball(bool right) {
     const Mesh ball = shapes::icosphere(3);
     Mesh half;
@@ -58,7 +58,7 @@ Mesh half_ball(bool right) {
     return half;
 }
 
-/// The places in the world, to a millionth of a step.
+/// The positions in the world, to a millionth of a step.
 std::set<std::array<std::int64_t, 3>> places(const Part& part, double step) {
     std::set<std::array<std::int64_t, 3>> all;
     for (const Vec3& v : part.mesh.positions) {
@@ -119,7 +119,7 @@ TEST_CASE("steps are finer where vertices would coincide", "[stages]") {
     const auto grid = grid_of(scene);
     CHECK(grid.bits[1] > 5);
     CHECK(grid.bits[1] < 10);
-    // By powers of two, so that its points are among those of the scene's grid.
+    // The ratio is a power of two, so that its points are among the points of the scene's grid.
     const double ratio = grid.lattices[0].step * 1000 / grid.lattices[1].step;
     CHECK(std::abs(std::log2(ratio) - std::round(std::log2(ratio))) < 1e-9);
     Bench b;

@@ -18,7 +18,7 @@ using namespace facetmill::test;
 
 namespace {
 
-/// Three lines in a row and one beside them, with colours.
+/// Three connected lines and a separate line, with colours.
 Mesh wires() {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 4}, {3, 3, 3}, {4, 3, 3}};

@@ -1,4 +1,4 @@
-// Losses that a run can be stopped for: each is a warning with an id of its own.
+// Losses that can stop a run: each is a warning with its own id.
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
@@ -40,7 +40,7 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
     CHECK(plain.find("write glTF with origin: auto") != std::string::npos);
     const std::string draco = warnings_of(scene, fmt::format("{{path: {}, draco: true, origin: keep}}", glb));
     CHECK(draco.find("so far from the origin") != std::string::npos);
-    // Its grid stands in the node, in 64 bits.
+    // Its grid is in the node, in 64 bits.
     CHECK(warnings_of(scene, fmt::format("{{path: {}, quantize: true}}", glb)).empty());
     CHECK(draco.find("draco.position_bits") == std::string::npos);
     CHECK(warnings_of(scene, fmt::format("{{path: {}, precision: single}}", ply))
@@ -62,7 +62,7 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
             p[axis] = static_cast<double>(static_cast<float>(p[axis]));
     CHECK(run_stage("write", (dir / "c.ply").string(), rounded).record.said.empty());
     for (const char* options : {"{{path: {}}}", "{{path: {}, draco: true}}"})
-        for (const Scene& one : {far_away(0), scene}) // which gets an origin of its own
+        for (const Scene& one : {far_away(0), scene}) // the scene that gets its own origin
             CHECK(warnings_of(one, fmt::format(fmt::runtime(options), glb)).empty());
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("instances that stages do not see are said, and points without faces",
         io::Input::of("t", test::to_bytes(std::string(start) + end)), expand, log);
     CHECK(log.warnings.empty());
     REQUIRE(each.parts.size() == 3);
-    CHECK(each.parts[1].transform.point({0, 0, 0}) == Vec3{1, 0, 0}); // the places are those of the corners
+    CHECK(each.parts[1].transform.point({0, 0, 0}) == Vec3{1, 0, 0}); // the instances are at the corners
     CHECK(each.parts[0].name == "tree");
     const Scene points = test::read_text(std::string(start) + R"(,"mode":0)" + end);
     REQUIRE(points.parts.size() == 1);

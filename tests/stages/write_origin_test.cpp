@@ -60,13 +60,13 @@ TEST_CASE("far from the origin, the nodes of a file take the offset", "[stages]"
         b.run("write", pipeline::parse_yaml(source, problems));
         for (const auto& w : b.record.warnings) FAIL_CHECK(w.id << " " << w.message);
         CHECK(b.record.result["origin"]["parts"] == 1);
-        // The scene itself is as it was.
+        // The scene itself is unchanged.
         CHECK(b.scene.parts[0].mesh.positions == given.parts[0].mesh.positions);
         CHECK(b.scene.parts[0].transform.identity());
         CHECK(!b.scene.parts[0].changed);
         const Scene back = read_of(b, name);
         CHECK(back.bounds().min.x > 499999);
-        const bool steps = b.record.result.contains("quantize"); // coordinates are those of the grid
+        const bool steps = b.record.result.contains("quantize"); // the file has grid coordinates
         if (!steps) CHECK(back.parts[0].mesh.bounds().max.y < 3);
         if (settings.empty() || settings[0].first == std::string("order"))
             CHECK(distance_between(back.parts[0], given.parts[0]) < 1e-6);
@@ -135,7 +135,7 @@ TEST_CASE("neighbours and instances keep what they share when the origin moves",
     CHECK(back.parts[0].mesh.positions == back.parts[1].mesh.positions);
     CHECK(back.parts[1].transform.m[0][3] - back.parts[0].transform.m[0][3] == 2);
     CHECK(back.parts[0].transform == back.parts[2].transform);
-    // The same places are the same numbers: no gap.
+    // Equal positions are equal numbers, so no gap appears.
     for (const Vec3& p : back.parts[2].mesh.positions) {
         const auto& all = back.parts[0].mesh.positions;
         CHECK(std::find(all.begin(), all.end(), p) != all.end());

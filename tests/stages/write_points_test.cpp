@@ -42,7 +42,7 @@ TEST_CASE("point clouds are written with their colours, and read again", "[stage
 
 namespace {
 
-/// Points with a normal, a colour in bytes and a number each; every tenth stands where the one before does.
+/// Points with a normal, a colour in bytes and a number each. Every tenth repeats the previous position.
 Mesh cloud(std::size_t points) {
     Mesh mesh;
     std::vector<float> normals, numbers;

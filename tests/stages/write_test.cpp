@@ -137,7 +137,7 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
 
 namespace {
 
-/// The ids and hints of what writing to that file warns of.
+/// The ids and hints of warnings when writing to that file.
 std::string told_of(Bench& b, const Value& value) {
     b.run("write", value);
     std::string text;
@@ -146,7 +146,7 @@ std::string told_of(Bench& b, const Value& value) {
     return text;
 }
 
-/// Two cubes that touch along an edge, whose corners there are different vertices.
+/// Two cubes that touch along an edge without sharing its vertices.
 Mesh touching_cubes() {
     Mesh mesh = shapes::cube(), other = shapes::cube();
     for (Vec3& p : other.positions) p += Vec3{1, 1, 0};
@@ -200,7 +200,7 @@ TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lin
     const std::string coarse = told_of(b, Value::map(given));
     CHECK(coarse.find("Draco's 3 bits put ") == 0);
     CHECK(coarse.ends_with(" points on others: use more draco.position_bits, or no draco"));
-    mesh = shapes::grid(1, 1); // a corner so near the diagonal that float32 puts it there
+    mesh = shapes::grid(1, 1); // a corner so near the diagonal that float32 puts it on the diagonal
     for (Vec3& p : mesh.positions) p += Vec3{1 << 20, 0, 0};
     mesh.positions[1] = {(1 << 20) + 0.5 - 1e-9, 0.5, 0};
     b.record.warnings.clear();

@@ -1,12 +1,12 @@
 #pragma once
-// Single stages one after the other, with a directory for what they read and write.
+// Runs single stages one after the other, with a directory for their files.
 
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
 namespace facetmill::test {
 
-/// A run of single stages in a directory of its own.
+/// Runs single stages in its own directory.
 struct Bench {
     TemporaryDirectory dir;
     RunState state;

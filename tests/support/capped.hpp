@@ -1,12 +1,12 @@
 #pragma once
-// A solid with a cap, and how far the cap is from the plane of its cut.
+// A solid with a cap, and the distance of the cap from its plane.
 
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"
 
 namespace facetmill::test {
 
-/// The part of an icosphere above z = 0.2, with a cap there.
+/// The part of an icosphere above z = 0.2, with a cap on the cut.
 inline Scene capped_sphere() {
     return run_stage("clip", "{plane: z=0.2, cap: true}", scene_of(shapes::icosphere(3))).scene;
 }

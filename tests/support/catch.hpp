@@ -1,5 +1,5 @@
 #pragma once
-// Catch2 2 and 3 behind one include.
+// Includes Catch2 version 2 or 3.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 using Catch::Approx;

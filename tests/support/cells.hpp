@@ -1,5 +1,5 @@
 #pragma once
-// Meshes in cells, put together again, and meshes that are hard for them.
+// Joins meshes in cells, and makes meshes that are hard for cells.
 
 #include "cells/partition/partition.hpp"
 #include "io/outputs/outputs.hpp"
@@ -10,15 +10,15 @@
 
 namespace facetmill::test {
 
-/// All cells as one.
+/// All cells, merged into a mesh.
 Mesh rejoined(const cells::Partition& partition);
 
-/// The faces of a triangle mesh as sorted triples of positions, which say nothing of numbers and order.
+/// The faces of a triangle mesh as sorted triples of positions, independent of numbers and order.
 std::vector<std::array<double, 9>> triangles_of(const Mesh& mesh);
 
 inline constexpr std::uint64_t cell_memory = std::uint64_t{64} << 20;
 
-/// The mesh in cells of at most so many faces.
+/// The mesh in cells of at most this many faces.
 inline std::unique_ptr<cells::Partition> cells_of(const TemporaryDirectory& folder, const Mesh& mesh,
                                                   std::uint64_t most) {
     Scene scene;
@@ -29,13 +29,13 @@ inline std::unique_ptr<cells::Partition> cells_of(const TemporaryDirectory& fold
                                               cells::CellResources{folder.path(), cell_memory}, most);
 }
 
-/// Faces taken away, turned, repeated, and made to share edges and vertices.
+/// Removes, reverses and repeats faces, and makes faces share edges and vertices.
 inline Mesh nasty(unsigned seed) {
     Mesh mesh = noisy_icosphere(4, 0.02, seed);
     mesh.attributes.clear();
     Mesh other = moved(mesh, {3, 0, 0});
     append(mesh, other);
-    append(mesh, Mesh(mesh)); // everything twice, apart
+    append(mesh, Mesh(mesh)); // two separate copies
     const auto n = static_cast<Index>(mesh.vertex_count());
     Mesh out;
     out.positions = mesh.positions;
@@ -52,13 +52,13 @@ inline Mesh nasty(unsigned seed) {
             std::swap(face[0], face[1]);
             break;
         case 2:
-            add_face(out, face); // twice
+            add_face(out, face); // repeated
             break;
         case 3:
             face[2] = face[0]; // degenerate
             break;
         case 4:
-            face[1] = random(n); // right through
+            face[1] = random(n); // through the other faces
             break;
         default:
             break;

@@ -1,5 +1,5 @@
 #pragma once
-// What clean promises for any mesh, checked in the plainest way.
+// The guarantees of clean for any mesh, checked in the plainest way.
 
 #include "support/catch.hpp"
 #include "support/measure.hpp"
@@ -19,7 +19,7 @@
 
 namespace facetmill::test {
 
-/// Of what was united: it is closed, edge-manifold, and crosses nothing.
+/// Checks a union: closed, edge-manifold and without intersections.
 inline void check_solid(const Mesh& mesh) {
     CHECK(broken_invariants(mesh) == std::vector<std::string>{});
     CHECK(closed(mesh));
@@ -29,7 +29,7 @@ inline void check_solid(const Mesh& mesh) {
 
 using Shape = std::vector<std::array<double, 3>>;
 
-/// The corners' places, from the lowest on: the same for faces that look the same.
+/// The corner positions, starting at the lowest. Equal for faces that look the same.
 inline Shape shape_of(const Mesh& mesh, Index f) {
     Shape shape;
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
@@ -40,7 +40,7 @@ inline Shape shape_of(const Mesh& mesh, Index f) {
     return shape;
 }
 
-/// Faces with area, that have no double and whose vertices all lie inside one fan of a manifold surface.
+/// Faces with area and without duplicate, whose vertices all lie inside a single fan of a manifold surface.
 inline std::vector<Shape> sound_faces(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
@@ -66,7 +66,7 @@ inline std::vector<Shape> sound_faces(const Mesh& mesh) {
         return set;
     };
     for (const Index f : doubles) doubled.insert(set_of(f));
-    std::set<Index> unsound; // vertices of faces without area too: they may be put on the edges around
+    std::set<Index> unsound; // include vertices of faces without area, which clean may put on adjacent edges
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (is_degenerate(mesh, f))
             for (const Index v : set_of(f)) unsound.insert(v);
@@ -98,7 +98,8 @@ inline bool same_mesh(const Mesh& a, const Mesh& b) {
     return true;
 }
 
-/// Empty when all holds: a mesh as it must be, sound faces untouched, nothing left to do.
+/// Returns the first violated rule; empty if none. The mesh must be valid, sound faces untouched, and a
+/// second run must change nothing.
 inline std::string broken_clean_law(const Mesh& mesh, const CleanSettings& settings) {
     const auto sound = sound_faces(mesh);
     const CleanResult once = clean(mesh, settings);

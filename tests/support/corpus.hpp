@@ -1,5 +1,5 @@
 #pragma once
-// A folder of real, hard and malformed files, when FACETMILL_CORPUS names one.
+// A folder of real, hard and malformed files, given by FACETMILL_CORPUS.
 
 #include "io/codec.hpp"
 #include "support/catch.hpp"
@@ -12,14 +12,14 @@
 
 namespace facetmill::test {
 
-/// The folder; without one, the test says that it is skipped.
+/// The folder. Without it, the test reports that it is skipped.
 inline std::optional<std::filesystem::path> corpus() {
     if (const char* folder = std::getenv("FACETMILL_CORPUS")) return folder;
     std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
     return std::nullopt;
 }
 
-/// All files below the folder with the suffix of a format, in the order of their names.
+/// All files below the folder with a format's suffix, sorted by name.
 inline std::vector<std::filesystem::path> meshes_below(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -28,7 +28,7 @@ inline std::vector<std::filesystem::path> meshes_below(const std::filesystem::pa
     return files;
 }
 
-/// The file's scene; an empty one when it is refused (which files are is judged by tests/io).
+/// The file's scene; empty if the file is refused (tests/io checks which files are).
 inline Scene read_or_nothing(const std::filesystem::path& file) {
     try {
         io::ReadLog log;
@@ -38,13 +38,14 @@ inline Scene read_or_nothing(const std::filesystem::path& file) {
     }
 }
 
-/// How many cuts of each mesh FACETMILL_CORPUS_PLANES asks for; 6 unless it is set.
+/// The number of cuts per mesh (FACETMILL_CORPUS_PLANES); 6 by default.
 inline std::uint64_t corpus_planes() {
     const char* planes = std::getenv("FACETMILL_CORPUS_PLANES");
     return planes ? static_cast<std::uint64_t>(std::atoi(planes)) : 6;
 }
 
-/// Calls check(mesh, corpus_planes()) for all meshes of the files below the folder; returns how many files.
+/// Calls check(mesh, corpus_planes()) for all meshes of the files below the folder. Returns the number of
+/// files.
 template <class Check>
 std::size_t check_corpus(const std::filesystem::path& folder, Check&& check) {
     std::size_t files = 0;

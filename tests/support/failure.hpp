@@ -1,5 +1,5 @@
 #pragma once
-// What an operation refuses with, whole: "malformed [E-PLY] a.ply:3: message | hint".
+// The full text of an error: "malformed [E-PLY] a.ply:3: message | hint".
 
 #include "base/error.hpp"
 
@@ -29,7 +29,7 @@ inline const char* kind_name(ErrorKind kind) {
     }
 }
 
-/// Runs the body and spells the first diagnostic of the Error it throws; "nothing" when it throws none.
+/// Runs the body and returns the first diagnostic of its Error as text; "nothing" without an error.
 template <class Body>
 std::string failure(Body&& body) {
     try {
@@ -44,7 +44,7 @@ std::string failure(Body&& body) {
     return "nothing";
 }
 
-/// Its id alone: "E-PLY"; empty when it throws none.
+/// The id only: "E-PLY"; empty without an error.
 template <class Body>
 std::string failure_id(Body&& body) {
     const std::string text = failure(body);

@@ -8,8 +8,8 @@
 
 namespace facetmill::test {
 
-/// Waits until what is written in the folder gets another time than what was: up to 10 ms before Linux 6.13,
-/// more on some file systems.
+/// Waits until new files in the folder get a later time than existing files. This takes up to 10 ms before
+/// Linux 6.13, and more on some file systems.
 inline void let_file_time_pass(const std::filesystem::path& folder) {
     const auto probe = folder / "probe";
     const auto time_of_now = [&] {

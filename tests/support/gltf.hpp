@@ -1,5 +1,6 @@
 #pragma once
-// Helpers of the glTF tests: scenes of one mesh, writing and reading in memory, comparing what is drawn.
+// Helpers of the glTF tests: make scenes of a single mesh, write and read in memory, compare the drawn
+// geometry.
 
 #include "base/json.hpp"
 #include "io/codec.hpp"
@@ -41,7 +42,7 @@ inline Scene read_text(std::string_view text, io::ReadLog* log = nullptr) {
     return read_bytes(to_bytes(text), "gltf", log);
 }
 
-/// Written as GLB and read again.
+/// Writes a GLB and reads it back.
 inline Scene again(const Scene& scene, const io::WriteSettings& settings = {}) {
     return read_bytes(written(scene, "glb", settings).files.at(0).bytes, "glb");
 }
@@ -53,8 +54,8 @@ inline std::string json_of(const io::Bytes& glb) {
     return {reinterpret_cast<const char*>(glb.data()) + 20, length};
 }
 
-/// The faces as lists of corners (float positions and all wedge attributes), sorted: what is drawn, whatever
-/// the numbering.
+/// The faces as lists of corners (float positions and all wedge attributes), sorted. Independent of
+/// numbering.
 inline std::vector<std::vector<float>> drawn(const Mesh& mesh) {
     std::vector<std::vector<float>> faces;
     std::vector<const Attribute*> attributes;

@@ -1,5 +1,5 @@
 #pragma once
-// Who listens to how far a run is, and remembers all.
+// Records all progress reports.
 
 #include "base/progress.hpp"
 
@@ -9,8 +9,8 @@
 namespace facetmill::test {
 
 struct Heard : Progress {
-    std::vector<double> shares;                        ///< since the last stage began
-    std::map<std::string, std::vector<double>> before; ///< of what ended, by its name
+    std::vector<double> shares;                        ///< of the current stage
+    std::map<std::string, std::vector<double>> before; ///< of finished stages, by name
     std::string now;
 
     void stage(int, int, const std::string& name) override { begin(name); }
@@ -19,7 +19,7 @@ struct Heard : Progress {
     void done() override { begin({}); }
 
     double last() const { return shares.empty() ? -1 : shares.back(); }
-    /// How often less was told than before.
+    /// The number of times that the progress decreased.
     std::size_t falls() const {
         std::size_t count = 0;
         for (std::size_t i = 1; i < shares.size(); ++i) count += shares[i] < shares[i - 1];

@@ -7,7 +7,7 @@
 
 namespace facetmill::test {
 
-/// Four bytes, the most significant first.
+/// Four bytes, big-endian.
 inline std::string png_word(std::uint32_t n) {
     std::string text;
     for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(n >> shift & 255);
@@ -21,7 +21,8 @@ inline std::string png_chunk(const std::string& name, const std::string& data) {
            png_word(static_cast<std::uint32_t>(sum));
 }
 
-/// A PNG. rows: each with its filter before it; level: of zlib; more: chunks before those of pixels.
+/// A PNG. rows: pixel rows, each after its filter byte. level: the compression level of zlib. more: chunks
+/// before the pixel data.
 inline std::string png_of_rows(std::uint32_t width, std::uint32_t height, char bits, char colour_type,
                                const std::string& rows, int level = -1, const std::string& more = {}) {
     uLongf size = ::compressBound(static_cast<uLong>(rows.size()));
@@ -35,8 +36,8 @@ inline std::string png_of_rows(std::uint32_t width, std::uint32_t height, char b
            png_chunk("IEND", "");
 }
 
-/// A PNG of one pixel. colour_type: 0 grey, 2 RGB, 6 RGBA; pixel: its bytes; gamma: of gAMA in 100000ths, 0:
-/// without.
+/// A PNG of a single pixel. colour_type: 0 grey, 2 RGB, 6 RGBA. pixel: its bytes. gamma: the value of gAMA
+/// in 100000ths; 0: no gAMA.
 inline std::string png_of(unsigned char colour_type, const std::string& pixel, char bits = 8,
                           std::uint32_t gamma = 0) {
     return png_of_rows(1, 1, bits, static_cast<char>(colour_type), '\0' + pixel, -1,

@@ -1,6 +1,6 @@
 // The main function of the test runner. In addition to Catch2's arguments it has --ctest and --ctest-files,
-// which write the script that lists the tests for ctest: each case or each file runs in a process of its own,
-// with its room as label. Files serve sanitizers, under which every process takes long to start.
+// which write the list of tests for ctest. Each case or each file runs in its own process, with its folders
+// as labels. Files serve sanitizers, because their processes take long to start.
 
 #define CATCH_CONFIG_RUNNER
 #include "support/catch.hpp"
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// What selects one case on the command line.
+/// The command-line argument that selects a test case.
 std::string spec_of(const std::string& name) {
     std::string spec;
     for (const char c : name) {
@@ -28,7 +28,7 @@ std::string place_of(const std::string& file) {
     return file.substr(start, file.rfind("_test.cpp") - start);
 }
 
-/// Each folder of a place is a label, so that -L geometry has all of geometry and -L clip the clip's.
+/// Turns each folder of the path into a label, so that -L geometry and -L clip select the tests of a folder.
 std::string labels_of(std::string place) {
     for (char& c : place)
         if (c == '/') c = ';';

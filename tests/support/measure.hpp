@@ -1,5 +1,5 @@
 #pragma once
-// Plain, slow measurements of meshes, independent of what they test.
+// Plain, slow measurements of meshes, independent of the tested code.
 
 #include "mesh/mesh.hpp"
 #include "mesh/scene.hpp"
@@ -29,7 +29,7 @@ inline double volume(const Mesh& mesh) {
     return six / 6;
 }
 
-/// Directed uses of each undirected edge: forward minus backward, and how often it is used.
+/// The uses of each undirected edge: forward minus backward, and the total.
 inline std::map<std::pair<Index, Index>, std::pair<int, int>> edge_uses(const Mesh& mesh) {
     std::map<std::pair<Index, Index>, std::pair<int, int>> uses;
     for (Index f = 0; f < mesh.face_count(); ++f)
@@ -44,7 +44,7 @@ inline std::map<std::pair<Index, Index>, std::pair<int, int>> edge_uses(const Me
     return uses;
 }
 
-/// At every edge the directions of its faces cancel.
+/// Whether the directions of the faces cancel at every edge.
 inline bool closed(const Mesh& mesh) {
     for (const auto& [edge, use] : edge_uses(mesh))
         if (use.first != 0) return false;
@@ -65,7 +65,7 @@ inline long euler(const Mesh& mesh) {
            static_cast<long>(mesh.face_count());
 }
 
-/// Of all parts, each in its own space.
+/// The sum over all parts, each in its own space.
 inline double area(const Scene& scene) {
     double sum = 0;
     for (const Part& part : scene.parts) sum += area(part.mesh);

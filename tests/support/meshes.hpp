@@ -28,7 +28,7 @@ inline Mesh moved(Mesh mesh, const Vec3& by) {
     return mesh;
 }
 
-/// Every coordinate rounded down to a multiple of step: vertices and faces fall together.
+/// Rounds every coordinate down to a multiple of step, so that vertices and faces coincide.
 inline Mesh snapped(Mesh mesh, double step) {
     for (Vec3& p : mesh.positions)
         for (std::size_t i = 0; i < 3; ++i) p[i] = std::floor(p[i] / step) * step;
@@ -49,18 +49,18 @@ inline Mesh with_noise(Mesh mesh, double amount, std::uint64_t seed) {
     return mesh;
 }
 
-/// Closed, genus 0, no self-intersections (it is star-shaped), 20 * 4^levels faces.
+/// Closed, genus 0, without self-intersections because it is star-shaped, 20 * 4^levels faces.
 inline Mesh noisy_icosphere(int levels, double amount, std::uint64_t seed) {
     return with_radial_noise(shapes::icosphere(levels), amount, seed);
 }
 
-/// Closed, genus 1; for amounts that are small beside its cells without self-intersections.
+/// Closed, genus 1. Has no self-intersections if the amount is small compared with its cells.
 inline Mesh noisy_torus(int segments, int rings, double amount, std::uint64_t seed) {
     return test::with_noise(shapes::torus(segments, rings), amount, seed);
 }
 
-/// The same surface with wedges: TEXCOORD_0 with seams (each of `charts` slabs along x is a chart of its own,
-/// so that vertices where slabs meet have several wedges) and a smooth NORMAL.
+/// The same surface with wedges: TEXCOORD_0 with seams, and a smooth NORMAL. Each of `charts` slabs along x
+/// is a separate chart, so that vertices between slabs have several wedges.
 inline Mesh with_uv_seams(const Mesh& mesh, int charts = 3) {
     const Box box = mesh.bounds();
     const auto chart_of = [&](Index f) {
@@ -93,7 +93,7 @@ inline Mesh with_uv_seams(const Mesh& mesh, int charts = 3) {
     return seamed;
 }
 
-/// Every triangle with vertices of its own, as STL has it: welding brings the mesh back.
+/// Every triangle has its own vertices, as in STL. Welding restores the mesh.
 inline Mesh torn_apart(const Mesh& mesh) {
     Mesh soup;
     for (Index c = 0; c < mesh.corner_count(); ++c) {
@@ -103,7 +103,7 @@ inline Mesh torn_apart(const Mesh& mesh) {
     return soup;
 }
 
-/// Triangles of random size at random places, none sharing a vertex: open, crossing each other.
+/// Triangles of random size at random positions, without shared vertices: open, intersecting.
 inline Mesh random_triangles(std::size_t count, double size, std::uint64_t seed) {
     Mesh mesh;
     for (std::size_t t = 0; t < count; ++t) {

@@ -1,5 +1,6 @@
 #pragma once
-// Damaged mesh files: small valid files cut, flipped, doubled and spliced, the same for the same seed.
+// Damages small valid mesh files: cuts, flips, duplicates and splices bytes. The result depends only on the
+// seed.
 
 #include "base/error.hpp"
 #include "base/math/random.hpp"
@@ -12,7 +13,7 @@
 
 namespace facetmill::test {
 
-/// One to four damages of the bytes, chosen by the seed.
+/// Damages the bytes one to four times, chosen by the seed.
 inline io::Bytes mutated(io::Bytes bytes, std::uint64_t seed) {
     std::uint64_t draws = 0;
     const auto draw = [&](std::size_t below) {
@@ -51,8 +52,7 @@ inline io::Bytes mutated(io::Bytes bytes, std::uint64_t seed) {
     return bytes;
 }
 
-/// Reads the bytes as that file: empty when that gives a sound scene or one of the errors that readers may
-/// throw, else what went wrong.
+/// Reads the bytes as that file. Returns the fault, or an empty text for a sound scene or an allowed error.
 inline std::string trouble_reading(const std::string& name, io::Bytes bytes) {
     try {
         io::ReadLog log;

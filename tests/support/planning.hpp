@@ -1,5 +1,5 @@
 #pragma once
-// A pipeline in a text, planned: for tests of the language.
+// Plans a pipeline from a text, for tests of the language.
 
 #include "pipeline/document.hpp"
 #include "pipeline/plan.hpp"
@@ -8,7 +8,7 @@ namespace facetmill {
 
 struct Planned {
     pipeline::Plan plan;
-    std::string problems; ///< rendered, one after the other
+    std::string problems; ///< the messages as text, one after the other
 };
 
 inline Planned planned(const std::string& text, pipeline::PlanSettings settings = {},
@@ -23,7 +23,7 @@ inline Planned planned(const std::string& text, pipeline::PlanSettings settings 
     return out;
 }
 
-/// The same with the two lines that every pipeline begins with, the stages being indented.
+/// The same after the two lines that begin every pipeline. The stages must be indented.
 inline Planned planned_stages(const std::string& stages, pipeline::PlanSettings settings = {}) {
     return planned("facetmill: 1\nstages:\n" + stages, std::move(settings));
 }

@@ -20,7 +20,7 @@ inline std::vector<Vec2> moved(std::vector<Vec2> ring, Vec2 by) {
     for (auto& p : ring) p = p + by;
     return ring;
 }
-/// Two unit squares high, two wide, without the upper right one: area 3, centroid 5/6, 5/6.
+/// An L of three unit squares, without the upper right square: area 3, centroid 5/6, 5/6.
 inline std::vector<Vec2> l_shape() { return {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}; }
 inline std::vector<Vec2> regular(int n, double radius) {
     std::vector<Vec2> ring;
@@ -52,7 +52,7 @@ class RingList {
 };
 inline RingList rings_of(std::vector<std::vector<Vec2>> rings) { return RingList(std::move(rings)); }
 
-/// Areas of the triangles, times their windings.
+/// The sum of the triangles' areas times their windings.
 inline double sum_of(const polygon::Triangulation& t, const std::vector<std::vector<Vec2>>& rings) {
     std::vector<Vec2> points;
     for (const auto& ring : rings) points.insert(points.end(), ring.begin(), ring.end());

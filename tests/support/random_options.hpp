@@ -1,6 +1,6 @@
 #pragma once
-// Random options of any stage, drawn from its declaration: ranges, choices and groups as it has them, all
-// else from its JSON Schema. So a new stage, or a new option, is drawn without a change here.
+// Random options of any stage: ranges, choices and groups come from its declaration, everything else from
+// its JSON Schema. New stages and options therefore need no change here.
 
 #include "base/math/numbers.hpp"
 #include "docs/schema.hpp"
@@ -13,7 +13,7 @@
 
 namespace facetmill::test {
 
-/// A number in the range: small mostly, at its ends often, far off at times.
+/// A number in the range: usually small, often at the ends, sometimes very large.
 inline double random_number(Draw& draw, const Range& range, bool whole) {
     const double low = range.min.value_or(whole ? 0 : -10),
                  high = range.max.value_or(std::max(10.0, 2 * low + 10));
@@ -47,7 +47,7 @@ inline std::string random_length(Draw& draw, const Range& range) {
     return number + draw.word({"", "", "%", "%", "%", "% of part", "% of load", "mm", "in"});
 }
 
-/// What a text may be: the names that scenes and folders of the test have, and such as mean something.
+/// A random text: names in the test's scenes and folders, and texts with a meaning for options.
 inline std::string random_word(Draw& draw) {
     return draw.word({"part",       "*",      "b",           "!b",         "x.lod1",
                       "material b", "NORMAL", "quality",     "TEXCOORD_0", "COLOR_0",
@@ -58,7 +58,7 @@ inline std::string random_word(Draw& draw) {
                       "glb",        "50%",    "1,0,0;0,1,1", "KHR_*",      "POLYGON((0 0,1 0,0 1,0 0))"});
 }
 
-/// Files of the test's folder: some that are there, and outputs of every kind.
+/// A random file name: existing files of the test's folder, and outputs of every kind.
 inline std::string random_path(Draw& draw) {
     return draw.word({"in.ply", "in.obj", "in.glb", "in.stl", "no.ply", "out.ply", "out.obj", "out.stl",
                       "out.off", "out.glb", "out.gltf", "out.svg", "out.dxf", "out.json", "out.csv",
@@ -111,7 +111,7 @@ inline Value from_type(Draw& draw, const std::string& type, const Json& schema, 
     return Value::scalar(random_word(draw));
 }
 
-/// A value that the schema allows, mostly: what it says in words the stage still checks.
+/// A value that the schema usually allows. The stage checks rules that the schema states only in words.
 inline Value from_schema(Draw& draw, const Json& schema, const Range& range) {
     if (!schema.is_object() || schema.empty()) return Value::scalar(random_word(draw));
     for (const char* forms : {"anyOf", "oneOf"})
@@ -155,7 +155,7 @@ inline Value random_value(Draw& draw, const Option& option) {
     return from_schema(draw, option.schema, option.range);
 }
 
-/// Some of the options; of those that exclude each other one.
+/// A subset of the options, at most one of each exclusive group.
 inline Value from_declaration(Draw& draw, const Declaration& declaration) {
     std::vector<std::string> taken, left_out;
     for (const auto& rule : declaration.exclusions) {
@@ -181,7 +181,7 @@ inline Value from_declaration(Draw& draw, const Declaration& declaration) {
     return map;
 }
 
-/// The value of an example of the stage, "relax: {iterations: 3}", without the keys that all stages have.
+/// The options in an example of the stage, "relax: {iterations: 3}", without the common keys.
 inline Value from_example(Draw& draw, const StageInfo& stage) {
     Problems problems;
     const auto text = std::make_shared<const SourceText>(SourceText{"example", draw.one_of(stage.examples)});
@@ -190,7 +190,7 @@ inline Value from_example(Draw& draw, const StageInfo& stage) {
     return value ? *value : Value{};
 }
 
-/// Options that the stage accepts: none when it accepts nothing of what was drawn.
+/// Options that the stage accepts; none if it refuses all drawn options.
 inline std::optional<Value> random_options(Draw& draw, const StageInfo& stage) {
     for (int tries = 0; tries < 12; ++tries) {
         Value value = draw.once_in(6) && !stage.examples.empty() ? from_example(draw, stage)
@@ -202,7 +202,7 @@ inline std::optional<Value> random_options(Draw& draw, const StageInfo& stage) {
     return {};
 }
 
-/// As a pipeline would write it.
+/// The value as written in a pipeline.
 inline std::string text_of(const Value& value) {
     std::string text;
     if (value.is_scalar())

@@ -1,5 +1,5 @@
 #pragma once
-// Random scenes: small surfaces of every kind, damaged in every way that a mesh may have.
+// Random scenes: small surfaces of every kind, with every kind of damage.
 
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
@@ -11,7 +11,7 @@
 
 namespace facetmill::test {
 
-/// Faces of three to seven corners that name random vertices, some of them twice.
+/// Faces of three to seven corners with random vertices, some of them repeated.
 inline Mesh random_polygons(Draw& draw) {
     Mesh mesh;
     const std::size_t vertices = 3 + draw.below(20);
@@ -70,7 +70,7 @@ inline Mesh random_shape(Draw& draw) {
     }
 }
 
-/// Faces left out, doubled and turned round; corners that name other wedges.
+/// Removes, duplicates and reverses faces, and moves corners to other wedges.
 inline Mesh damaged_faces(const Mesh& mesh, Draw& draw) {
     Mesh result = mesh;
     result.corners.clear();
@@ -89,7 +89,7 @@ inline Mesh damaged_faces(const Mesh& mesh, Draw& draw) {
     return result;
 }
 
-/// A number of any size, often one of those at which arithmetic ends.
+/// A number of any magnitude, often at a limit of arithmetic.
 inline double extreme_number(Draw& draw) {
     static const std::vector<double> all{0,   -0.0, 1,    -1,   1e-308, 5e-324, 1e-160, 1e-30,   1e-7,
                                          1e7, 1e15, 3e38, 4e38, 1e150,  1e160,  1e300,  1.7e308, -1.7e308};
@@ -133,7 +133,7 @@ inline void damage_positions(Mesh& mesh, Draw& draw) {
     default:
         mesh.positions[draw.below(mesh.positions.size())] = {};
     }
-    for (Vec3& p : mesh.positions) // scaled or moved beyond all numbers
+    for (Vec3& p : mesh.positions) // scaled or moved beyond the range of doubles
         for (std::size_t i = 0; i < 3; ++i)
             if (!std::isfinite(p[i])) p[i] = std::numeric_limits<double>::max();
 }
@@ -194,7 +194,7 @@ inline void add_random_attribute(Mesh& mesh, Draw& draw) {
     mesh.attributes.push_back(std::move(a));
 }
 
-/// A table of primitives, and which faces are of which.
+/// A table of primitives, and the primitive of each face.
 inline void add_primitives(Mesh& mesh, std::size_t materials, Draw& draw) {
     if (mesh.find(primitive_attribute, Domain::face)) return;
     const std::size_t count = 1 + draw.below(3);
@@ -212,7 +212,7 @@ inline Mesh random_mesh(Draw& draw) {
     Mesh mesh = random_shape(draw);
     if (draw.once_in(3)) mesh = damaged_faces(mesh, draw);
     for (std::size_t damages = draw.below(3); damages > 0; --damages) damage_positions(mesh, draw);
-    if (!mesh.has_seams() && draw.once_in(4)) // vertices that no face uses
+    if (!mesh.has_seams() && draw.once_in(4)) // unused vertices
         for (std::size_t n = 1 + draw.below(3); n > 0 && mesh.attributes.empty(); --n)
             mesh.positions.push_back({draw.between(-2, 2), draw.between(-2, 2), 0});
     for (std::size_t n = draw.once_in(2) ? draw.below(4) : 0; n > 0; --n) add_random_attribute(mesh, draw);
@@ -241,7 +241,8 @@ inline Transform random_transform(Draw& draw) {
     return t;
 }
 
-/// The scene as a file of a format holds it, when it does: with a document, for glTF.
+/// The scene after a round trip through the format, if the format supports it. For glTF it then has a
+/// document.
 inline Scene through_a_file(Scene scene, const char* format) {
     try {
         const io::Codec& codec = *io::codec_named(format);
@@ -275,7 +276,7 @@ inline Scene random_scene(Draw& draw) {
         if (draw.once_in(2)) part.transform = random_transform(draw);
     }
     if (draw.once_in(3)) scene = through_a_file(std::move(scene), draw.word({"glb", "ply", "obj"}));
-    if (not_finite(scene)) // in world space: readers refuse it
+    if (not_finite(scene)) // in world space, which readers refuse
         for (Part& part : scene.parts) part.transform = {};
     return scene;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// One stage on a scene, as the pipeline would run it; its options written as in a pipeline, or as a value.
+// Runs a stage on a scene as the pipeline does. Options are text as in a pipeline, or a value.
 
 #include "mesh/shapes.hpp"
 #include "pipeline/document.hpp"
@@ -30,7 +30,7 @@ inline const StageInfo& stage_for_test(std::string_view name) {
     return *stage;
 }
 
-/// The stage with the options that the value gives; what is wrong with it goes to problems.
+/// The stage with the given options. Adds their errors to problems.
 inline std::shared_ptr<Stage> use_of(const StageInfo& info, const Value& value, Problems& problems) {
     auto stage = info.made();
     info.options->parse(value, stage->target(), info.name, problems);
@@ -38,7 +38,7 @@ inline std::shared_ptr<Stage> use_of(const StageInfo& info, const Value& value, 
     return stage;
 }
 
-/// The problems of the options go out as one Error; so do the stage's.
+/// Throws the problems of the options as one Error, like the stage's own errors.
 inline StageRun run_stage(const std::string& name, const Value& value, Scene scene) {
     Problems problems;
     const auto stage = use_of(stage_for_test(name), value, problems);
@@ -91,15 +91,15 @@ inline Scene skinned_cube() {
     return scene;
 }
 
-/// A map of scalars, as the command line would give them.
+/// A map of scalars, as from the command line.
 inline Value options(std::vector<std::pair<std::string, std::string>> pairs) {
     Value map = Value::map({});
     for (auto& [key, text] : pairs) map.set(key, Value::scalar(text));
     return map;
 }
 
-/// What a stage says when it refuses the options, without the place in their text, which is checked by the
-/// tests of the document.
+/// The error of a stage that refuses its options, without the position in the text. The tests of the
+/// document check positions.
 inline std::string refusal_of(const char* stage, const std::string& options, Scene scene) {
     std::string text = failure([&] { run_stage(stage, options, std::move(scene)); });
     const auto place = text.find("test.yaml:");

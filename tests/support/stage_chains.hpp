@@ -1,7 +1,7 @@
 #pragma once
-// A random scene through a random chain of stages, and what must hold whatever they are: an Error that is no
-// bug, or a sound scene; what a stage promises of closedness; the same with any number of threads; files that
-// read back.
+// Runs a random scene through a random chain of stages and checks rules that always hold. The result is a
+// sound scene, or an Error that is not a bug. Stages keep their promises of closedness, results do not
+// depend on the number of threads, and files read back.
 
 #include "base/hash.hpp"
 #include "mesh/invariants.hpp"
@@ -22,7 +22,7 @@ struct Link {
     Value value;
 };
 
-/// A drawn test: what goes in, and through what.
+/// A random test: the scene and the stages.
 struct Chain {
     Scene scene;
     std::vector<Link> links;
@@ -36,11 +36,11 @@ struct Chain {
     }
 };
 
-/// One to three stages; `only` is the name of the first, where it is not empty.
+/// One to three stages. `only` is the name of the first, unless empty.
 inline Chain random_chain(Draw& draw, const std::string& only = {}) {
     std::vector<const StageInfo*> all;
     for (const auto& stage : stages())
-        if (!stage.name.starts_with("test-")) all.push_back(&stage); // those of other tests
+        if (!stage.name.starts_with("test-")) all.push_back(&stage); // skip stages of other tests
     Chain chain{random_scene(draw), {}};
     for (std::size_t n = 1 + draw.below(3); n > 0; --n) {
         const StageInfo* stage =
@@ -50,7 +50,7 @@ inline Chain random_chain(Draw& draw, const std::string& only = {}) {
     return chain;
 }
 
-/// A digest of all that stages may change of a scene.
+/// A digest of all scene data that stages may change.
 inline std::string digest(const Scene& scene) {
     std::string bytes;
     const auto add = [&](const auto& values) {
@@ -77,7 +77,7 @@ inline std::string digest(const Scene& scene) {
     return sha256(std::as_bytes(std::span(bytes)));
 }
 
-/// Files that `load` and others find in the folder of a test.
+/// Files for `load` and other stages in the test's folder.
 inline void put_files(const std::filesystem::path& folder) {
     for (const char* format : {"ply", "obj", "stl", "glb"}) {
         io::WriteSettings settings;
@@ -90,13 +90,13 @@ inline void put_files(const std::filesystem::path& folder) {
     }
 }
 
-/// Whether the stage promises that edges of at most two faces stay such.
+/// Whether the stage keeps edges of at most two faces manifold.
 inline bool keeps_edge_manifold(const Link& link) {
     static const std::set<std::string> names{"orient", "relax", "simplify", "textures", "transform"};
     return names.contains(link.stage->name);
 }
 
-/// Whether the stage promises closed parts out of closed ones.
+/// Whether the stage keeps closed parts closed.
 inline bool keeps_closed(const Link& link) {
     static const std::set<std::string> names{"crumple",  "orient",    "relax",       "simplify", "split",
                                              "textures", "transform", "triangulate", "two-sided"};
@@ -107,7 +107,7 @@ inline bool keeps_closed(const Link& link) {
     return names.contains(link.stage->name);
 }
 
-/// Stages that pass the scene on as it came.
+/// Whether the stage returns its scene unchanged.
 inline bool keeps_scene(const StageInfo& stage) {
     static const std::set<std::string> names{"probe", "render", "section", "write"};
     return stage.checks || names.contains(stage.name);
@@ -121,14 +121,14 @@ inline bool all_edge_manifold(const Scene& scene) {
                        [](const Part& p) { return edge_manifold(p.mesh); });
 }
 
-/// What a chain did, in words that must be the same with any number of threads; and what was wrong.
+/// The log of a chain, which must not depend on the number of threads, and the fault.
 struct Outcome {
     std::string told, wrong;
-    std::size_t stages_done = 0; ///< the next one refused
+    std::size_t stages_done = 0; ///< the next stage refused
     Scene scene;
 };
 
-/// What is wrong with the scene after a stage, or nothing.
+/// The fault of the scene after a stage; empty if none.
 inline std::string fault_after(const Link& link, const Scene& before, const Scene& after) {
     const auto broken = broken_invariants(after);
     if (!broken.empty()) return "invariant: " + broken.front();
@@ -147,7 +147,7 @@ inline bool is_finding(const Error& error) {
     return error.diagnostics().front().id == "E-READBACK";
 }
 
-/// Runs the chain in the folder. Ends at the first stage that refuses, or whose result is beyond all numbers.
+/// Runs the chain in the folder. Ends at the first stage that refuses, or whose result is not finite.
 inline Outcome run_chain(const Chain& chain, const std::filesystem::path& folder) {
     Outcome outcome;
     RunState state;
@@ -191,7 +191,7 @@ inline Outcome run_chain(const Chain& chain, const std::filesystem::path& folder
     return outcome;
 }
 
-/// Writes the scene in a format and reads it: what is wrong, or nothing.
+/// Writes the scene in a format and reads it back. Returns the fault; empty if none.
 inline std::string fault_of_file(const Scene& scene, const char* format) {
     if (scene.face_count() == 0) return {};
     try {
@@ -206,7 +206,7 @@ inline std::string fault_of_file(const Scene& scene, const char* format) {
     }
 }
 
-/// Of a drawn chain: what is wrong, or nothing, and how far it came.
+/// The fault of a random chain (empty if none), and the number of completed stages.
 struct Verdict {
     std::string wrong;
     std::size_t stages_done = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Volumes and areas with hardly any rounding: what is tested is what was cut, not the sum.
+// Volumes and areas with hardly any rounding, so that tests measure the cut and not the summation.
 
 #include "mesh/mesh.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace facetmill::test {
 
-/// Sum of a term over the triangles of the faces' fans.
+/// The sum of a term over the fan triangles of the faces.
 template <class Term>
 long double sum_over(const Mesh& mesh, Term&& term) {
     long double sum = 0;
@@ -31,7 +31,7 @@ inline long double volume_about(const Mesh& mesh, const Vec3& origin) {
            6;
 }
 
-/// The area of the faces that like(face) picks, as fans: of triangles and convex faces.
+/// The area of the faces that like(face) selects, by fans: for triangles and convex faces.
 template <class Like>
 long double area_where(const Mesh& mesh, Like&& like) {
     long double sum = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What tests ask of a surface, counted in the plainest way.
+// Properties of a surface that tests need, counted in the plainest way.
 
 #include "parallel/parallel.hpp"
 #include "support/measure.hpp"
@@ -14,14 +14,14 @@ struct Counts {
     std::size_t open = 0;       ///< edges with one face
     std::size_t crowded = 0;    ///< edges with more than two faces
     std::size_t unbalanced = 0; ///< edges whose two directions do not cancel
-    std::size_t duplicates = 0; ///< faces with the vertices of an earlier one
+    std::size_t duplicates = 0; ///< faces with the same vertices as an earlier face
     std::size_t pinched = 0;    ///< vertices whose faces form more than one fan
     std::size_t flat = 0;       ///< triangles without area
     bool operator==(const Counts&) const = default;
 };
 
 inline Counts count(const Mesh& m) {
-    std::map<std::pair<Index, Index>, std::pair<std::size_t, int>> edges; // faces, and sum of directions
+    std::map<std::pair<Index, Index>, std::pair<std::size_t, int>> edges; // face count, and sum of directions
     std::map<Index, std::vector<std::pair<Index, Index>>> links;
     std::set<std::set<Index>> faces;
     Counts counts;
@@ -47,7 +47,8 @@ inline Counts count(const Mesh& m) {
         counts.crowded += c.first > 2;
         counts.unbalanced += c.second != 0;
     }
-    for (auto& [v, link] : links) { // merge the link's edges until nothing joins: what is left are the fans
+    for (auto& [v, link] :
+         links) { // merge the link's edges until no two can be joined; the remaining chains are the fans
         std::map<Index, Index> root;
         const auto find = [&](Index x) {
             while (root[x] != x) x = root[x];
@@ -67,10 +68,10 @@ inline Counts count(const Mesh& m) {
     return counts;
 }
 
-/// Closed, manifold, without doubled or flat faces, and of that Euler number.
+/// Whether the mesh is closed and manifold, has that Euler number, and no duplicate or flat faces.
 inline bool sound(const Mesh& m, std::int64_t euler) { return count(m) == Counts{euler}; }
 
-/// The same arrays, bit for bit as far as == tells.
+/// Whether all arrays are equal by ==.
 inline bool same(const Mesh& a, const Mesh& b) {
     if (a.attributes.size() != b.attributes.size()) return false;
     for (std::size_t i = 0; i < a.attributes.size(); ++i)
@@ -93,8 +94,7 @@ bool same_for_any_threads(Make&& make) {
     return same(one, two) && same(one, three);
 }
 
-/// A wedge attribute with the coordinates of each vertex, so that interpolation can be told from the
-/// positions.
+/// Adds a wedge attribute with the vertex coordinates, to compare interpolated values with positions.
 inline void add_coordinates(Mesh& m) {
     Attribute a;
     a.name = "coordinates";

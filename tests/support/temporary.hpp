@@ -1,5 +1,5 @@
 #pragma once
-// A directory of its own for a test, and files in it.
+// A temporary directory for a test, and its files.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace facetmill::test {
 
-/// Removed with everything in it at the end.
+/// The destructor removes it with all contents.
 class TemporaryDirectory {
   public:
     TemporaryDirectory() {
@@ -31,7 +31,7 @@ class TemporaryDirectory {
     std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
 
-    /// The names of everything in it, sorted.
+    /// The names of all entries, sorted.
     std::vector<std::string> names() const {
         std::vector<std::string> all;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))

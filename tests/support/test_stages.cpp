@@ -147,7 +147,7 @@ Scene run_warn(Scene scene, const WarnOptions& o, Context& context) {
 }
 const RegisterStage warn(make_stage<StageOf<run_warn>>(info("test-warn", "Warns"), declare_warn));
 
-// --- test-unrepeatable: what it does may be otherwise the next time
+// --- test-unrepeatable: its result may differ in each run
 
 struct UnrepeatableOptions {};
 void declare_unrepeatable(Declare<UnrepeatableOptions>&) {}

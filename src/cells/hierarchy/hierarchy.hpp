@@ -22,7 +22,7 @@ struct HierarchyResult {
     double area_before = 0; ///< after the transform
 };
 
-/// The reason why these settings need the whole mesh at once, for messages; none if they do not.
+/// The reason why these settings need the whole mesh in memory, for messages; none if they do not.
 [[nodiscard]] std::optional<std::string> why_not_in_cells(const SimplifySettings& settings);
 
 /// The minimum memory in bytes, with one worker, to simplify a mesh of `faces` faces in cells to `target`

@@ -12,7 +12,7 @@ namespace facetmill::cells {
 /// The keys that several leaves have.
 class Borders {
   public:
-    /// A value in place of a depth: only a single leaf has the key.
+    /// Replaces a depth in the key of a point that only a single leaf has.
     static constexpr std::uint8_t inner = UINT8_MAX;
 
     /// keys_of(leaf): its distinct keys. estimate: the number of keys of all leaves together. memory: bytes

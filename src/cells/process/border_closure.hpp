@@ -11,12 +11,11 @@ struct Collar {
     std::vector<Index> corners;
 };
 
-/// Assumes that the rest is a closed manifold surface, except where it meets the part. The collar meets the
+/// Requires that the rest is a closed manifold surface, except where it meets the part. The collar meets the
 /// part in the same way. Each vertex has the same number of face fans, and faces are connected if the rest's
 /// edges connect them. A part with its collar is therefore closed, manifold or an open sheet exactly as in
-/// the whole. The collar's points are arbitrary: none coincides with a vertex, and no face is degenerate
+/// the whole. The collar's points are arbitrary: no point coincides with a vertex, and no face is degenerate
 /// (except by chance).
-///
 /// part: [faces] nonzero for faces of the part; the mesh also has all other faces with a vertex of these.
 /// sheet: [faces] for the others, the number of their component over edges of the rest. If the rest does not
 /// meet the part, the collar is a separate tetrahedron.

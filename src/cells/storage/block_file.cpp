@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Tells bytes that were not written from those that were; no defence against intent.
+/// Detects damaged data, but not deliberate changes.
 std::uint64_t digest_of(io::Span bytes) {
     constexpr std::uint64_t factor = 0x9e3779b97f4a7c15ULL;
     std::uint64_t sum = bytes.size() * factor;
@@ -34,7 +34,7 @@ std::uint64_t digest_of(io::Span bytes) {
     return sum;
 }
 
-/// Throws output as io::cannot_write does, with the way out that there is here. error: an errno.
+/// Throws output as io::cannot_write does, with a hint for scratch folders. error: an errno.
 [[noreturn]] void cannot_write_there(const fs::path& folder, int error) {
     const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
     throw Error(
@@ -98,7 +98,7 @@ Block BlockFile::put(io::Span bytes) {
     return block;
 }
 
-/// False: it is not as it was written.
+/// Returns false if the data changed after writing.
 bool BlockFile::read(const Block& block, std::byte* to) const {
     return read_at(file_, block.offset, {to, block.size}) == block.size &&
            digest_of({to, block.size}) == block.digest;
@@ -161,7 +161,7 @@ void SpillFile::add(std::size_t number, io::Span record) {
     list.size += record.size();
 }
 
-/// Both sizes are of one list that waits, or of a block that was looked at.
+/// Both sizes fit in 32 bits: they come from a list's buffer, or from a checked block.
 SpillFile::Part SpillFile::part_of(const Block& block, std::uint64_t size) {
     return {block.offset, block.digest, static_cast<std::uint32_t>(block.size),
             static_cast<std::uint32_t>(size)};

@@ -24,7 +24,7 @@ constexpr std::string_view lock_name = "facetmill-cells.lock";
                 "--keep-cells DIR names another folder");
 }
 
-/// The first line of a file: what it is, its key, the digest of what follows.
+/// The first line of a file: its name, its key and the digest of its contents.
 std::string head_of(const std::string& name, const std::string& key, io::Span bytes) {
     return fmt::format("facetmill {} {} {}\n", name, key, sha256(bytes));
 }
@@ -60,7 +60,7 @@ void CellFolder::write(const std::string& name, std::initializer_list<io::Span> 
         for (const io::Span piece : pieces) written.put(piece);
         if (settings_.sync) written.sync();
     }
-    // The new name is left to the system: what is not there after a loss of power is made again.
+    // The folder is not synced, because a file lost in a power failure is made again.
     if (!rename_file(part, file(name))) cannot_keep(settings_.path, std::strerror(errno));
 }
 

@@ -18,8 +18,8 @@ class CellFolder {
         /// Receives messages about reused results, and about unusable ones with the reason; reports omit
         /// them.
         std::function<void(const std::string&)> tell = {};
-        /// Names the work of this process in a group of processes with other names; empty: no other process
-        /// works in the folder.
+        /// The name of this process's work in a group of processes; empty: no other process works in the
+        /// folder.
         std::string beside = {};
     };
     /// Creates the folder. Throws output: E-BUSY if another run holds it, E-WRITE, E-SPACE.

@@ -15,7 +15,7 @@ class InputStamps {
     static std::int64_t now();
     /// The stamps of the files when they were opened, whatever their paths name now.
     explicit InputStamps(const std::vector<FaceSource::File>& files, std::int64_t now = InputStamps::now());
-    /// The stored digests, if the files have not changed since; else none.
+    /// The stored digests if the files have not changed since; otherwise an empty list.
     std::vector<std::string> digests(const CellFolder& folder) const;
     /// Stores the digests, which must be computed after this object was made. Stores nothing if files
     /// changed since or just before, or if writing fails.

@@ -1,5 +1,5 @@
 #pragma once
-// The grid cell of each face, in face order, as temporary data. A face takes one or two bytes if consecutive
+// The grid cell of each face, in face order, as temporary data. A cell needs one or two bytes if consecutive
 // faces are close together.
 
 #include "cells/storage/block_file.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Parts of a file, read into memory of a fixed size: what is mapped would count as the process's own.
+// Reads parts of a file into memory of a fixed size. Mapped pages would count as the process's own memory.
 
 #include "base/hash.hpp"
 #include "io/bytes.hpp"
@@ -12,20 +12,19 @@ class ReadFile {
   public:
     /// Throws missing.
     explicit ReadFile(const std::filesystem::path& path);
-    /// Temporary data without a name, in that folder: it is closed here.
+    /// Takes an unnamed temporary file in that folder.
     ReadFile(Descriptor file, std::filesystem::path folder)
         : path_(std::move(folder)), file_(std::move(file)), temporary_(true) {}
     ReadFile(const ReadFile&) = delete;
     ReadFile& operator=(const ReadFile&) = delete;
-    /// Any thread. Throws malformed (E-CHANGED) when the file ends before; output (E-SCRATCH) when it is
-    /// temporary.
-    void read(std::uint64_t offset, std::span<std::byte> to) const;
-    /// Of the file that is open, whatever its path names since then: when it was opened. None of temporary
+    /// Thread-safe. Throws malformed (E-CHANGED) if the file ends early; output (E-SCRATCH) for temporary
     /// data.
+    void read(std::uint64_t offset, std::span<std::byte> to) const;
+    /// The stamp of the file at opening, even if the path now names another file. None for temporary data.
     const std::optional<FileStamp>& stamp() const { return stamp_; }
-    /// Whether nothing of it is another than when it was opened. Any thread.
+    /// Whether the stamp is the same as at opening. Thread-safe.
     bool is_as_opened() const { return !stamp_ || FileStamp::of(file_) == stamp_; }
-    /// Whether its contents are those that it had when it was opened. Any thread.
+    /// Whether the contents are the same as at opening. Thread-safe.
     bool has_same_contents() const;
 
   private:
@@ -38,30 +37,30 @@ class ReadFile {
 /// A range of a file from its beginning to its end.
 class Stream {
   public:
-    /// sum: gets all bytes that go by; may be null.
+    /// sum: hashes all bytes read; may be null.
     Stream(const ReadFile& file, std::uint64_t begin, std::uint64_t end, Sha256* sum = nullptr);
     std::uint64_t left() const { return (end_ - read_) + (filled_ - at_); }
     /// The next n bytes, valid until the next call; n <= left().
     const std::byte* take(std::size_t n);
-    /// Passes over n bytes; n <= left().
+    /// Skips n bytes; n <= left().
     void skip(std::uint64_t n);
 
   private:
     const ReadFile& file_;
-    std::uint64_t read_, end_; ///< what follows in the file
+    std::uint64_t read_, end_; ///< the unread range of the file
     Sha256* sum_;
     io::Bytes buffer_;
     std::size_t at_ = 0, filled_ = 0;
 };
 
-/// Records of one size, looked up in any order: blocks of the file that were used last stay.
+/// Caches records of equal size for random access. Recently used blocks stay in memory.
 class RecordCache {
   public:
     RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t size, std::uint64_t count,
                 std::size_t memory);
-    /// Whether there is room for all records, so that none is read twice.
+    /// Whether all records fit, so that no record is read twice.
     bool holds_all() const { return slots_ == slot_of_.size(); }
-    /// Takes the next record, from the first on, from who has read it; holds_all().
+    /// Adds the next record, which the caller has read, starting from the first. Requires holds_all().
     void append(const std::byte* record);
     /// Valid until the next call.
     const std::byte* at(std::uint64_t record) {
@@ -81,12 +80,12 @@ class RecordCache {
     std::size_t size_, per_block_, block_size_, slots_;
     std::vector<std::uint32_t> slot_of_;  ///< [blocks]
     std::vector<std::uint64_t> block_in_; ///< [slots]
-    std::vector<std::uint8_t> used_;      ///< [slots] since the hand went by
+    std::vector<std::uint8_t> used_;      ///< [slots] whether used since the clock hand passed
     std::size_t hand_ = 0;
     io::Bytes memory_;
 };
 
-/// The records of these numbers, ascending, one after another.
+/// The records with these ascending numbers, concatenated.
 [[nodiscard]] io::Bytes read_records(const ReadFile& file, std::uint64_t begin, std::size_t size,
                                      std::span<const std::uint32_t> numbers);
 

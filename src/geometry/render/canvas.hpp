@@ -37,23 +37,23 @@ struct Canvas {
         while (mine > there && !sample.compare_exchange_weak(there, mine, std::memory_order_relaxed)) {
         }
     }
-    /// Whether nothing that is put at a sample (at) at that depth, or behind it, will be seen.
+    /// Whether anything drawn at sample i at that depth or deeper would be hidden.
     bool hides(std::size_t i, float depth) {
         const std::atomic_ref<std::uint64_t> sample(nearest_[i]);
         return sample.load(std::memory_order_relaxed) >= packed(depth, 0);
     }
-    /// The depth of a sample by its place (at); -infinity where nothing is seen.
+    /// The depth at sample i; -infinity if the sample is empty.
     float depth(std::size_t i) const {
         const auto bits = static_cast<std::uint32_t>(nearest_[i] >> 32);
         return std::bit_cast<float>(bits & sign ? bits ^ sign : ~bits);
     }
-    /// The number of what is seen there; none: nothing.
+    /// The number of the visible element at sample i; none if the sample is empty.
     std::uint32_t seen(std::size_t i) const { return ~static_cast<std::uint32_t>(nearest_[i]); }
 
   private:
     static constexpr std::uint32_t sign = 0x80000000;
-    /// Greater when it is nearer, or as near with a lower number: the bits of a float in the order of its
-    /// values.
+    /// Maps depth and number to an ordered integer: nearer is greater, and at equal depth the lower number
+    /// is greater.
     static std::uint64_t packed(float depth, std::uint32_t number) {
         const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0f); // no -0
         return std::uint64_t{bits & sign ? ~bits : bits | sign} << 32 | (~number & 0xffffffff);
@@ -62,7 +62,7 @@ struct Canvas {
     std::vector<std::uint64_t> nearest_;
 };
 
-/// The samples whose middles lie in a box, the last ones included.
+/// The samples with centres in a box; the bounds are inclusive.
 struct SampleBox {
     int left, right, top, bottom;
 
@@ -72,8 +72,8 @@ struct SampleBox {
     }
 };
 
-/// The first sample whose middle is not before x, and the last sample whose middle is not behind it, limited
-/// to low to high. NaN counts as low.
+/// The first sample whose centre is at or after x, and the last sample whose centre is at or before x. Both
+/// are clamped to [low, high]. NaN counts as low.
 [[nodiscard]] inline double within(double x, int low, int high) { // NaN is outside of no range
     return x > low ? (x < high ? x : high) : low;
 }
@@ -89,8 +89,8 @@ struct SampleBox {
     return whole > inside ? whole - 1 : whole;
 }
 
-/// Those in the box around a triangle, in the rows [first, last) of a canvas of that width. Corners that are
-/// not finite give any of them, or none.
+/// The samples in the bounding box of a triangle, in the rows [first, last) of a canvas of that width. If
+/// corners are not finite, the result is arbitrary but in range.
 [[nodiscard]] inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int first,
                                               int last, int width) {
     const auto lowest = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
@@ -100,9 +100,9 @@ struct SampleBox {
             last_sample(highest(a.y, b.y, c.y), first - 1, last - 1)};
 }
 
-/// The same for each point by itself, in four small numbers. Most triangles of a large mesh have no sample,
-/// and these numbers show this before the points are read. Right and bottom are negated, so that the minimum
-/// of each number over several points gives their common box.
+/// The bounding box of single points, in four small numbers. Most triangles of a large mesh contain no
+/// sample, and these numbers show this before the points are read. Right and bottom are negated, so that the
+/// minimum of each number over several points gives their common box.
 class SamplesAt {
   public:
     SamplesAt() = default;
@@ -112,7 +112,7 @@ class SamplesAt {
                   short_of(-last_sample(p.x, -1, canvas.width - 1)),
                   short_of(-last_sample(p.y, -1, canvas.height - 1))} {}
 
-    /// samples_around of three points, on all of the canvas.
+    /// The same as samples_around three points, on the whole canvas.
     static SampleBox around(const SamplesAt& a, const SamplesAt& b, const SamplesAt& c) {
         const Bounds least = lesser(lesser(a.bounds_, b.bounds_), c.bounds_);
         return {least[0], -least[2], least[1], -least[3]};
@@ -146,32 +146,32 @@ struct EdgeLine {
     double length() const { return std::sqrt(dx * dx + dy * dy); }
 };
 
-/// Twice the area of a triangle on the canvas, positive when it is seen anticlockwise.
+/// Twice the area of a triangle on the canvas; positive if it appears anticlockwise.
 [[nodiscard]] inline double twice_area(const std::array<Vec3, 3>& p) {
     return (p[2].x - p[0].x) * (p[1].y - p[0].y) - (p[1].x - p[0].x) * (p[2].y - p[0].y);
 }
 
-/// The depth before which no sample of a triangle lies.
+/// The smallest depth of a triangle; no sample of the triangle lies before it.
 [[nodiscard]] inline double nearest_depth(const std::array<Vec3, 3>& p) {
     return std::max(std::max(p[0].z, p[1].z), p[2].z);
 }
 
-/// A triangle on the canvas, seen anticlockwise or not.
+/// A triangle on the canvas, in either orientation.
 struct CanvasTriangle {
     std::array<Vec3, 3> p;
     std::array<EdgeLine, 3> edges; ///< opposite to each corner
-    double area;                   ///< twice, positive when it is seen anticlockwise
+    double area;                   ///< twice the area; positive if it appears anticlockwise
 
     explicit CanvasTriangle(const std::array<Vec3, 3>& corners) : p(corners), area(twice_area(p)) {
         for (std::size_t i = 0; i < 3; ++i) edges[i] = EdgeLine(p[(i + 1) % 3], p[(i + 2) % 3]);
     }
     bool drawn() const { return area != 0 && is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]); }
-    /// The weights of the corners at a place of the canvas' plane; they sum to one.
+    /// The weights of the corners at a canvas position; they sum to one.
     Vec3 weights(double x, double y) const {
         const double b = edges[1].of(x, y) / area, c = edges[2].of(x, y) / area;
         return {1 - b - c, b, c};
     }
-    /// The distance to the nearest of the edges that are marked, in samples.
+    /// The distance to the nearest marked edge, in samples.
     double nearest_edge(double x, double y, const std::array<bool, 3>& marked) const {
         double nearest = HUGE_VAL;
         for (std::size_t i = 0; i < 3; ++i)
@@ -180,11 +180,11 @@ struct CanvasTriangle {
     }
 };
 
-/// The samples of a row of the box that may lie between the lines of the triangle's edges: those there, and
-/// one more on either side, where the test of each sample decides. py: the row's.
+/// The range of samples in a row that may lie in the triangle, with a margin of one sample on either side.
+/// The caller tests each sample. py: the row's y.
 [[nodiscard]] inline std::pair<int, int> row_between(const CanvasTriangle& t, double py,
                                                      const SampleBox& box) {
-    constexpr double far = 0x1p40; // beyond, rounding might be a sample
+    constexpr double far = 0x1p40; // beyond this, rounding may exceed a sample
     double low = box.left, high = box.right;
     for (const EdgeLine& e : t.edges) {
         const double inside = t.area > 0 ? e.sign * e.dy : -e.sign * e.dy; // above 0: to the right
@@ -205,9 +205,9 @@ struct CanvasTriangle {
 template <class Visit>
 void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, Visit&& visit) {
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;
-    const double nearest = nearest_depth(t.p); // on a sliver, rounding would put samples before it
+    const double nearest = nearest_depth(t.p); // on a sliver, rounding would put samples in front of it
     const EdgeLine &e = t.edges[0], &f = t.edges[1], &g = t.edges[2];
-    const bool wide = box.right - box.left > 16; // of slivers hardly a sample of the box is inside
+    const bool wide = box.right - box.left > 16; // in a sliver's box, hardly any samples are inside
     for (int y = box.top; y <= box.bottom; ++y) {
         const double py = y + 0.5, ey = e.dx * (py - e.y), fy = f.dx * (py - f.y), gy = g.dx * (py - g.y);
         const auto [left, right] = wide ? row_between(t, py, box) : std::pair(box.left, box.right);

@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// The value that a hundredth times `percent` of the others are below, between neighbours (nearest rank).
+/// The percentile by nearest rank.
 double percentile_of(std::vector<double>& values, std::size_t percent) {
     const std::size_t rank = (values.size() - 1) * percent / 100;
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -33,7 +33,7 @@ std::vector<double> finite_values(const Scene& scene, const std::string& attribu
     return values;
 }
 
-/// The visible identifiers; empty if there are more than a legend has room for.
+/// The visible identifiers; empty if a legend has no room for them.
 std::vector<std::uint64_t> few_identifiers(const Scene& scene, const std::string& attribute,
                                            const std::function<bool(const Part&)>& shows) {
     constexpr std::size_t most = 24;
@@ -50,14 +50,14 @@ std::vector<std::uint64_t> few_identifiers(const Scene& scene, const std::string
     return {all.begin(), all.end()};
 }
 
-/// Narrows the range to percentiles where they are wanted, or where outliers take up most of it.
+/// Narrows the range to percentiles if requested, or if outliers take up most of it.
 void leave_outliers_out(std::vector<double>& values, ColourRange::Kind wanted, ValueRange& range) {
     using Kind = ColourRange::Kind;
     if (wanted != Kind::automatic && wanted != Kind::percentile) return;
-    if (range.diverging) // of both sides alike
+    if (range.diverging) // absolute values, because the range is symmetric
         for (double& x : values) x = std::abs(x);
     const double high = percentile_of(values, 99), low = range.diverging ? -high : percentile_of(values, 1);
-    // Halves, because the span of all doubles is none.
+    // Halves, because the span of all doubles overflows.
     const bool outliers = high / 2 - low / 2 < (range.high / 2 - range.low / 2) / 2;
     if (!(low < high) || (wanted != Kind::percentile && !outliers)) return;
     range.low = low;

@@ -7,7 +7,7 @@
 
 namespace facetmill {
 
-/// Which numbers get the first and the last colour; those beyond get the same as these.
+/// The numbers for the first and the last colour. Numbers beyond the range get these colours too.
 struct ColourRange {
     enum class Kind {
         automatic,  ///< all, or the percentiles if these cover less than half of the span
@@ -24,22 +24,24 @@ struct ColourRange {
 };
 
 struct ValueRange {
-    bool known = false;                       ///< there are numbers at all
-    double low = 0, high = 0;                 ///< the first and the last colour
-    double min = 0, max = 0;                  ///< of all numbers
-    bool diverging = false;                   ///< of ColourRange
-    bool percentiles = false;                 ///< low and high are the 1st and 99th percentile, or
-                                              ///< of diverging ones the 99th of the amounts
-    std::size_t missing = 0;                  ///< elements whose value is not finite
-    std::vector<std::uint64_t> identifiers{}; ///< of an attribute of such, ascending; none where many differ
-    bool beyond() const { return min < low || max > high; } ///< some numbers lie outside
+    bool known = false;       ///< whether any numbers exist
+    double low = 0, high = 0; ///< the first and the last colour
+    double min = 0, max = 0;  ///< of all numbers
+    bool diverging = false;   ///< of ColourRange
+    bool percentiles = false; ///< low and high are the 1st and 99th percentile, or
+                              ///< of diverging ones the 99th of the amounts
+    std::size_t missing = 0;  ///< elements whose value is not finite
+    std::vector<std::uint64_t>
+        identifiers{}; ///< the identifiers of such an attribute, ascending; empty if there are many
+    bool beyond() const { return min < low || max > high; } ///< whether some numbers lie outside the range
 };
 
-/// The attribute of that name that has numbers at all: of faces, else of wedges, else of vertices; or null.
+/// The attribute of that name with at least one component. Searches faces, then wedges, then vertices; null
+/// if absent.
 [[nodiscard]] const Attribute* attribute_to_show(const Mesh& mesh, const std::string& name);
 
-/// The range of the finite values of the attribute's first component over the parts that `shows` takes
-/// (empty: all), where it holds numbers, not identifiers. Each element counts once. O(n).
+/// The range of the finite values of the attribute's first component over the parts selected by `shows`
+/// (empty: all). Applies to numbers, not to identifiers. Each element counts once. O(n).
 [[nodiscard]] ValueRange value_range(const Scene& scene, const std::string& attribute,
                                      const ColourRange& wanted,
                                      const std::function<bool(const Part&)>& shows);

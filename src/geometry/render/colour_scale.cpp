@@ -22,7 +22,7 @@ Colour distinct_colour(std::uint64_t number) {
 
 Colour on_a_scale(double t) {
     if (std::isnan(t)) return missing_colour;
-    // By power of t, each for red, green and blue in sRGB.
+    // Coefficients by power of t, for red, green and blue in sRGB.
     static constexpr double c[7][3] = {{0.2777273272234177, 0.005407344544966578, 0.3340998053353061},
                                        {0.1050930431085774, 1.404613529898575, 1.384590162594685},
                                        {-0.3308618287255563, 0.214847559468213, 0.09509516302823659},
@@ -42,7 +42,7 @@ Colour on_a_scale(double t) {
 
 Colour on_a_diverging_scale(double t) {
     if (std::isnan(t)) return missing_colour;
-    // Red, green and blue in sRGB at eighths.
+    // Red, green and blue in sRGB at each eighth.
     static constexpr double c[9][3] = {{59, 76, 192},   {98, 130, 234},  {141, 176, 254},
                                        {184, 208, 249}, {221, 221, 221}, {245, 196, 173},
                                        {244, 154, 123}, {222, 96, 77},   {180, 4, 38}};
@@ -63,7 +63,7 @@ Colour on_the_scale_of(const ValueRange& range, double t) {
 double in_range(double x, const ValueRange& range) {
     if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
     if (!(range.low < range.high)) return 0.5;
-    // Halves, because the span of all doubles is none.
+    // Halves, because the span of all doubles overflows.
     return (x / 2 - range.low / 2) / (range.high / 2 - range.low / 2);
 }
 

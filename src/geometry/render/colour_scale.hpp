@@ -6,24 +6,24 @@
 
 namespace facetmill {
 
-/// Colours that are told apart; the number of an identifier chooses one.
+/// A palette of colours that are easy to distinguish; the identifier selects the colour.
 [[nodiscard]] Colour distinct_colour(std::uint64_t number);
 
 /// For missing numbers: pink, which differs from all scales and from inner sides.
 inline constexpr Colour missing_colour{0.79f, 0.10f, 0.51f};
 
-/// The map "viridis" (S. van der Walt and N. Smith, 2015), whose steps look equal, for 0 to 1, by M. Zucker's
-/// polynomials; what lies beyond has the colour of the end. missing_colour for what is not a number.
+/// The colour map "viridis" for 0 to 1, perceptually uniform (S. van der Walt and N. Smith, 2015), by M.
+/// Zucker's polynomials. Values beyond get the end colours, and NaN gets missing_colour.
 [[nodiscard]] Colour on_a_scale(double t);
 
-/// Blue over light grey, at 0.5, to red (K. Moreland, "Diverging color maps for scientific visualization",
-/// 2009), for 0 to 1; else as on_a_scale.
+/// For 0 to 1: blue over light grey, at 0.5, to red (K. Moreland, "Diverging color maps for scientific
+/// visualization", 2009). Other values as in on_a_scale.
 [[nodiscard]] Colour on_a_diverging_scale(double t);
 
-/// On the scale of the range.
+/// The colour on the scale that fits the range.
 [[nodiscard]] Colour on_the_scale_of(const ValueRange& range, double t);
 
-/// Where x lies in the range, 0 to 1 inside; 0.5 when the range is a point; no number where x is not finite.
+/// The position of x in the range, 0 to 1 inside; 0.5 if the range is a point; NaN if x is not finite.
 [[nodiscard]] double in_range(double x, const ValueRange& range);
 
 } // namespace facetmill

@@ -1,4 +1,4 @@
-// Whether something far off makes most of a scene small in its picture.
+// Detects distant outliers that make most of a scene small in its picture.
 #include "geometry/render/render.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::vector<Vec3> some_points(const Scene& scene, const PictureSettings& setting
     const auto add = [&](const Part& part, const Vec3& p) {
         if (const Vec3 world = part.transform.point(p); is_finite(world)) points.push_back(world);
     };
-    std::size_t at = 0; // through all parts, so that many small ones are not left out
+    std::size_t at = 0; // counts through all parts, so that many small parts are sampled too
     for (const Part& part : scene.parts) {
         if (settings.shows && !settings.shows(part)) continue;
         const Mesh& mesh = part.mesh;
@@ -29,7 +29,7 @@ std::vector<Vec3> some_points(const Scene& scene, const PictureSettings& setting
     return points;
 }
 
-/// Along each axis without the tenth of the points at either end.
+/// The box without the outer tenth of the points at either end of each axis.
 Box middle_box(std::vector<Vec3>& points) {
     Box box;
     Vec3 low, high;

@@ -15,7 +15,7 @@ namespace {
 
 std::uint64_t edge_key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
-/// The triangles that are drawn; null when they are the mesh as it is.
+/// The triangles to draw; null if the mesh can be drawn unchanged.
 std::shared_ptr<const Mesh> mesh_to_draw(const Mesh& mesh, ShadingNormals normals) {
     const bool smooth =
         normals == ShadingNormals::smooth && mesh.face_count() > 0 && !mesh.find("NORMAL", Domain::wedge);

@@ -1,6 +1,6 @@
 #pragma once
-// The parts of a scene prepared for a canvas: their triangles, the canvas positions of these, and the
-// attributes at a point of a triangle.
+// The parts of a scene prepared for a canvas: their triangles with canvas positions, and interpolated
+// attributes.
 
 #include "geometry/render/painter.hpp"
 #include "geometry/render/view.hpp"
@@ -16,18 +16,18 @@ class RealEdges {
     bool has(Index a, Index b) const;
 
   private:
-    std::vector<std::uint64_t> edges_; ///< sorted; empty: all are real
+    std::vector<std::uint64_t> edges_; ///< sorted; empty: all edges are real
 };
 
-/// One part, its points already on the canvas.
+/// A part with its points on the canvas.
 class PartDrawing {
   public:
-    /// first: the number of its first triangle, or vertex when it has no faces. lines: its edges are drawn.
+    /// first: the number of its first triangle; without faces, of its first vertex. lines: draw its edges.
     PartDrawing(const Part& part, const Scene& scene, const PictureSettings& settings, const View& view,
                 std::size_t number, const ValueRange& range, std::uint32_t first, bool lines);
 
     std::uint32_t first() const { return first_; }
-    /// How many triangles it has, or vertices when it has no faces.
+    /// The number of triangles; without faces, of vertices.
     std::size_t count() const { return has_faces_ ? mesh_->face_count() : points_.size(); }
     bool has_faces() const { return has_faces_; }
     const Mesh& mesh() const { return *mesh_; }
@@ -39,7 +39,7 @@ class PartDrawing {
         return {corner(face, 0), corner(face, 1), corner(face, 2)};
     }
     const Vec3& corner(Index face, Index k) const { return points_[mesh_->vertex(3 * face + k)]; }
-    /// Whether the outer side of the triangle is seen.
+    /// Whether the outer side of the triangle is visible.
     bool front(const std::array<Vec3, 3>& corners) const { return (twice_area(corners) > 0) != mirrored_; }
     /// The position on the face for a position on the canvas, correct in perspective too.
     FacePlace place(const View& view, const CanvasTriangle& t, Index face, double x, double y) const;
@@ -51,7 +51,7 @@ class PartDrawing {
     const Attribute* coordinates(Index face, int set) const;
     /// The mesh's own tangent along the canvas' axes and its sign, or none.
     std::optional<std::pair<Vec3, double>> tangent(const View& view, const FacePlace& place) const;
-    /// Which edges are drawn: that opposite to each corner.
+    /// Whether to draw the edge opposite to each corner.
     std::array<bool, 3> lines(Index face) const;
     bool has_normals() const { return normals_ != nullptr; }
     bool has_lines() const { return lines_ != nullptr; }
@@ -59,7 +59,8 @@ class PartDrawing {
   private:
     bool has(Index face, const Attribute& a) const;
 
-    std::shared_ptr<const Mesh> own_; ///< what mesh_ points to when it is not the part's
+    std::shared_ptr<const Mesh>
+        own_; ///< owns the mesh that mesh_ points to, if it differs from the part's mesh
     const Mesh* mesh_;
     bool has_faces_, mirrored_;
     std::uint32_t first_;
@@ -72,7 +73,7 @@ class PartDrawing {
     const std::vector<std::uint32_t>* primitive_of_face_ = nullptr;
 };
 
-/// All that is drawn, its triangles and single vertices numbered through.
+/// All drawn parts, with consecutive numbers for triangles and single vertices.
 class SceneDrawing {
   public:
     SceneDrawing(const Scene& scene, const PictureSettings& settings, const View& view,

@@ -5,7 +5,7 @@ namespace facetmill {
 Layers::Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
                const SceneDrawing& drawing, const Shader& shader, LastFacings& last)
     : first_(first_row), last_(last_row), width_(canvas.width / Canvas::samples) {
-    // Deep layers are dropped as soon as there are many, so that memory does not grow with the depth.
+    // Deep layers are dropped once many have accumulated, so that memory does not grow with the depth.
     constexpr std::size_t enough = bytes / sizeof(Layer);
     std::size_t limit = enough;
     for (const std::uint32_t number : numbers) {
@@ -24,7 +24,7 @@ void Layers::add(std::uint32_t number, const PartDrawing& part, const Canvas& ca
     const CanvasTriangle t = part.triangle(number - part.first());
     if (!t.drawn()) return;
     const std::size_t before = layers_.size();
-    // Samples come row by row, so a pixel's do not all follow each other.
+    // Samples come row by row, so a pixel's samples are not consecutive.
     const SampleBox box = samples_around(t.p[0], t.p[1], t.p[2], first_, last_, canvas.width);
     for_each_sample(t, part.front(t.p), box, [&](int x, int y, double z) {
         if (!(static_cast<float>(z) > canvas.depth(canvas.at(x, y)))) return;

@@ -14,7 +14,7 @@ namespace {
 using Ink = std::array<std::uint8_t, 3>;
 
 constexpr int letters_wide = 17; ///< of the legend
-constexpr int bar_letters = 3;   ///< in letters: the width of the colours and the ticks
+constexpr int bar_letters = 3;   ///< the width of the colours and the ticks, in letters
 
 int letter_scale(const PictureSettings& s) {
     return std::clamp(std::min(s.width / 500, s.height / 300), 1, 8);
@@ -53,7 +53,7 @@ std::string number_text(double x, int digits = 4) { return fmt::format("{:.{}g}"
 
 constexpr const char* missing_text = "no value";
 
-/// The lines below the scale; missing_text has its colour before it.
+/// The lines below the scale. A colour swatch precedes missing_text.
 std::vector<std::string> footnotes(const ValueRange& range) {
     std::vector<std::string> lines;
     if (range.percentiles) lines.push_back(range.diverging ? "to the 99th pct" : "1st to 99th pct");
@@ -67,7 +67,7 @@ std::vector<std::string> footnotes(const ValueRange& range) {
 
 int line_height(const PictureSettings& s) { return (letter_height + 3) * letter_scale(s); }
 
-/// The rows of pixels of the colours.
+/// The rows of pixels of the colour bar.
 struct Bar {
     int top, bottom;
 };
@@ -78,13 +78,13 @@ Bar bar_of(const PictureSettings& s, const ValueRange& range) {
             s.height - (2 + static_cast<int>(footnotes(range).size())) * line};
 }
 
-/// Whether a text of a number says it to within `error`.
+/// Whether the text gives the number to within `error`.
 bool says(const std::string& text, double x, double error) {
     const auto read = parse_real(text);
     return read && std::abs(*read - x) <= error;
 }
 
-/// The picture on the left of a wider one.
+/// The picture at the left of a wider picture.
 Picture widened(const Picture& picture, const PictureSettings& settings) {
     Picture out = picture;
     out.width = settings.width;

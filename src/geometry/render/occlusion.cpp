@@ -44,10 +44,10 @@ Places places_on(const Canvas& canvas, const View& view) {
     return places;
 }
 
-/// Steps in pixels: a spiral of looks_around places, turned in pattern x pattern ways.
+/// Offsets in pixels: a spiral of looks_around positions, in pattern x pattern rotations.
 using Spiral = std::array<std::array<int, 2>, looks_around>;
 std::array<Spiral, pattern * pattern> spirals(double radius) {
-    // How far each turn of the pattern is, such that neighbours differ much.
+    // The rotation of each pixel of the pattern, chosen so that neighbours differ much.
     static constexpr std::array<int, pattern * pattern> order{0, 8,  2, 10, 12, 4, 14, 6,
                                                               3, 11, 1, 9,  15, 7, 13, 5};
     constexpr double turns = 7; // does not divide the number of positions
@@ -69,7 +69,7 @@ float hidden_by(const std::array<float, 3>& p, const std::array<float, 3>& norma
     const std::array<float, 3> v{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
     const float vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], rr = radius * radius;
     const float above = v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2];
-    // Two samples of slack, because depths belong to samples and not to the middles of pixels.
+    // Two samples of slack, because depths belong to samples and not to pixel centres.
     const float slack = 1.0f + 0.02f * radius;
     if (above <= slack || vv >= rr) return 0;
     const float f = 1 - vv / rr;
@@ -91,11 +91,11 @@ float open_at(const Places& places, const Spiral& spiral, std::size_t pixel,
     return std::max(0.15f, 1 - strength * hidden);
 }
 
-/// Which pixels a mean is taken of, and for which.
+/// The pixels that a mean covers, and the pixels that get a mean.
 struct Smoothing {
-    int every = 1;      ///< only one in so many columns and rows
-    int reach = 2;      ///< so far to the left and above, and not quite so far to the right and below
-    bool of_all = true; ///< for all pixels; else only for the pixels of that grid
+    int every = 1;      ///< use only every n-th column and row
+    int reach = 2;      ///< the window in pixels, from -reach to reach - 1
+    bool of_all = true; ///< compute it for all pixels, otherwise only for that grid
 };
 
 /// The mean over the pixels of similar depth around each pixel; the pixel's own value if none are known.
@@ -148,7 +148,7 @@ std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, c
         if (pixel % width % every == 0 && pixel / width % every == 0) open[pixel] = open_of(pixel);
     });
     if (!coarse) return smoothed(places, open, static_cast<float>(radius), {}, open_of);
-    // The whole pattern of the pixels that looked, then between these.
+    // First average the evaluated pixels over a whole pattern, then fill the pixels between them.
     open = smoothed(places, open, static_cast<float>(radius), {.every = 2, .reach = 4, .of_all = false},
                     open_of);
     return smoothed(places, open, static_cast<float>(radius), {.every = 2}, open_of);

@@ -12,7 +12,8 @@ const Attribute* colours_of(const Mesh& mesh) {
     return nullptr;
 }
 
-/// The colour of a material without textures: as it is with a look, else on grey.
+/// The colour of a material without textures: its own base colour if it has a look, otherwise multiplied by
+/// grey.
 Texel factor_of(const Material& material, const MaterialLook* look) {
     if (look) return look->base;
     Texel colour{};
@@ -22,7 +23,7 @@ Texel factor_of(const Material& material, const MaterialLook* look) {
     return colour;
 }
 
-/// Of what has no shade, white says nothing: it is how glTF tells that there is no colour.
+/// White on unshaded elements means that glTF gives no colour.
 bool is_white(const Material& material, const MaterialLook* look) {
     for (std::size_t c = 0; c < 3; ++c)
         if ((look ? static_cast<double>(look->base[c]) : material.base_colour[c]) < 1) return false;

@@ -16,7 +16,7 @@ struct FacePlace {
     Vec3 weights{1, 0, 0};
 };
 
-/// The attribute's element at corner k of the place; none when it has none there.
+/// The attribute's element at corner k of the position; none if it has no element.
 [[nodiscard]] inline Index element_at(const Attribute& a, const Mesh& mesh, const FacePlace& place,
                                       std::size_t k) {
     if (a.domain == Domain::face) return place.face;
@@ -46,14 +46,15 @@ class Painter {
 
     /// Without textures; alpha too.
     Texel of(const FacePlace& place) const;
-    /// The textures and the rest of the face's material; null when it is not painted by its material.
+    /// The textures and other properties of the face's material; null if its material is not used.
     const MaterialLook* look(Index face) const { return primitive(face).look; }
-    /// Whether the face's material has holes or blends, so that it does not simply cover what is behind.
+    /// Whether the face's material has holes or blends, so that the face does not fully cover faces behind
+    /// it.
     bool has_holes(Index face) const { return has_alpha(face, MaterialLook::Alpha::mask); }
     bool blends(Index face) const { return has_alpha(face, MaterialLook::Alpha::blend); }
     bool any_blends() const;
-    /// The one colour of all places of the face before shading: it has no look, colours or values. None: it
-    /// has.
+    /// The uniform colour of the face before shading; null if it varies: with a look, vertex colours, values
+    /// or normals.
     const Texel* plain(Index face) const {
         const PrimitivePaint& paint = primitive(face);
         return values_ || by_normal_ || paint.coloured || paint.look ? nullptr : &paint.colour;
@@ -79,7 +80,7 @@ class Painter {
     Texel of_value(const FacePlace& place) const;
 
     const Mesh& mesh_;
-    const std::vector<std::uint32_t>* primitive_of_face_ = nullptr; ///< null: all are of the first
+    const std::vector<std::uint32_t>* primitive_of_face_ = nullptr; ///< null: all faces belong to the first
     const Attribute* colours_ = nullptr; ///< the colours of the mesh, if they are used
     const Attribute* values_ = nullptr;  ///< the attribute to show instead
     ValueRange range_;

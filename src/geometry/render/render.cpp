@@ -18,8 +18,9 @@ namespace facetmill {
 
 namespace {
 
-constexpr int band_rows = 32;                       ///< of samples, developed by one thread
-constexpr std::size_t large = std::size_t{1} << 14; ///< samples of a triangle that several threads draw
+constexpr int band_rows = 32; ///< rows of samples, shaded by a single thread
+constexpr std::size_t large = std::size_t{1}
+                              << 14; ///< triangles with more samples are drawn by several threads
 
 SampleBox samples_around(const std::array<Vec3, 3>& p, int first, int last, int width) {
     return samples_around(p[0], p[1], p[2], first, last, width);
@@ -52,7 +53,7 @@ std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, in
     return bands;
 }
 
-/// A red ring with a white rim around a place of the picture, in pixels.
+/// Draws a red ring with a white rim around a position in pixels.
 void draw_ring(Picture& picture, double x, double y) {
     const double radius = std::max(6.0, picture.width / 60.0);
     constexpr double line = 1.5, rim = 2.5;
@@ -74,7 +75,7 @@ void draw_ring(Picture& picture, double x, double y) {
         }
 }
 
-/// One picture on its way.
+/// A picture in progress.
 class PictureDrawing {
   public:
     PictureDrawing(const Scene& scene, const PictureSettings& settings, const ValueRange& range)
@@ -117,7 +118,7 @@ class PictureDrawing {
 
     using Faces = std::vector<Index>;
 
-    /// The small triangles side by side, then each of the large ones band by band.
+    /// Draws the small triangles in parallel, then each large triangle in parallel bands.
     void draw_part(const PartDrawing& part) {
         std::vector<SamplesAt> at(part.mesh().vertex_count());
         parallel_for(at.size(),
@@ -143,8 +144,8 @@ class PictureDrawing {
             1);
     }
 
-    /// Draws the small triangles among some and returns the large ones. Data of later triangles is
-    /// prefetched, because it may be anywhere in memory.
+    /// Draws the small triangles of a range and returns the large triangles. Prefetches data of later
+    /// triangles, because it may be anywhere in memory.
     Faces draw_small(const PartDrawing& part, const std::vector<SamplesAt>& at, std::size_t begin,
                      std::size_t end) {
         struct Asked {
@@ -176,8 +177,8 @@ class PictureDrawing {
         return large_ones;
     }
 
-    /// Whether other triangles already lie before all of a small one: most are found hidden before they cost
-    /// anything.
+    /// Whether nearer triangles already cover all samples of a small triangle. This test skips most
+    /// triangles cheaply.
     bool is_hidden(const std::array<Vec3, 3>& corners, const SampleBox& box) {
         constexpr std::size_t few = 16;
         if (box.size() > few) return false;
@@ -189,7 +190,7 @@ class PictureDrawing {
         return true;
     }
 
-    /// Its samples in the box, unless it blends.
+    /// Draws the triangle's samples in the box, unless it blends.
     void draw_face(const PartDrawing& part, Index face, const std::array<Vec3, 3>& corners,
                    const SampleBox& box) {
         const CanvasTriangle t(corners);
@@ -210,7 +211,7 @@ class PictureDrawing {
         }
     }
 
-    /// As dots, a sample apart, each like the nearer end.
+    /// Draws lines as dots, a sample apart.
     void draw_lines(const PartDrawing& part) {
         const Mesh& mesh = part.mesh();
         for (std::size_t l = 0; l < mesh.line_count(); ++l) {
@@ -250,14 +251,14 @@ class PictureDrawing {
     }
 
     std::vector<float> occluded() const {
-        // An eighth of the scene, as it is magnified.
+        // An eighth of the scene, scaled by the zoom.
         const double radius = std::min(canvas_.width, canvas_.height) / 8.0 * settings_.zoom;
         const double most = std::min(canvas_.width, canvas_.height) / 4.0;
         return open_sky(canvas_, drawing_, shader_, view_, std::min(radius, most),
                         settings_.coarse_occlusion);
     }
 
-    /// The rows of pixels of a band.
+    /// Shades the rows of pixels of a band.
     void develop(std::size_t band, Picture& picture) const {
         LastFacings last;
         const Layers layers(bands_[band], first_row(band), last_row(band), canvas_, drawing_, shader_, last);
@@ -286,7 +287,7 @@ class PictureDrawing {
         return sum;
     }
 
-    /// The solid surface at each sample of a pixel; one shade for each face among them.
+    /// The opaque surface at each sample of a pixel, with a single shade per face.
     std::array<Texel, Canvas::samples * Canvas::samples> solid_samples(int x, int y, float open,
                                                                        LastFacings& last) const {
         constexpr int n = Canvas::samples;
@@ -351,7 +352,7 @@ class PictureDrawing {
         return false;
     }
 
-    /// The mean of the samples that are covered, and how much is.
+    /// Stores the mean of the covered samples, with their share as alpha.
     static void store(const Texel& sum, std::uint8_t* to) {
         if (!(sum[3] > 0)) return;
         for (std::size_t c = 0; c < 3; ++c) to[c] = srgb_of(sum[c] / sum[3]);

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of a scene: each face is shaded by the angle between its normal and the light, after P. Bourke,
+// Renders a scene: each face is shaded by the angle between its normal and the light, after P. Bourke,
 // "Facets, planes, normals, rendering" (1992), with the textures of its material.
 
 #include "geometry/render/colour_range.hpp"
@@ -12,12 +12,11 @@
 
 namespace facetmill {
 
-/// The direction of view. Up is the scene's. If the scene does not define it, up is y or z: the axis along
-/// which the scene has a flat base, or else the longer one. The front is towards +z if y points up (glTF),
-/// and towards -y if z does. An open surface in a scene without a defined up axis is seen from the side that
-/// its faces look to.
+/// The direction of view. Up is the scene's up axis. If it is undefined, up is y or z: the axis with a flat
+/// base, otherwise the longer axis. The front is towards +z if y points up (glTF), and towards -y if z does.
+/// An open surface in a scene without an up axis is seen from the side of its normals.
 enum class Viewpoint {
-    corner, ///< from the front, somewhat from above and from the right
+    corner, ///< from the front, slightly from above and from the right
     front,
     back,
     left,
@@ -27,16 +26,16 @@ enum class Viewpoint {
 };
 
 enum class Shading {
-    sides,     ///< both sides are lit; the inner one is orange unless the material is double-sided, so that
-               ///< holes and turned faces are seen
-    one_sided, ///< max(0, n . l) with the normal of the face's own order: turned faces are dark
-    absolute,  ///< |n . l|: the back is shaded as the front is
+    sides,     ///< both sides are lit; the inner side is orange unless the material is double-sided, so that
+               ///< holes and reversed faces are visible
+    one_sided, ///< max(0, n . l) with the normal by the corner order: reversed faces are dark
+    absolute,  ///< |n . l|: both sides are shaded alike
 };
 
 enum class ShadingNormals {
-    automatic, ///< the mesh's own where it has some, else the faces'
-    flat,      ///< one for each face
-    smooth,    ///< the mesh's own, else new ones that change at feature edges of 40 degrees only
+    automatic, ///< the mesh's own normals if present, otherwise face normals
+    flat,      ///< a normal per face
+    smooth,    ///< the mesh's own normals if present, otherwise smooth normals with edges at 40 degrees
 };
 
 /// The source of the colours of faces.
@@ -59,17 +58,18 @@ struct PictureSettings {
     int width = 480, height = 360; ///< pixels, 1 to 8192
     Viewpoint viewpoint = Viewpoint::corner;
     std::optional<Vec3> from; ///< the direction towards the viewer, in world space, instead of viewpoint
-    double turn = 0;          ///< radians that the viewer goes around the up axis, anticlockwise from above
+    double turn = 0;          ///< radians that the viewer moves around the up axis, anticlockwise from above
     std::optional<Camera> camera; ///< of another scene, with the same direction; without perspective only
     double perspective = 0;       ///< the angle of view over the scene, radians, below pi; 0: parallel
     double zoom = 1;              ///< at least 1; the middle of the picture is magnified
-    double max_scale = HUGE_VAL;  ///< pixels per unit before zoom, for pictures of one scale
-    std::optional<Vec3> at;       ///< the point in the middle, in world space, if zoom is not 1
+    double max_scale = HUGE_VAL;  ///< pixels per unit before zoom, for pictures with a common scale
+    std::optional<Vec3> at;       ///< the world point at the centre, if zoom is not 1
     Shading shading = Shading::sides;
     ShadingNormals normals = ShadingNormals::automatic;
-    bool occlusion = true;         ///< corners and folds are darker
-    bool coarse_occlusion = false; ///< seen from every second pixel of every second row: a third of the time
-    bool silhouettes = false;      ///< lines where the depth jumps
+    bool occlusion = true; ///< corners and folds are darker
+    bool coarse_occlusion =
+        false;                ///< computed at every second pixel of every second row: a third of the time
+    bool silhouettes = false; ///< lines where the depth jumps
     Paint paint = Paint::material;
     std::string attribute; ///< instead of paint, where a mesh has it: its first component, identifiers
                            ///< (Role::index) in colours of their own, numbers on a scale
@@ -80,20 +80,20 @@ struct PictureSettings {
     std::size_t few = 6000;
     double point = 1; ///< pixels, a side of the square of a vertex without faces, the width of lines
     std::optional<std::array<float, 3>> ground{}; ///< linear background; none: transparent
-    std::function<bool(const Part&)> shows{};     ///< which parts; empty: all
-    std::vector<Vec3> marks{}; ///< places in world space with rings around them, over all else
+    std::function<bool(const Part&)> shows{};     ///< selects parts; empty: all
+    std::vector<Vec3> marks{};                    ///< world positions to mark with rings, drawn on top
     std::shared_ptr<const ResolvedMaterials>
         materials{}; ///< with textures; none: Material::base_colour alone
 };
 
-/// Rows from the top, four bytes a pixel: red, green, blue (sRGB), alpha (0 where nothing is).
+/// Rows from the top, four bytes a pixel: red, green, blue (sRGB), alpha (0 for empty pixels).
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
-    double scale = 0;           ///< pixels per unit of the scene, in the middle; 0 when it has no extent
-    std::size_t faces = 0;      ///< drawn, that is of parts that it shows
-    ValueRange range{};         ///< of the numbers that the attribute has
-    bool has_attribute = false; ///< some part has it
+    double scale = 0;           ///< pixels per scene unit at the centre; 0 for a scene without extent
+    std::size_t faces = 0;      ///< faces drawn, in the visible parts
+    ValueRange range{};         ///< of the attribute's numbers
+    bool has_attribute = false; ///< whether some part has the attribute
 };
 
 /// The scene in world space, fitted into 92 % of the picture.
@@ -110,29 +110,29 @@ struct Picture {
 /// if memory is short.
 [[nodiscard]] Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// The camera of picture_of, which sees all of the scene; empty where the scene is. With settings.camera: in
+/// The camera of picture_of, which shows the whole scene; empty for an empty scene. With settings.camera: in
 /// its direction. O(vertices).
 [[nodiscard]] Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// Picture::scale without the picture, before zoom: beside the legend, where there is one.
+/// Picture::scale without rendering, before zoom. Accounts for the legend.
 [[nodiscard]] double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
 /// The position of most of a scene that is hardly visible because a few elements are far off.
 struct Crowd {
     Vec3 middle;       ///< in world space
-    double pixels = 0; ///< how large it is in the picture
+    double pixels = 0; ///< the size of most of the scene in the picture
     double zoom = 1;   ///< the zoom that would show it around the middle
 };
 
 /// "most of the scene is 3 pixels wide in the picture, because something lies far off"
 [[nodiscard]] std::string crowd_in_words(const Crowd& crowd);
 
-/// The box around the vertices of faces without the tenth at either end of each axis, where in the picture,
-/// before zoom, it is less than a hundredth of the longer side; else none. Of many vertices every n-th is
-/// looked at. O(n).
+/// The box around the drawn vertices, without the outer tenth at either end of each axis. None unless it
+/// covers less than a hundredth of the picture's longer side before zoom. Samples every n-th vertex if there
+/// are many. O(n).
 [[nodiscard]] std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings);
 
-/// Pictures of one size in rows of so many columns; what is left of the last row is transparent.
+/// Arranges pictures of the same size in this many columns. Unused cells of the last row are transparent.
 [[nodiscard]] Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns);
 
 } // namespace facetmill

@@ -12,7 +12,7 @@ constexpr double ambient = 0.16, direct = 0.84;
 Texel opaque(const Colour& c) { return {c[0], c[1], c[2], 1}; }
 
 std::pair<double, double> coordinates_at(const Attribute& uv, const FacePlace& place) {
-    double u = 0, v = 0; // in doubles: far from zero floats are too coarse for differences
+    double u = 0, v = 0; // doubles, because floats are too coarse for differences far from zero
     for (std::size_t k = 0; k < 3; ++k) {
         u += place.weights[k] * uv.value(place.wedges[k], 0);
         v += place.weights[k] * uv.value(place.wedges[k], 1);
@@ -22,7 +22,7 @@ std::pair<double, double> coordinates_at(const Attribute& uv, const FacePlace& p
 
 } // namespace
 
-/// The steps to the neighbouring pixels are needed for footprints of textures.
+/// The derivatives between neighbouring pixels give the footprint of textures.
 struct Shader::Spot {
     const PartDrawing& part;
     const CanvasTriangle& t;
@@ -90,7 +90,7 @@ std::optional<std::pair<Vec3, Vec3>> Shader::tangents(const Spot& spot, const Ve
                      normalised(against_v - normal * dot(normal, against_v)));
 }
 
-/// The normal as the normal texture bends it.
+/// The normal, perturbed by the normal map.
 Vec3 Shader::bumped(const Spot& spot, const Vec3& normal) const {
     const auto axes = tangents(spot, normal);
     if (!axes) return normal;
@@ -109,9 +109,9 @@ const LastFacings::Facing& Shader::facing(std::uint32_t number, const PartDrawin
     return facing = {number, part.front(corners), facing_normal(corners)};
 }
 
-/// The normal of the side that is seen. facing: facing_normal.
+/// The normal of the visible side. facing: facing_normal.
 Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
-    Vec3 outer = facing; // towards the viewer: the outer one of a front
+    Vec3 outer = facing; // towards the viewer: the outer normal of a front face
     if (const auto own = spot.part.normal(view_, spot.at))
         outer = *own;
     else if (!spot.front)
@@ -120,8 +120,8 @@ Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
     return spot.front ? outer : -outer;
 }
 
-/// The cosine between the normal and the light, or 0 where it comes from behind. right_side: the side that is
-/// seen is one that materials show.
+/// The cosine between the normal and the light, or 0 for light from behind. right_side: the visible side is
+/// a side that materials show.
 double Shader::in_light(const Vec3& normal, bool right_side) const {
     static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
     double amount = dot(normal, light);
@@ -138,7 +138,8 @@ double Shader::lit(const Spot& spot, const Vec3& normal) const {
     return around + direct * in_light(normal, spot.front || spot.double_sided);
 }
 
-/// x y z of the face's own normal in the world, from 0 to 1, such that it is stored as it is.
+/// x y z of the face's own normal in the world, mapped to 0 to 1. The result is linear, so that the stored
+/// sRGB bytes are exact.
 Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     const Vec3 n = spot.front ? facing : -facing;
     const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
@@ -148,8 +149,7 @@ Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     return colour;
 }
 
-/// The same as colour, for a face without textures, colours or normals of its own, which has one colour
-/// everywhere.
+/// The same as colour, for a face with a single colour: without textures, vertex colours or vertex normals.
 Texel Shader::plain(const Texel& paint, const LastFacings::Facing& facing, bool double_sided,
                     float open) const {
     const bool right_side = facing.front || double_sided;

@@ -5,16 +5,16 @@
 
 namespace facetmill {
 
-/// Which way the triangles look that were asked for last, since neighbouring pixels see the same ones. Each
-/// thread has its own.
+/// Caches the normals of recently shaded triangles, because neighbouring pixels often show the same
+/// triangle. Each thread has its own cache.
 class LastFacings {
   public:
     struct Facing {
         std::uint32_t number = none; ///< of the triangle
-        bool front = false;          ///< its outer side is seen
+        bool front = false;          ///< whether its outer side is visible
         Vec3 normal;                 ///< Shader::facing_normal
     };
-    /// The place of that triangle, which may hold another.
+    /// The cache slot for that triangle, which may hold another.
     Facing& at(std::uint32_t number) { return all_[number % all_.size()]; }
 
   private:
@@ -31,14 +31,14 @@ class Shader {
     /// y) of the canvas. open: the visible share of the sky, 0 to 1. last: a cache for this drawing alone.
     Texel colour(std::uint32_t number, double x, double y, float open, LastFacings& last) const;
 
-    /// Whether a material with holes has none at (x, y).
+    /// Whether a material with holes is solid at (x, y).
     bool is_solid(const PartDrawing& part, const CanvasTriangle& t, Index face, double x, double y) const;
 
     /// The unit normal of the triangle towards the viewer, along the canvas' axes.
     Vec3 facing_normal(const std::array<Vec3, 3>& corners) const;
 
   private:
-    struct Spot; // a point and its values that are needed repeatedly
+    struct Spot; // a surface point with values that are needed repeatedly
 
     Texel base_colour(const Spot& spot, bool inside) const;
     Texel textured(const Spot& spot, const Texture& texture) const;

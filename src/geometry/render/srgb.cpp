@@ -16,8 +16,8 @@ double decoded_srgb(double x) {
 struct SrgbTables {
     static constexpr std::size_t cells = 4096;
     std::array<float, 256> linear{};
-    std::array<float, 255> upper{};          ///< linear light from where on the next byte is nearer
-    std::array<std::uint8_t, cells> first{}; ///< the byte of a cell's lower end
+    std::array<float, 255> upper{};          ///< the linear light above which the next byte is nearer
+    std::array<std::uint8_t, cells> first{}; ///< the byte at a cell's lower end
 
     SrgbTables() {
         for (std::size_t i = 0; i < 256; ++i)

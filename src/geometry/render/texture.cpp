@@ -12,10 +12,10 @@ namespace {
 
 using Level = TextureImage::Level;
 
-/// The pixels that pixel i of `small` covers of `large`, and with which weights: (first, count).
+/// The pixels of `large` that pixel i of `small` covers, with their weights: (first, count).
 struct Cover {
     std::size_t first = 0, count = 0;
-    std::array<float, 3> weights{}; ///< a level is halved at least, so that three cover all
+    std::array<float, 3> weights{}; ///< a level is at most half as large, so three cover all
 };
 
 Cover covered_by(int i, int small, int large) {
@@ -118,7 +118,7 @@ std::shared_ptr<const TextureImage> texture_image(int width, int height, std::ve
 
 namespace {
 
-/// One place of one level, u and v after the transform.
+/// Samples a level at (u, v) after the transform.
 void add_bilinear(const Texture& t, const Level& level, double u, double v, float weight, bool nearest,
                   Texel& sum) {
     const double x = u * level.width - (nearest ? 0 : 0.5), y = v * level.height - (nearest ? 0 : 0.5);
@@ -158,7 +158,7 @@ Axes footprint_axes(const Texture& t, const TextureFootprint& f) {
     return right >= down ? Axes{ux, vx, right, down} : Axes{uy, vy, down, right};
 }
 
-/// log2 of x >= 1, with a straight line between powers of two, which is enough to mix levels by.
+/// log2 of x >= 1, linear between powers of two, which is accurate enough to mix levels.
 double mip_level(double x) {
     int exponent = 0;
     const double mantissa = std::frexp(x, &exponent); // 0.5 to 1

@@ -1,7 +1,7 @@
 #pragma once
-// Textures and materials as a picture needs them: images with their mip levels, samplers, and what a material
-// does with them, after the specification of glTF 2.0 (Khronos, 2021) and KHR_texture_transform. Who reads
-// files makes them (io/gltf/contents/resolved_materials.hpp).
+// Textures and materials for rendering: images with mip levels, samplers and materials, as in glTF 2.0
+// (Khronos, 2021) and KHR_texture_transform. File readers create them
+// (io/gltf/contents/resolved_materials.hpp).
 
 #include <array>
 #include <cstdint>
@@ -10,25 +10,25 @@
 
 namespace facetmill {
 
-/// An image with its mip levels, each half as large as the one before, down to one pixel.
+/// An image with its mip levels, each half as large as the previous, down to one pixel.
 struct TextureImage {
     struct Level {
         int width = 0, height = 0;
         std::vector<std::uint8_t> rgba; ///< row by row from the top, stored as the file has them
     };
     std::vector<Level> levels; ///< at least one
-    bool srgb = false;         ///< red, green and blue are in sRGB; else the numbers themselves
+    bool srgb = false;         ///< red, green and blue are in sRGB; otherwise plain numbers
 
     std::size_t bytes() const;
 };
 
-/// The image and its levels: each pixel is the mean over the area that it covers, in linear light, its
-/// colours weighted by alpha. Levels larger than max_side are not kept. rgba: 4 * width * height bytes, both
+/// The image and its levels. Each pixel is the mean over the area that it covers, in linear light, with
+/// colours weighted by alpha. Levels larger than max_side are dropped. rgba: 4 * width * height bytes, both
 /// at least 1.
 [[nodiscard]] std::shared_ptr<const TextureImage>
 texture_image(int width, int height, std::vector<std::uint8_t> rgba, bool srgb, int max_side);
 
-/// TextureImage::bytes() of such an image, before there is one.
+/// The future TextureImage::bytes() of such an image.
 [[nodiscard]] std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side);
 
 enum class TextureWrap { repeat, clamp, mirror };
@@ -36,22 +36,22 @@ enum class TextureWrap { repeat, clamp, mirror };
 /// Red, green, blue and alpha; colours linear.
 using Texel = std::array<float, 4>;
 
-/// For lines and single points without a colour of their own. It is as far from white as from black, so that
-/// it is visible on any ground. (Its contrast is 4.2 to 1; graphics need 3 to 1: W3C, "Web Content
+/// For lines and single points without a colour. It contrasts equally with white and black, so that it is
+/// visible on any background. (Its contrast is 4.2 to 1; graphics need 3 to 1: W3C, "Web Content
 /// Accessibility Guidelines 2.1", 2018.)
 inline constexpr Texel loose_colour{0.16f, 0.20f, 0.28f, 1};
 
-/// How far the coordinates move from one pixel of the picture to the next, right and down.
+/// The steps of the coordinates to the next pixel of the picture, right and down.
 struct TextureFootprint {
     double du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
 };
 
-/// An image and how it is laid on.
+/// An image and its sampling.
 struct Texture {
-    std::shared_ptr<const TextureImage> image; ///< none: there is no texture
+    std::shared_ptr<const TextureImage> image; ///< none: no texture
     int set = 0;                               ///< n of TEXCOORD_n
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    bool nearest = false; ///< magnified without mixing neighbours
+    bool nearest = false; ///< nearest-neighbour magnification
     /// u' = m[0] u + m[1] v + m[2], v' = m[3] u + m[4] v + m[5] (KHR_texture_transform)
     std::array<double, 6> transform{1, 0, 0, 0, 1, 0};
 
@@ -62,8 +62,8 @@ struct Texture {
     Texel sampled(double u, double v, const TextureFootprint& footprint) const;
 };
 
-/// What a material says of its colour. Metalness and roughness are not looked at: there is nothing around the
-/// scene that could be mirrored.
+/// The colour properties of a material. Ignores metalness and roughness, because the scene has no
+/// environment to reflect.
 struct MaterialLook {
     enum class Alpha { opaque, mask, blend };
 

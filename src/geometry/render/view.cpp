@@ -79,7 +79,7 @@ Vec3 area_vector(const Part& part, Index face) {
 
 /// Measurements that determine the up and front axes of a scene.
 struct Stance {
-    double y_base = 0, z_base = 0; ///< area at the lower end of y and z that looks straight down
+    double y_base = 0, z_base = 0; ///< the area of faces at the lower end of y or z that face straight down
     Vec3 net;                      ///< the sum of the area vectors: zero for closed surfaces
     double area = 0;
 };
@@ -108,7 +108,7 @@ void add_face(const Part& part, Index face, const Box& box, Stance& stance) {
     if (-vector.z > straight * area && p.z - box.min.z < thin * size.z) stance.z_base += area;
 }
 
-/// In a part with many faces only one in so many is measured, because only shares of the surface matter.
+/// Parts with more faces measure every n-th face, because only shares of the surface matter.
 constexpr std::size_t many_faces = 200000;
 
 Stance stance_of(const Scene& scene, const PictureSettings& settings, const Box& box) {
@@ -141,8 +141,8 @@ UpAndFront up_and_front(const Scene& scene, const PictureSettings& settings, Dra
     const Box box = seen_box(scene, {}, drawn, [](const Vec3& p) { return p; });
     const Vec3 extent = box.extent();
     const Stance stance = stance_of(scene, settings, box);
-    // A base is one when it is three hundredths of the surface and the other direction has none half as
-    // large.
+    // A base counts if it covers 3 % of the surface and more than twice the area of the other direction's
+    // base.
     const bool stands_on_y = stance.y_base > 0.03 * stance.area && stance.y_base > 2 * stance.z_base;
     const bool stands_on_z = stance.z_base > 0.03 * stance.area && stance.z_base > 2 * stance.y_base;
     // If the scene is longest along x, like a vehicle, its other sides give no hint: y is up in most such
@@ -218,13 +218,13 @@ void zoom_in(View& view, const PictureSettings& settings, int width, int height)
     view.z *= settings.zoom;
 }
 
-/// Puts the viewer where the scene's ball just fits into the angle of view.
+/// Moves the viewer back until the scene's bounding ball fits into the angle of view.
 void stand_back(View& view, double angle, const Box& box) {
     const Vec3 middle = box.centre();
     const double radius = box.diagonal() / 2;
     view.eye = middle;
     view.eye->z += radius > 0 ? radius / sine(angle / 2) : 1;
-    view.distance = view.eye->z - middle.z; // in samples once there is a scale
+    view.distance = view.eye->z - middle.z; // in samples once the scale is known
 }
 
 } // namespace
@@ -232,7 +232,7 @@ void stand_back(View& view, double angle, const Box& box) {
 Vec3 View::of(const Vec3& p) const {
     const double a = dot(p, right), b = dot(p, up), c = dot(p, towards);
     if (!eye) return {a * scale + x, -b * scale + y, c * scale + z};
-    const double near = distance / (eye->z - c); // samples a unit at this depth
+    const double near = distance / (eye->z - c); // samples per unit at this depth
     return {(a - eye->x) * near + x, (eye->y - b) * near + y, distance * (near / scale - 1)};
 }
 

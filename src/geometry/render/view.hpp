@@ -1,35 +1,35 @@
 #pragma once
-// How a picture looks at the world.
+// The projection of the world to a picture.
 
 #include "geometry/render/render.hpp"
 
 namespace facetmill {
 
-/// World to samples: x right, y down, z towards the viewer, 0 in the middle of the visible scene. In
+/// Maps world to samples: x right, y down, z towards the viewer, 0 at the centre of the visible scene. In
 /// perspective, z grows with the inverse of the distance, so that planes stay planes.
 struct View {
     Vec3 right, up, towards;
     bool has_extent = false; ///< else the visible scene is a point or empty, and the scale is arbitrary
-    double scale = 0, x = 0, y = 0, z = 0; ///< the scene's middle goes to the canvas' middle
+    double scale = 0, x = 0, y = 0, z = 0; ///< maps the scene's centre to the canvas' centre
     /// In perspective: the viewer's position along the axes in world units, the distance to the scene's
-    /// middle in samples, and where the ray straight ahead meets the canvas.
+    /// centre in samples, and the canvas point straight ahead.
     std::optional<Vec3> eye;
     double distance = 0, ahead_x = 0, ahead_y = 0;
 
     Vec3 of(const Vec3& p) const;
     /// The position of a canvas point before perspective: x right, y down, z towards the viewer, in samples
-    /// at the depth of the scene's middle. In parallel projection it is the point itself.
+    /// at the depth of the scene's centre. In parallel projection it is the point itself.
     Vec3 place(const Vec3& seen) const;
-    /// The inverse of the distance from the viewer, up to a factor: what weights are multiplied with between
-    /// points of the canvas.
+    /// The inverse of the distance from the viewer, up to a factor. Interpolation weights are multiplied
+    /// with it.
     double nearness(double depth) const { return eye ? depth + distance : 1; }
     /// A direction in the world along the canvas' axes.
     Vec3 direction(const Vec3& d) const { return {dot(d, right), -dot(d, up), dot(d, towards)}; }
-    /// From a place to the viewer, unit.
+    /// The unit vector from a position to the viewer.
     Vec3 to_viewer(const Vec3& place) const;
 };
 
-/// Of a canvas of so many samples.
+/// The view for a canvas of that many samples.
 [[nodiscard]] View view_of(const Scene& scene, const PictureSettings& settings, int width, int height);
 
 } // namespace facetmill

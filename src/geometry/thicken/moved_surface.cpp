@@ -15,7 +15,7 @@ namespace facetmill {
 
 namespace {
 
-/// What is left of a face at most when it is nothing but the rounding of its corners: a share of its area.
+/// The largest share of a face's area that can result from rounding its corners.
 constexpr double rounding = 0x1p-40;
 
 /// The triangle's map: its determinant and trace, times twice the triangle's area squared.
@@ -28,7 +28,7 @@ bool is_turned(const Vec3& u, const Vec3& v, const Vec3& moved_u, const Vec3& mo
     return determinant <= rounding * whole || trace <= rounding * whole;
 }
 
-/// A cube, and how far its points can be from the surface at most.
+/// A cube of the search, and an upper bound for the distance of its points to the surface.
 struct Cell {
     Vec3 middle;
     double half = 0, reach = 0;
@@ -58,7 +58,7 @@ class RoomSearch {
     }
 
   private:
-    static constexpr int max_cells = 12'500; // eight are looked at each
+    static constexpr int max_cells = 12'500; // each is divided into eight
 
     /// True when the middle of the cell has room; queues the cell if another point may have.
     bool look_at(Cell cell) {
@@ -80,7 +80,6 @@ class RoomSearch {
     std::priority_queue<Cell> cells_;
 };
 
-/// The component with its faces reversed.
 void reverse_faces(Mesh& mesh) {
     for (Index f = 0; f < mesh.face_count(); ++f)
         std::reverse(mesh.corners.begin() + mesh.face_begin(f), mesh.corners.begin() + mesh.face_end(f));
@@ -110,7 +109,7 @@ Room room_inside(const Mesh& component, double depth) {
 
 std::vector<std::uint8_t> vanished_components(const Mesh& mesh, const std::vector<std::uint8_t>& turned,
                                               double distance) {
-    if (std::find(turned.begin(), turned.end(), 1) == turned.end()) // as mostly
+    if (std::find(turned.begin(), turned.end(), 1) == turned.end()) // the usual case
         return std::vector<std::uint8_t>(mesh.face_count(), 0);
     const Components components = face_components(mesh, false);
     std::vector<Index> label(components.count, none), labels(mesh.face_count());
@@ -120,12 +119,14 @@ std::vector<std::uint8_t> vanished_components(const Mesh& mesh, const std::vecto
     std::vector<std::uint8_t> vanished(mesh.face_count(), 0);
     if (count == 0) return vanished;
     for (Index f = 0; f < mesh.face_count(); ++f)
-        labels[f] = std::min(label[components.of_face[f]], count); // the last: all that are not turned
+        labels[f] =
+            std::min(label[components.of_face[f]], count); // the last label collects all unturned components
     auto meshes = separated(bare(mesh), labels, std::size_t{count} + 1);
     std::vector<std::uint8_t> gone(meshes.size(), 0);
     meshes.pop_back();
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        if (distance > 0) reverse_faces(meshes[i]); // what lies before the surface is what becomes smaller
+        if (distance > 0)
+            reverse_faces(meshes[i]); // a move outward shrinks the space in front of the surface
         const auto solid = measure_mass(meshes[i]).solid;
         gone[i] = solid && solid->volume > 0 && room_inside(meshes[i], std::abs(distance)) == Room::none;
     }

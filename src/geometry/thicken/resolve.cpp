@@ -19,7 +19,7 @@ namespace {
 
 constexpr int most_halvings = 4;
 
-/// A side of the wall while it is made: a mesh that came of others, and what became of their attributes.
+/// An intermediate side of the wall: a mesh and its attribute changes so far.
 struct Side {
     Mesh mesh;
     AttributeChanges changes;
@@ -31,7 +31,8 @@ std::optional<CombineResult> combined(std::vector<Mesh> meshes, CombineOperation
     return r;
 }
 
-/// Leaves out what folds left in pieces, solid or hollow, of less than a cube of that side (in world).
+/// Removes small pieces that remain of folds: solids or cavities with less volume than a cube of that side
+/// (in world).
 void drop_small_pieces(Mesh& mesh, const Transform& to_world, double side) {
     const Components pieces = face_components(mesh, false);
     const std::vector<double> six = six_volumes(mesh, pieces);
@@ -67,7 +68,7 @@ class Resolver {
     }
 
   private:
-    /// The surface moved by a distance, without the faces that are not there.
+    /// The surface moved by a distance, without the absent faces.
     Mesh moved(double distance, const std::vector<std::uint8_t>& absent) const {
         Mesh mesh = moves_.surface;
         parallel_for(mesh.positions.size(),
@@ -97,7 +98,7 @@ class Resolver {
         return true;
     }
 
-    /// Whether faces of the mesh, of which none meet each other, meet the surface that was there.
+    /// Whether faces of the mesh meet the original surface. The mesh has no intersecting faces itself.
     bool meets_surface(const Mesh& mesh) const {
         Mesh both = bare(mesh);
         append(both, bare(moves_.surface));

@@ -1,5 +1,5 @@
 #pragma once
-// The solid between a closed surface and its moved copies, where these fold over: without the folds.
+// Removes folds from the solid between a closed surface and its moved copies.
 
 #include "geometry/thicken/thicken.hpp"
 
@@ -8,13 +8,14 @@
 
 namespace facetmill {
 
-/// What moves, and how far.
+/// The surface and its moves.
 struct ThickenMoves {
     const Mesh& surface;                ///< closed, consistently oriented
     const std::vector<Vec3>& of_vertex; ///< for a distance of 1 in world
-    double out = 0, in = 0;             ///< of the front outward, of the back inward, in world; 0: it stays
-    std::vector<std::uint8_t> no_front = {},
-                              no_back = {}; ///< [faces] 1: that side is not there (the other fills it)
+    double out = 0, in = 0;             ///< the front moves outward, the back inward, in world; 0: no move
+    std::vector<std::uint8_t>
+        no_front = {},
+        no_back = {}; ///< [faces] 1: the face is absent on that side, which the other side fills
 };
 
 struct ResolvedSolid {
@@ -24,17 +25,17 @@ struct ResolvedSolid {
     bool failed = false; ///< the rest is empty
 };
 
-/// What is inside of the front and not inside of the back, where a moved copy of the surface counts for what
-/// it winds around at least once: a fold winds around what it covers backward, or twice. Where the copy
-/// passes through the surface itself, which would take walls away, it stands together with copies half as
-/// far, a quarter, up to a sixteenth: the back for what is inside of each, the front for what is inside of
-/// any. So the wall is thinner there, and not gone. Pieces of a side that enclose less than a cube of the
-/// thickness (in world) are left out. Boolean operations as in geometry/boolean/combine.hpp: the same for any
-/// number of threads.
+/// The inside of the front minus the inside of the back. A point is inside a moved copy if the copy winds
+/// around it at least once. A fold winds around the covered region backward, or twice. A copy that passes
+/// through the surface itself would remove walls. It is then combined with copies at 1/2, 1/4, down to 1/16
+/// of the distance. The back becomes the intersection of these copies, and the front their union. The wall
+/// is thinner at these points but complete. Pieces of a side that enclose less than a cube of the thickness
+/// (in world) are removed. Uses the Boolean operations of geometry/boolean/combine.hpp. The result does not
+/// depend on the number of threads.
 [[nodiscard]] ResolvedSolid resolved_solid(const ThickenMoves& moves, const Transform& to_world);
 
-/// A solid of that thickness that passes through itself as what it winds around at least once, without small
-/// pieces.
+/// Resolves a solid of that thickness that passes through itself: keeps all points with a winding number of
+/// at least 1. Removes small pieces.
 [[nodiscard]] ResolvedSolid united_solid(const Mesh& solid, const Transform& to_world, double thickness);
 
 } // namespace facetmill

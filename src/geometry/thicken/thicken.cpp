@@ -28,17 +28,17 @@ namespace facetmill {
 
 namespace {
 
-// A surface and its back: what thicken and two-sided have in common.
+// Shared by thicken and two-sided: a surface and its back.
 
-/// The surface and its back, face by face: face f's back is face f + face_count, wedge w's is w +
+/// The surface and its back. The back of face f is face f + face_count, and the back of wedge w is w +
 /// wedge_count.
 struct Doubled {
-    Mesh mesh;                 ///< with wedge_vertex spelled out, without attributes
-    MeshProvenance provenance; ///< complete but for what is added later
+    Mesh mesh;                 ///< with explicit wedge_vertex, without attributes
+    MeshProvenance provenance; ///< complete for these faces; callers extend it
 };
 
-/// back_vertex says where each vertex is on the back: itself, or one of the new ones, numbered from the
-/// vertex count on, which are copies of back_copies.
+/// back_vertex: each vertex's counterpart on the back. This is the vertex itself or a new vertex, numbered
+/// from the vertex count on. New vertices are copies of back_copies.
 Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
                 const std::vector<Index>& back_copies) {
     Doubled d;
@@ -66,7 +66,7 @@ Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
     return d;
 }
 
-/// Turns the normals of the wedges from `first` on, and the handedness of their tangents.
+/// Reverses the normals of the wedges from `first` on, and the handedness of their tangents.
 void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
     for (auto& a : mesh.attributes) {
         if (a.domain != Domain::wedge || !(a.role == Role::normal || a.role == Role::tangent)) continue;
@@ -82,7 +82,7 @@ void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
     }
 }
 
-/// boundary_edges by corner.
+/// boundary_edges, sorted by corner.
 std::vector<BoundaryEdge> boundary_by_corner(const Mesh& mesh) {
     auto edges = boundary_edges(mesh);
     std::sort(edges.begin(), edges.end(),
@@ -96,7 +96,7 @@ struct System {
     Vec3 b;
     double weight = 0;
 
-    /// Adds the wish n . x = 1.
+    /// Adds the equation n . x = 1 with a weight.
     void add(const Vec3& n, double w) {
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t j = 0; j < 3; ++j) a[i][j] += w * n[i] * n[j];
@@ -104,8 +104,8 @@ struct System {
         }
         weight += w;
     }
-    /// Nearest to what is wished; of all such x the one nearest to start (proximal steps, each solved
-    /// exactly).
+    /// The least-squares solution; if it is not unique, the solution nearest to start. Uses proximal steps,
+    /// each solved exactly.
     Vec3 solve(Vec3 start) const {
         const double pull = 1e-4 * weight;
         const Vec3 r0{a[0][0] + pull, a[0][1], a[0][2]}, r1{a[1][0], a[1][1] + pull, a[1][2]},
@@ -128,7 +128,7 @@ double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
 }
 
 struct Directions {
-    std::vector<Vec3> of_vertex; ///< where a vertex goes for a distance of 1 in world
+    std::vector<Vec3> of_vertex; ///< the move of a vertex for a distance of 1 in world
     std::size_t limited = 0, still = 0;
 };
 
@@ -172,8 +172,8 @@ Directions directions(const Mesh& mesh, double limit, const Transform& to_world)
     return d;
 }
 
-/// Walls between front and back; each has wedges of its own when the mesh has normals, which `normals` then
-/// lists.
+/// Adds walls between front and back. If the mesh has normals, each wall has separate wedges, listed in
+/// `normals`.
 std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index, Vec3>>& normals) {
     const bool own = mesh.find("NORMAL", Domain::wedge) != nullptr;
     const auto back = static_cast<Index>(mesh.wedge_count());
@@ -205,11 +205,11 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
     return added;
 }
 
-/// Where a face of the solid is.
+/// The side that a face of the solid belongs to.
 enum class Face : std::uint8_t { front, back, neither };
 
-/// Distances to the faces of the back from the vertices and the middles of those of the front, in world.
-/// face: [faces], neither for the rest.
+/// World distances to the back faces, from the vertices and centres of the front faces. face: [faces],
+/// neither for other faces.
 std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Transform& to_world,
                                            const std::vector<Face>& face) {
     Mesh back;
@@ -247,7 +247,7 @@ double size_of(const Mesh& mesh, const Transform& to_world) {
     return box.empty() ? 0 : length(box.max - box.min);
 }
 
-/// Edges along which more faces run one way than the other.
+/// Counts edges with more faces in one direction than in the other.
 std::size_t unbalanced_edges(const Mesh& mesh, const EdgeTable& edges) {
     std::size_t count = 0;
     for (Index e = 0; e < edges.size(); ++e) {
@@ -258,12 +258,12 @@ std::size_t unbalanced_edges(const Mesh& mesh, const EdgeTable& edges) {
     return count;
 }
 
-/// What a move along the normals does to the faces of the surface, in world space.
+/// The effects of a move along the normals on the surface's faces, in world space.
 struct Moved {
     std::vector<std::uint8_t> turned, vanished; ///< [faces], or empty for no move
 };
 
-/// The surface moved to the places that the solid has from vertex `first` on.
+/// The effects of moving the surface to the solid's positions from vertex `first` on.
 Moved moved_to(const Mesh& solid, Index first, double distance, const Mesh& surface,
                const Transform& to_world) {
     if (distance == 0) return {};
@@ -275,13 +275,13 @@ Moved moved_to(const Mesh& solid, Index first, double distance, const Mesh& surf
     });
     Moved m;
     m.turned = turned_faces(from, to);
-    const double along = to_world.determinant() < 0 ? -distance : distance; // mirrored faces look back
+    const double along =
+        to_world.determinant() < 0 ? -distance : distance; // mirrored faces have inward normals
     m.vanished = vanished_components(from, m.turned, along);
     return m;
 }
 
-/// Counts the faces that are turned, and puts those that vanished among `gone`, which starts with the faces
-/// of the front or of the back.
+/// Counts the turned faces and flags the vanished faces in `gone`, the range of the front or back faces.
 void judge(const Moved& moved, std::uint8_t* gone, const Mesh& surface, const Transform& to_world,
            ThickenResult& r) {
     for (Index f = 0; f < moved.turned.size(); ++f) {
@@ -291,8 +291,9 @@ void judge(const Moved& moved, std::uint8_t* gone, const Mesh& surface, const Tr
     }
 }
 
-/// Closed components of the solid, none of which meets another, that are not where material ends: the surface
-/// winds around the points on both their sides other than once on the inner and not at all on the outer side.
+/// Counts closed components of the solid that bound no material. No two components may intersect. A
+/// component is correct if the surface winds once around points on its inner side and not around its outer
+/// side.
 std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
     const Components components = face_components(solid, edges);
     if (components.count < 2) return 0;
@@ -322,7 +323,7 @@ std::size_t components_of(const Mesh& mesh, const std::vector<std::uint8_t>& fla
     return static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
 }
 
-/// Makes the solid again without its folds.
+/// Rebuilds the solid without its folds.
 void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, ThickenResult& r) {
     const auto faces_of = [](const std::vector<std::uint8_t>& is_back) {
         std::vector<Face> face(is_back.size());
@@ -342,8 +343,8 @@ void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, T
     r.self_intersections = find_self_intersections(d.mesh, {.limit = 0, .separate_touching = true}).count;
 }
 
-/// Finds what is wrong with the solid, and takes away the sides of closed components that vanished: what is
-/// left of those is filled.
+/// Finds the defects of the solid. Removes the vanished sides of closed components, so that their other
+/// sides bound filled solids.
 void settle(Doubled& d, const Mesh& surface, const std::vector<Vec3>& ways, const ThickenSettings& s,
             double out, ThickenResult& r) {
     const std::size_t faces = surface.face_count();
@@ -403,7 +404,7 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     std::vector<std::pair<Index, Vec3>> wall_normals;
     r.wall_faces = add_walls(mesh, d, wall_normals);
     r.changes = inherit_attributes(d.mesh, mesh, d.provenance);
-    // Walls come after the back: their normals are set after those of the back are turned.
+    // Set wall normals last, because turn_wedges would also reverse them.
     turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
     if (Attribute* normals = d.mesh.find("NORMAL", Domain::wedge))
         for (const auto& [w, normal] : wall_normals)
@@ -492,13 +493,14 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
         for (Index i = 0; i < n; ++i) *corner++ = first + n + i;
     });
     r.mesh.face_offsets.back() = static_cast<Index>(r.mesh.corners.size());
-    normalise_offsets(r.mesh); // of no edges
+    normalise_offsets(r.mesh); // for a mesh without edges
     return r;
 }
 
 namespace {
 
-/// The places around a face from the lowest on, as it runs or backward.
+/// The vertices of a face, in either direction, rotated so that the lowest comes first. place: the lowest
+/// vertex at the same position.
 std::vector<Index> ring_of(const Mesh& mesh, const std::vector<Index>& place, Index f, bool backward) {
     std::vector<Index> ring;
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) ring.push_back(place[mesh.vertex(c)]);
@@ -507,18 +509,19 @@ std::vector<Index> ring_of(const Mesh& mesh, const std::vector<Index>& place, In
     return ring;
 }
 
-/// Flags the faces that have a face of their own at the same places the other way round.
+/// Flags the faces with an opposite face at the same positions. Each face is the back of at most one other
+/// face.
 std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
     const auto place = lowest_at_place(mesh);
     std::vector<std::uint8_t> flags(mesh.face_count(), 0);
-    Mesh plain; // to see fast that there are none, as mostly
+    Mesh plain; // a fast test for the usual case without duplicates
     plain.positions = mesh.positions;
     plain.corners = mesh.corners;
     plain.face_offsets = mesh.face_offsets;
     for (Index w = 0; w < mesh.wedge_count(); ++w)
         plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
     if (duplicate_faces(plain).empty()) return flags;
-    std::map<std::vector<Index>, std::size_t> left; // faces of each ring that are not a back yet
+    std::map<std::vector<Index>, std::size_t> left; // faces of each ring that are not yet paired as a back
     for (Index f = 0; f < mesh.face_count(); ++f) ++left[ring_of(mesh, place, f, false)];
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const auto back = left.find(ring_of(mesh, place, f, true));
@@ -533,7 +536,7 @@ std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
 } // namespace
 
 TwoSidedResult two_sided(const Mesh& mesh) {
-    const auto done = faces_with_back(mesh); // of points alone there is no back
+    const auto done = faces_with_back(mesh); // empty for point clouds
     if (std::count(done.begin(), done.end(), 0) == 0) return {mesh, kept_changes(mesh.attributes)};
     std::vector<std::uint8_t> open(mesh.vertex_count(), 0);
     for (const BoundaryEdge& e : boundary_edges(mesh)) open[e.from] = open[e.to] = 1;
@@ -547,14 +550,14 @@ TwoSidedResult two_sided(const Mesh& mesh) {
     const bool plain =
         !mesh.has_seams() && std::none_of(mesh.attributes.begin(), mesh.attributes.end(),
                                           [](const auto& a) { return a.domain == Domain::wedge; });
-    if (plain) { // a vertex is all there is to a wedge
+    if (plain) { // without wedge data, wedges are vertices
         for (Index& c : d.mesh.corners) c = d.mesh.wedge_vertex[c];
         d.mesh.wedge_vertex = {};
         d.provenance.wedges = d.provenance.vertices;
     }
     r.changes = inherit_attributes(d.mesh, mesh, d.provenance);
     if (!plain) turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
-    std::vector<std::uint8_t> gone(mesh.face_count(), 0); // backs that are there already
+    std::vector<std::uint8_t> gone(mesh.face_count(), 0); // backs that already exist
     gone.insert(gone.end(), done.begin(), done.end());
     r.mesh = std::count(gone.begin(), gone.end(), 1) > 0 ? keep_faces(d.mesh, faces_without(gone))
                                                          : std::move(d.mesh);

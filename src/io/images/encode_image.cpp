@@ -26,7 +26,8 @@ struct PngWriter {
     png_structp state = ::png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
     png_infop info = state ? ::png_create_info_struct(state) : nullptr;
     Bytes out{};
-    const std::size_t most; ///< bytes: where there are more, the image is not wanted, and no more is done
+    const std::size_t
+        most; ///< bytes: stop as soon as the image is larger, because a larger result is not used
     bool too_many = false;
 
     explicit PngWriter(std::size_t bytes) : most(bytes) {}
@@ -51,7 +52,7 @@ struct PngWriter {
     static void flush(png_structp) {}
 };
 
-/// The pixels with as many channels as the colour type has.
+/// The pixels, with the channels of the colour type.
 std::vector<std::uint8_t> packed_channels(const Pixels& image, int colour_type) {
     const std::size_t colours = (colour_type & PNG_COLOR_MASK_COLOR) != 0 ? 3 : 1;
     const bool alpha = (colour_type & PNG_COLOR_MASK_ALPHA) != 0;
@@ -64,7 +65,7 @@ std::vector<std::uint8_t> packed_channels(const Pixels& image, int colour_type) 
     return out;
 }
 
-/// Nothing here may need a destructor when the library jumps.
+/// The library may jump out of this function, so no local may need a destructor.
 bool write_png(PngWriter& writer, const Pixels& image, int colour_type, int level,
                const std::vector<std::uint8_t>& channels) {
     if (setjmp(png_jmpbuf(writer.state)) != 0) return false;
@@ -85,7 +86,7 @@ bool write_png(PngWriter& writer, const Pixels& image, int colour_type, int leve
 
 struct JpegWriter {
     jpeg_compress_struct state{};
-    jpeg_error_mgr errors{}; // the first that the library sees of what follows
+    jpeg_error_mgr errors{};
     std::jmp_buf back{};
     unsigned char* bytes = nullptr;
     unsigned long size = 0;
@@ -119,7 +120,7 @@ bool write_jpeg(JpegWriter& writer, const Pixels& image, const LossSettings& set
     state.in_color_space = grey ? JCS_GRAYSCALE : JCS_EXT_RGBX;
     ::jpeg_set_defaults(&state);
     ::jpeg_set_quality(&state, settings.quality, TRUE);
-    state.dct_method = JDCT_ISLOW; // integers: the same on every processor
+    state.dct_method = JDCT_ISLOW; // integer arithmetic gives the same bytes on every processor
     state.optimize_coding = TRUE;
     if (settings.as_numbers) {
         state.comp_info[0].h_samp_factor = 1;
@@ -142,16 +143,16 @@ Bytes bytes_from(const std::uint8_t* data, std::size_t size) {
     return {bytes, bytes + size};
 }
 
-// --- JPEG again
+// --- JPEG without loss
 
-/// What a JPEG's coefficients are written to.
+/// The output of a JPEG's coefficients.
 struct JpegTarget {
     jpeg_compress_struct state{};
     unsigned char* bytes = nullptr;
     unsigned long size = 0;
 };
 
-/// A JPEG read as coefficients and written as such: in several scans and in one.
+/// A JPEG whose coefficients are copied twice: with several scans and with a single scan.
 struct JpegCopy {
     jpeg_decompress_struct from{};
     std::array<JpegTarget, 2> to{};
@@ -176,7 +177,7 @@ struct JpegCopy {
         errors.output_message = [](j_common_ptr) {};
         return &errors;
     }
-    /// More scans than any encoder makes.
+    /// Encoders make fewer scans.
     static void limit_scans(j_common_ptr state) {
         constexpr int most = 500;
         if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
@@ -184,7 +185,7 @@ struct JpegCopy {
     }
 };
 
-/// The library writes the markers JFIF and Adobe by itself.
+/// Whether the library writes this marker (JFIF, Adobe) anyway.
 bool writes_itself(const jpeg_compress_struct& to, const jpeg_marker_struct& marker) {
     const auto begins = [&](const char* text, std::size_t length) {
         return marker.data_length >= length && std::memcmp(marker.data, text, length) == 0;
@@ -193,8 +194,8 @@ bool writes_itself(const jpeg_compress_struct& to, const jpeg_marker_struct& mar
            (to.write_Adobe_marker && marker.marker == JPEG_APP0 + 14 && begins("Adobe", 5));
 }
 
-/// Reads the coefficients; null where the file is broken. Nothing here may need a destructor when the library
-/// jumps.
+/// Reads the coefficients; null if the file is broken. The library may jump out, so no local may need a
+/// destructor.
 jvirt_barray_ptr* read_coefficients(JpegCopy& copy, Span bytes) {
     copy.from.err = JpegCopy::quiet(copy.from_errors);
     copy.from.client_data = &copy;
@@ -210,7 +211,7 @@ jvirt_barray_ptr* read_coefficients(JpegCopy& copy, Span bytes) {
     return copy.from_errors.num_warnings > 0 ? nullptr : coefficients;
 }
 
-/// False where they cannot be written. Nothing here may need a destructor when the library jumps.
+/// False if they cannot be written. The library may jump out, so no local may need a destructor.
 bool write_coefficients(JpegCopy& copy, JpegTarget& target, jvirt_barray_ptr* coefficients,
                         bool progressive) {
     jpeg_compress_struct& to = target.state;
@@ -269,7 +270,7 @@ namespace {
 
 constexpr int smallest = 9, fastest = 1; // levels of zlib
 
-/// Nothing where it would have more than so many bytes.
+/// No bytes if the result would exceed this number of bytes.
 Bytes png_of_type(const Pixels& image, int colour_type, int level, std::size_t most = SIZE_MAX) {
     PngWriter writer(most);
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
@@ -283,9 +284,9 @@ int alpha_type(const Pixels& image) { return is_opaque(image) ? 0 : PNG_COLOR_MA
 
 int type_of(const Pixels& image) { return (is_grey(image) ? 0 : PNG_COLOR_MASK_COLOR) | alpha_type(image); }
 
-/// The PNG, unless it is not smaller than the given one, or hardly will be: where a large image takes more
-/// than half as much again at the fastest level, as the colours of a palette do, the slowest seldom makes up
-/// for it. Else nothing.
+/// The PNG, or nothing if it is unlikely to be smaller than the given file. If the fastest level gives a
+/// large image over one and a half times the given size, the slowest level seldom helps. This occurs for the
+/// colours of a palette.
 Bytes repacked_png(const Pixels& image, std::size_t given) {
     constexpr std::size_t large = std::size_t{1} << 20; // pixels
     const int type = type_of(image);
@@ -313,7 +314,8 @@ Bytes repacked_image(Span bytes) {
     Bytes out = jpeg ? repacked_jpeg(bytes) : repacked_png(*image, bytes.size());
     if (out.empty() || out.size() >= bytes.size()) return {};
     const std::optional<Pixels> again = decoded_image(out);
-    if (!again || again->rgba != image->rgba) return {}; // whatever the library did: pixels do not change
+    if (!again || again->rgba != image->rgba)
+        return {}; // in case of a library fault, keep the pixels unchanged
     return out;
 }
 
@@ -327,17 +329,18 @@ Bytes encoded_jpeg(const Pixels& image, const LossSettings& settings) {
 Bytes encoded_webp(const Pixels& image, const LossSettings& settings) {
     WebpWriter writer;
     WebPConfig config;
-    // The effort of 6 takes twice the time of 5 for a hundredth of the bytes.
+    // Method 6 takes twice the time of 5 for about 1 % fewer bytes.
     const bool ready =
         ::WebPConfigPreset(&config, WEBP_PRESET_DEFAULT, static_cast<float>(settings.quality)) != 0 &&
         ::WebPPictureInit(&writer.picture) != 0;
     if (!ready) no_memory_for("WebP");
     config.method = 5;
     config.lossless = settings.lossless;
-    if (settings.lossless) config.quality = 75; // of the search, not of the image
+    if (settings.lossless) config.quality = 75; // the effort of the search, not the image quality
     config.exact = 1;
     config.use_sharp_yuv = settings.as_numbers;
-    writer.picture.use_argb = settings.lossless || settings.as_numbers; // not halved while it is read
+    writer.picture.use_argb =
+        settings.lossless || settings.as_numbers; // avoids chroma subsampling of the input
     writer.picture.width = static_cast<int>(image.width);
     writer.picture.height = static_cast<int>(image.height);
     writer.picture.writer = ::WebPMemoryWrite;

@@ -1,31 +1,31 @@
 #pragma once
-// Pixels as image files.
+// Encodes pixels as image files.
 
 #include "io/images/pixels.hpp"
 
 namespace facetmill::io {
 
-/// How an image loses what cannot be seen.
+/// Settings for encoding with loss.
 struct LossSettings {
-    int quality = 80;        ///< 1 to 100, as the libraries have it
+    int quality = 80;        ///< 1 to 100, as in the libraries
     bool lossless = false;   ///< WebP only
-    bool as_numbers = false; ///< not for eyes: no chroma at half the size (JPEG), or the best there is (WebP)
+    bool as_numbers = false; ///< data instead of colours: no chroma subsampling (JPEG), or the best chroma
+                             ///< conversion (WebP)
 };
 
-/// A PNG of as few channels as the image needs. Throws limit (E-MEMORY), as all of these do.
+/// A PNG with as few channels as the image needs. Throws limit (E-MEMORY), as all these functions do.
 [[nodiscard]] Bytes encoded_png(const Pixels& image);
-/// A PNG of three channels, or four where one is not opaque, also where all is grey.
+/// A PNG with three channels, or four if any pixel is transparent, even if all pixels are grey.
 [[nodiscard]] Bytes encoded_png_in_colour(const Pixels& image);
-/// A progressive JPEG without the alpha; of one channel where all is grey.
+/// A progressive JPEG without alpha. It has a single channel if all pixels are grey.
 [[nodiscard]] Bytes encoded_jpeg(const Pixels& image, const LossSettings& settings);
-/// A WebP, whose colours are kept where nothing is to be seen of them. Its sides are at most 16383 pixels
-/// long.
+/// A WebP. Keeps the colours of fully transparent pixels. Each side is at most 16383 pixels long.
 [[nodiscard]] Bytes encoded_webp(const Pixels& image, const LossSettings& settings);
 
-/// A PNG or JPEG with the same pixels in fewer bytes: JPEG with the same coefficients and all its markers, in
-/// the best Huffman tables, progressive where that is smaller; PNG as encoded_png makes it, without what it
-/// says beside the pixels. Empty where nothing is gained, for PNG of 16 bits a channel, other kinds of files,
-/// and what is broken. Images have at most 2^26 pixels.
+/// A PNG or JPEG with the same pixels in fewer bytes. A JPEG keeps its coefficients and markers, gets
+/// optimal Huffman tables, and is progressive if that is smaller. A PNG is encoded by encoded_png and loses
+/// its metadata. Returns no bytes without a gain, and for PNG with 16 bits a channel, other formats and
+/// broken files. Images have at most 2^26 pixels.
 [[nodiscard]] Bytes repacked_image(Span bytes);
 
 /// Whether all pixels are opaque.

@@ -10,14 +10,14 @@ namespace facetmill::io {
 
 namespace {
 
-/// The number of so many bytes at a place that has them, the most significant first.
+/// A big-endian number of `size` bytes at an offset within the data.
 std::size_t big_endian(Span bytes, std::size_t at, std::size_t size) {
     std::size_t value = 0;
     for (std::size_t i = 0; i < size; ++i) value = value << 8 | std::to_integer<std::size_t>(bytes[at + i]);
     return value;
 }
 
-/// Whether each chunk up to IEND is there (PNG specification, third edition, 5.3).
+/// Whether all chunks up to IEND are complete (PNG specification, third edition, 5.3).
 bool png_ends(Span bytes) {
     constexpr std::size_t around = 12; // length, type and checksum of a chunk
     for (std::size_t at = 8; at + around <= bytes.size();) {
@@ -29,7 +29,7 @@ bool png_ends(Span bytes) {
     return false;
 }
 
-/// Where the first scan of a JPEG begins (ITU-T T.81, B.1.1.3); 0 where its segments do not lead there.
+/// The offset of a JPEG's first scan (ITU-T T.81, B.1.1.3); 0 if the segments do not lead to a scan.
 std::size_t first_scan(Span bytes) {
     constexpr unsigned scan = 0xda, fill = 0xff, temporary = 0x01, first_restart = 0xd0, last_alone = 0xd9;
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
@@ -45,7 +45,7 @@ std::size_t first_scan(Span bytes) {
     return 0;
 }
 
-/// Whether the end of the image comes after its first scan: a thumbnail before that has an end of its own.
+/// Whether an end marker follows the first scan. An earlier end marker belongs to a thumbnail.
 bool jpeg_ends(Span bytes) {
     const auto end = as_text(bytes).rfind("\xff\xd9");
     return end != std::string_view::npos && end > first_scan(bytes);
@@ -53,7 +53,7 @@ bool jpeg_ends(Span bytes) {
 
 bool webp_ends(Span bytes) { return bytes.size() >= 12 && little_endian(bytes, 4, 4) <= bytes.size() - 8; }
 
-/// Its width and its levels (Khronos Texture 2.0, 3.1 and 3.9.7).
+/// Checks the width and the levels (Khronos Texture 2.0, 3.1 and 3.9.7).
 std::string ktx2_fault(Span bytes) {
     constexpr std::size_t header = 80, width = 20, levels = 40, of_level = 24;
     if (bytes.size() < header) return "its data end early";

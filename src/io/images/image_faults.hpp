@@ -1,5 +1,5 @@
 #pragma once
-// Images that no viewer will show, told by their header and their extent alone.
+// Detects images that no viewer can show, from their header and length only.
 
 #include "base/error.hpp"
 #include "io/bytes.hpp"
@@ -8,12 +8,12 @@
 
 namespace facetmill::io {
 
-/// What is wrong with an image file as far as that is seen without decoding it: "its header is broken", "its
-/// data end early", "it is of no known kind"; empty where nothing is. PNG, JPEG, WebP, KTX2 and DDS. What
-/// lies between the header and the end is not looked at.
+/// The fault of an image file that is visible without decoding: "its header is broken", "its data end
+/// early", "it is of no known kind". Empty if no fault is found. Supports PNG, JPEG, WebP, KTX2 and DDS.
+/// Does not check the data between the header and the end.
 [[nodiscard]] std::string image_fault(Span bytes);
 
-/// What is said (W-IMAGE) where such an image is written as it is.
+/// The warning (W-IMAGE) for such an image that is written unchanged.
 [[nodiscard]] Diagnostic warning_of_fault(const std::string& image, const std::string& fault);
 
 } // namespace facetmill::io

@@ -26,7 +26,7 @@ std::optional<ImageColours> png_colours(Span bytes) {
     return ImageColours{(type & 2) == 0, (type & 4) != 0 || head.find("tRNS") != std::string_view::npos};
 }
 
-/// The number of components of the frame (ITU-T T.81, B.2.2): the first SOF marker has it.
+/// The number of components in the frame (ITU-T T.81, B.2.2), from the first SOF marker.
 std::optional<ImageColours> jpeg_colours(Span bytes) {
     for (std::size_t at = 2; at + 9 < bytes.size();) {
         if (byte_at(bytes, at) != 0xff) return {};
@@ -49,14 +49,14 @@ bool is_below(const fs::path& folder, const fs::path& file) {
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/// With its links and .. resolved, whether it is there or not. Absolute first: weakly_canonical leaves a
-/// relative path as it is when nothing of it exists yet.
+/// The path with links and .. resolved; the file need not exist. Made absolute first, because
+/// weakly_canonical leaves a relative path unchanged if no part of it exists.
 fs::path resolved(const fs::path& path, std::error_code& failed) {
     const fs::path absolute = fs::absolute(path, failed);
     return failed ? fs::path() : fs::weakly_canonical(absolute, failed);
 }
 
-/// Without "..", where that names the same file: where no folder before one is a link.
+/// The path without "..", if that names the same file, which links can prevent.
 fs::path plain(const fs::path& path, const fs::path& real) {
     std::error_code failed;
     const fs::path normal = path.lexically_normal();
@@ -109,7 +109,7 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
     };
     const auto path = relative ? path_below(input, *relative) : std::nullopt;
     if (!path) {
-        log.unrepeatable = true; // a link may lead elsewhere the next time
+        log.unrepeatable = true; // the link may change
         return refuse(
             fmt::format("\"{}\" is not a file in the directory of '{}' and is not read", name, input.name()),
             hint_for_asset_root(input, relative));
@@ -130,9 +130,9 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         log.files.push_back({*path, bytes.size(), sha256(bytes)});
         return bytes;
     } catch (const Error& error) {
-        // A fault of the disk or too many open files: without its picture the result would be another one.
+        // A failing disk, or too many open files: without this image the result would be different.
         if (error.kind() == ErrorKind::missing && may_read(*path)) throw;
-        log.unrepeatable = true; // it is there, and may be readable the next time
+        log.unrepeatable = true; // the file exists, and may become readable
         return refuse(error.diagnostics().front().message, "check the permissions of the image");
     }
 }
@@ -189,20 +189,20 @@ fs::path file_name_of_image(const std::string& name, std::size_t index, Span byt
     if (last == suffix || last == ".jpeg") stem.resize(stem.size() - last.size());
     for (char& c : stem)
         if (c == '/' || c == '\0') c = '_';
-    std::size_t end = std::min(stem.size(), most); // not within a character
+    std::size_t end = std::min(stem.size(), most); // not in the middle of a character
     while (end < stem.size() && end > 0 && (static_cast<unsigned char>(stem[end]) & 0xc0) == 0x80) --end;
     return stem.substr(0, end) + suffix;
 }
 
 namespace {
 
-/// One step of a path, for lines whose words are parted by blanks, and for all file systems.
+/// A path component that is safe in lines with blank-separated words, and on all file systems.
 std::string plain_step(std::string step) {
     for (char& c : step)
         if (static_cast<unsigned char>(c) <= ' ' ||
             std::string_view("\x7f#\"'\\:*?<>|").find(c) != std::string_view::npos)
             c = '_';
-    if (step.starts_with('-')) step.front() = '_'; // it would begin an option
+    if (step.starts_with('-')) step.front() = '_'; // a leading dash would begin an option
     return step;
 }
 

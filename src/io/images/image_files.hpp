@@ -1,7 +1,6 @@
 #pragma once
-// Images that a mesh file names: which of them are read, of what kind they are, and how they are named beside
-// what is written. The directory rule: only files in the directory of the file that is read, or below it, or
-// below one of its asset roots.
+// Images that a mesh file refers to: which may be read, their kinds, and their names next to the output. The
+// directory rule allows files below the input's directory, or below one of its asset roots.
 
 #include "io/codec.hpp"
 
@@ -10,21 +9,22 @@
 
 namespace facetmill::io {
 
-/// The path to open for a file that the input names, where the directory rule allows it; links are resolved,
-/// which may not lead elsewhere either. Else none.
+/// The path to open for a file that the input refers to; none if the directory rule forbids it. Links are
+/// resolved first, so they cannot bypass the rule.
 [[nodiscard]] std::optional<std::filesystem::path> path_below(const Input& input,
                                                               const std::filesystem::path& relative);
 
-/// How to allow a file that the directory rule refuses; empty where nothing does (an absolute path, a URL).
+/// A hint to allow a file that the directory rule refuses; empty if nothing allows it (an absolute path, a
+/// URL).
 [[nodiscard]] std::string hint_for_asset_root(const Input& input,
                                               const std::optional<std::filesystem::path>& relative);
 
-/// The relative path that a text names, with slashes either way; it may leave the directory ("../wood.png").
-/// None when it is empty or absolute.
+/// The relative path in a text, with slashes or backslashes. It may leave the directory ("../wood.png").
+/// None if it is empty or absolute.
 [[nodiscard]] std::optional<std::filesystem::path> relative_path_of(std::string name);
 
-/// The bytes of an image beside the input, whose path is added to the log. When it cannot be read: none, and
-/// a warning (W-IMAGE) that begins with `where`. relative: none when the name is no relative path.
+/// The bytes of an image near the input. Adds its path to the log. If it cannot be read: none, and a warning
+/// (W-IMAGE) that begins with `where`. relative: none if the name is not a relative path.
 [[nodiscard]] std::optional<Bytes> read_image(const Input& input,
                                               const std::optional<std::filesystem::path>& relative,
                                               const std::string& name, const std::string& where,
@@ -34,39 +34,39 @@ namespace facetmill::io {
 /// others.
 [[nodiscard]] std::string media_type(Span bytes);
 
-/// What a PNG or JPEG says of its colours.
+/// The colour channels of a PNG or JPEG, from its header.
 struct ImageColours {
     bool grey = false, alpha = false;
 };
-/// None when the bytes are neither PNG nor JPEG, or end before they say it.
+/// None if the bytes are neither PNG nor JPEG, or end too early.
 [[nodiscard]] std::optional<ImageColours> image_colours(Span bytes);
 
-/// The suffix of files of a media type ("image/png"): that of PNG where it is none of JPEG, WebP and KTX2.
+/// The file suffix for a media type ("image/png"); the PNG suffix for types other than JPEG, WebP and KTX2.
 [[nodiscard]] std::string suffix_of_image(const std::string& type);
 
-/// A name for the file of an image that has none, of a document: its own name or else its place there, and
-/// the suffix of its kind; no path, and at most about 100 bytes long.
+/// A file name for an embedded image of a document: its name, otherwise its number, with the suffix of its
+/// kind. Contains no folder, and has at most about 100 bytes.
 [[nodiscard]] std::filesystem::path file_name_of_image(const std::string& name, std::size_t index,
                                                        Span bytes);
 
-/// Whether the file is there and has these bytes.
+/// Whether the file exists with these bytes.
 bool has_bytes(const std::filesystem::path& path, Span bytes);
 
-/// A relative path as a URI: bytes that a URI gives a meaning are written %XX.
+/// A relative path as a URI: special bytes become %XX.
 [[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
 
-/// Names of the images beside an output: "textures/wood.png" beside lamp.gltf is "textures/lamp.wood.png", so
-/// that two outputs in one folder never have the same name for different images. So is
-/// "../textures/wood.png": nothing is written out of the output's folder.
+/// Names images next to an output. For lamp.gltf, "textures/wood.png" becomes "textures/lamp.wood.png", so
+/// that two outputs in a folder never share a name for different images. The same name replaces
+/// "../textures/wood.png", because nothing is written outside the output's folder.
 class ImageNames {
   public:
     enum class Spelling {
-        kept, ///< as the input has them
-        plain ///< for a line of text that names the file among other words: without blanks, quotes ...
+        kept, ///< the same as in the input
+        plain ///< for lines of text with a file name among other words: without blanks, quotes ...
     };
-    /// The names of the output's other files are the stem and a suffix of a mesh's files.
+    /// The output's other files are named `stem` with the suffix of a mesh format.
     explicit ImageNames(const std::string& stem, Spelling spelling = Spelling::kept);
-    /// A name for the image that was called so. Names that differ only in case count as the same.
+    /// The output name for an image with that name. Names that differ only in case count as equal.
     std::filesystem::path add(const std::filesystem::path& relative);
 
   private:

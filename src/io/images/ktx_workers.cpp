@@ -23,21 +23,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// --- what goes between the two processes
+// --- messages between the two processes
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; // of an image, either way
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; // maximum size of an image or a result
 
 struct OrderMessage {
     std::uint8_t uastc, srgb, alpha, quality;
     std::uint32_t seconds;
-    std::uint64_t bytes; ///< of the PNG that follows
+    std::uint64_t bytes; ///< size of the PNG that follows
 };
 struct AnswerMessage {
-    std::uint64_t good;  ///< 1: what follows is a file; 0: it says what went wrong
-    std::uint64_t bytes; ///< that follow
+    std::uint64_t good;  ///< 1: a file follows; 0: an error message follows
+    std::uint64_t bytes; ///< bytes that follow
 };
 
-// --- the process that runs the program
+// --- the worker process
 
 bool is_toktx(const fs::path& program) { return program.filename().string().starts_with("toktx"); }
 
@@ -59,7 +59,7 @@ std::vector<std::string> arguments_of_toktx(const OrderMessage& order) {
     return all;
 }
 
-/// Before 4.4 ktx calls the transfer function by another name.
+/// Before version 4.4, ktx has another option for the transfer function.
 std::vector<std::string> arguments_of_ktx(const OrderMessage& order, bool is_old) {
     std::vector<std::string> all{"create", "--generate-mipmap", "--threads", "1"};
     for (auto& argument : common_arguments(order, "--qlevel", "--uastc-quality"))
@@ -80,7 +80,7 @@ std::string contents_of(const char* file) {
     return text.str();
 }
 
-/// The last line that says anything, for a message.
+/// The last line with text, for a message.
 std::string last_line(const std::string& log) {
     constexpr std::size_t most = 300;
     std::string line, last;
@@ -92,7 +92,7 @@ std::string last_line(const std::string& log) {
     return last.substr(0, most);
 }
 
-/// Runs the program in the working directory; empty, or what went wrong.
+/// Runs the program in the working directory. Returns the error, or an empty text.
 std::string problem_of(const ProgramSettings& settings, const Descriptor& socket) {
     using How = ProgramEnd::How;
     const auto [how, number] = run_program(settings, socket);
@@ -114,7 +114,7 @@ bool is_before_4_4(const std::string& version) {
            (major < 4 || (major == 4 && minor < 4));
 }
 
-/// Waits for orders until nobody can give any more.
+/// Serves orders until the client has ended.
 class Worker {
   public:
     Worker(fs::path program, const Descriptor& socket) : program_(std::move(program)), socket_(socket) {}
@@ -138,7 +138,7 @@ class Worker {
     }
 
   private:
-    /// Makes the folder that the program works in.
+    /// Makes and enters the program's working folder.
     bool prepared() {
         if (!folder_.empty()) return true;
         folder_ = temporary_folder("facetmill-ktx-");
@@ -175,7 +175,7 @@ class Worker {
     std::optional<bool> is_old_;
 };
 
-// --- the process that asks
+// --- the client process
 
 struct Workers {
     std::mutex mutex;
@@ -188,7 +188,7 @@ Workers& workers() {
     return all;
 }
 
-/// A socket while it is used; it comes back unless what came from it was broken.
+/// A borrowed socket. It returns to the pool unless an answer was broken.
 class Loan {
   public:
     Loan() {
@@ -214,7 +214,7 @@ class Loan {
     Loan(const Loan&) = delete;
     Loan& operator=(const Loan&) = delete;
 
-    /// Null when there are no processes.
+    /// Null if no process is running.
     const Descriptor* socket() const { return socket_.get(); }
     [[noreturn]] void fail() {
         broken_ = true;
@@ -259,7 +259,8 @@ void start_ktx_workers() {
     if (!program) return;
     for (int n = std::min(most, default_threads()); n > 0; --n) {
         Descriptor socket = start_worker([&](const Descriptor& served) {
-            w.free.clear(); // else the others would not see that nobody asks any more
+            w.free
+                .clear(); // close inherited sockets, or other workers would not see that the client has ended
             w.all.clear();
             Worker(*program, served).run();
         });

@@ -21,7 +21,8 @@ bool too_large(std::size_t width, std::size_t height) {
     return width == 0 || height == 0 || width > max_pixels / height;
 }
 
-/// A PNG on its way. libpng's simplified interface is not used: it applies gAMA, and takes 16 bits as linear.
+/// The state of reading a PNG. libpng's simplified interface would apply gAMA and treat 16 bits as linear,
+/// so it is not used.
 struct PngReader {
     png_structp state = ::png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave, ignore);
     png_infop info = state ? ::png_create_info_struct(state) : nullptr;
@@ -42,10 +43,10 @@ struct PngReader {
     }
 };
 
-/// Everything as 8 bits of red, green, blue and alpha, without a change of gamma.
+/// Converts everything to 8 bits of red, green, blue and alpha, without gamma correction.
 void read_png_rows(PngReader& reader, Pixels& pixels) {
     const png_structp png = reader.state;
-    ::png_set_expand(png); // palettes, fewer than 8 bits, one transparent colour
+    ::png_set_expand(png); // expands palettes, fewer than 8 bits, and a transparent colour
     ::png_set_scale_16(png);
     ::png_set_gray_to_rgb(png);
     ::png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
@@ -56,8 +57,8 @@ void read_png_rows(PngReader& reader, Pixels& pixels) {
             ::png_read_row(png, &pixels.rgba[4 * pixels.width * y], nullptr);
 }
 
-/// Reads into pixels, which the caller holds: nothing here may need a destructor when the library jumps.
-/// header: no more than the size.
+/// Reads into pixels, which the caller owns. The library may jump out, so no local may need a destructor.
+/// header: reads only the size.
 bool read_png(PngReader& reader, bool header, Pixels& pixels) {
     if (setjmp(png_jmpbuf(reader.state)) != 0) return false;
     ::png_set_read_fn(reader.state, &reader, PngReader::next);
@@ -78,7 +79,7 @@ std::optional<Pixels> decoded_png(Span bytes, bool header) {
     return pixels;
 }
 
-/// The library's way to say that an image is broken: it jumps back to where reading began.
+/// libjpeg's error handler for broken images: it jumps back to the start of reading.
 struct JpegErrors {
     jpeg_error_mgr manager;
     std::jmp_buf back;
@@ -88,14 +89,14 @@ struct JpegErrors {
     std::longjmp(reinterpret_cast<JpegErrors*>(state->err)->back, 1); // the manager is its first member
 }
 
-/// Leaves an image that has been given more scans than any encoder makes.
+/// Stops at an image with more scans than encoders make.
 void limit_scans(j_common_ptr state) {
     constexpr int most = 500;
     if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
         leave_jpeg(state);
 }
 
-/// As read_png.
+/// The same as read_png.
 bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bool header, Pixels& pixels) {
     if (setjmp(errors.back) != 0) return false;
     ::jpeg_create_decompress(&state);
@@ -159,7 +160,7 @@ Bytes png_of(Pixels pixels) {
     return png(picture);
 }
 
-/// header: without pixels.
+/// header: reads no pixels.
 std::optional<Pixels> read_image_file(Span bytes, bool header) {
     const std::string type = media_type(bytes);
     if (type == "image/png") return decoded_png(bytes, header);
@@ -212,7 +213,7 @@ Bytes normals_of_relief(const Pixels& relief, double strength) {
     };
     for (std::size_t y = 0; y < out.height; ++y)
         for (std::size_t x = 0; x < out.width; ++x) {
-            // Rows go down and the texture's second axis up.
+            // Image rows go down, but the texture's second axis points up.
             const Vec3 n = normalised({strength * (height(x + out.width - 1, y) - height(x + 1, y)),
                                        strength * (height(x, y + 1) - height(x, y + out.height - 1)), 1});
             std::uint8_t* to = &out.rgba[4 * (y * out.width + x)];

@@ -1,5 +1,5 @@
 #pragma once
-// Images as pixels, for textures whose channels glTF has in another order or place.
+// Decoded images, also for textures whose channels glTF arranges differently.
 
 #include "io/bytes.hpp"
 
@@ -14,31 +14,31 @@ namespace facetmill::io {
 struct Pixels {
     std::size_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
-    bool damaged = false; ///< a JPEG whose data end early or are broken: the rest is a guess of the library's
+    bool damaged = false; ///< a JPEG with truncated or broken data: the library guessed the rest
 
-    /// The pixel of an image scaled to width x height (its nearest one).
+    /// The nearest pixel at (x, y) of the image scaled to width x height.
     const std::uint8_t* at(std::size_t x, std::size_t y, std::size_t of_width, std::size_t of_height) const {
         return &rgba[4 * (y * height / of_height * width + x * width / of_width)];
     }
 };
 
-/// The pixels of the largest image that is decoded.
+/// The maximum number of pixels to decode.
 constexpr std::size_t max_pixels = std::size_t{1} << 26;
 
-/// A PNG, JPEG or WebP of at most max_pixels; none for others and for what is broken. Grey becomes three
-/// equal channels, what has no alpha is opaque, 16 bits are rounded to 8. Colours are the file's own numbers:
-/// gAMA, iCCP and such are not applied, as glTF says. A JPEG of more than 500 scans is none, either: each
-/// costs as much as a whole image, however few bytes it has.
+/// Decodes a PNG, JPEG or WebP of at most max_pixels; none for other formats and broken files. Grey becomes
+/// three equal channels, missing alpha is opaque, and 16 bits are rounded to 8. Colours are the file's
+/// numbers, without gAMA and iCCP, as glTF requires. Also none for a JPEG of more than 500 scans, because
+/// each scan costs as much as a whole image.
 [[nodiscard]] std::optional<Pixels> decoded_image(Span bytes);
 
-/// Width and height of such an image, of which no more than the header is read; none where that is broken.
+/// The width and height of such an image. Reads only the header; none if that is broken.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> image_size(Span bytes);
 
 /// Whether all pixels are grey.
 bool is_grey(const Pixels& image);
 
-/// Where a channel of a combined image comes from: one of the image's (0 to 3) or its brightness (4), or,
-/// without an image, a number.
+/// The source of a channel of a combined image: an image's channel (0 to 3) or brightness (4), otherwise a
+/// constant.
 struct Channel {
     const Pixels* image = nullptr;
     int channel = 0;
@@ -46,12 +46,11 @@ struct Channel {
 };
 constexpr int brightness = 4; ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R BT.601)
 
-/// A PNG as large as the largest image that is named; smaller ones are scaled to it.
+/// A PNG as large as the largest source image. Smaller images are scaled up.
 [[nodiscard]] Bytes combined_image(const std::array<Channel, 4>& channels);
 
-/// A PNG of the normals of a relief, brighter being higher: its slopes are `strength` times the difference of
-/// the neighbours' brightness. The image is repeated at its borders. Blinn, "Simulation of Wrinkled
-/// Surfaces", 1978.
+/// A PNG with the normals of a height map: slopes are `strength` times the brightness difference of the
+/// neighbours. The image repeats at its borders. Blinn, "Simulation of Wrinkled Surfaces", 1978.
 [[nodiscard]] Bytes normals_of_relief(const Pixels& relief, double strength);
 
 } // namespace facetmill::io

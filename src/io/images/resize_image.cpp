@@ -11,7 +11,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// The pixels that a new one is made of, from `first` on, and their weights, whose sum is 1.
+/// The source pixels of a new pixel, from `first` on, with weights that sum to 1.
 struct Taps {
     std::size_t first = 0;
     std::vector<float> weights;
@@ -21,12 +21,12 @@ struct Taps {
 double sinc(double x) { return x == 0 ? 1 : sine(pi * x) / (pi * x); }
 double lanczos(double x) { return std::abs(x) < 3 ? sinc(x) * sinc(x / 3) : 0; }
 
-/// One for each pixel of a side that becomes `to` pixels long.
+/// One entry for each pixel of the new side, which is `to` pixels long.
 std::vector<Taps> taps_of(std::size_t from, std::size_t to) {
     const double scale = static_cast<double>(from) / static_cast<double>(to);
     std::vector<Taps> all(to);
     for (std::size_t i = 0; i < to; ++i) {
-        const double centre = (static_cast<double>(i) + 0.5) * scale - 0.5; // among the old pixels
+        const double centre = (static_cast<double>(i) + 0.5) * scale - 0.5; // in source pixels
         const double low = std::max(0.0, std::ceil(centre - 3 * scale));
         const double high = std::min(static_cast<double>(from - 1), std::floor(centre + 3 * scale));
         Taps& taps = all[i];
@@ -42,7 +42,8 @@ std::vector<Taps> taps_of(std::size_t from, std::size_t to) {
     return all;
 }
 
-/// What is mixed of a pixel: red, green, blue, alpha; with coverage also the colours weighted by alpha.
+/// The channels of a pixel that are mixed: red, green, blue, alpha. With coverage also the colours weighted
+/// by alpha.
 struct Mixing {
     PixelKind kind;
     bool coverage;
@@ -107,7 +108,7 @@ Pixels resized_image(const Pixels& image, std::size_t width, std::size_t height,
     const Mixing mixing{kind, coverage};
     const std::size_t channels = mixing.channels(), row = width * channels;
     Pixels out{width, height, std::vector<std::uint8_t>(4 * width * height), false};
-    constexpr std::size_t rows = 64; // at a time, with the old rows that they are made of
+    constexpr std::size_t rows = 64; // rows per batch, together with their source rows
     parallel_chunks(
         height,
         [&](std::size_t begin, std::size_t end) {

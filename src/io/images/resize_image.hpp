@@ -1,22 +1,21 @@
 #pragma once
-// Images made smaller.
+// Reduces images.
 
 #include "io/images/pixels.hpp"
 
 namespace facetmill::io {
 
-/// What the numbers of an image say, which decides how its pixels are mixed.
+/// The meaning of an image's numbers, which determines how pixels are mixed.
 enum class PixelKind {
     colours, ///< in sRGB: mixed in linear light
-    normals, ///< directions, each coordinate from -1 to 1: mixed, and of length 1 again
-    numbers  ///< anything else: mixed as they are
+    normals, ///< directions, each coordinate from -1 to 1: mixed, then normalized
+    numbers  ///< other data: mixed without conversion
 };
 
-/// The image at width x height, neither larger than before nor 0, by Lanczos's filter of three lobes
-/// (Turkowski, "Filters for Common Resampling Tasks", 1990), which ends at the borders. Alpha is mixed as a
-/// number. With coverage, colours are weighted by alpha; where the result cannot be seen at all, they are the
-/// plain mean, so that its neighbours are not darkened when a texture is magnified. The same for any number
-/// of threads.
+/// The image at width x height, which must not be 0 or larger than before. Uses Lanczos's filter with three
+/// lobes (Turkowski, "Filters for Common Resampling Tasks", 1990), which ends at the borders. Alpha is mixed
+/// as a number. With coverage, colours are weighted by alpha. Fully transparent results get the plain mean,
+/// so that magnified textures have no dark fringes. The result does not depend on the number of threads.
 [[nodiscard]] Pixels resized_image(const Pixels& image, std::size_t width, std::size_t height, PixelKind kind,
                                    bool coverage);
 

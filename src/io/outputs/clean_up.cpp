@@ -12,7 +12,7 @@
 namespace facetmill::io {
 
 struct CleanUp {
-    std::filesystem::path path, aside{}; ///< aside: what is renamed to path; empty: path is removed
+    std::filesystem::path path, aside{}; ///< aside: the file to rename to path; empty: remove path
     bool directory = false;
     std::atomic<bool> active{true};
     CleanUp* next = nullptr;
@@ -23,7 +23,7 @@ namespace {
 // Only lock-free atomics and async-signal-safe calls are used in the handler.
 enum State : int { idle, held, dying };
 std::atomic<int> state{idle};
-std::atomic<std::thread::id> holder; ///< the last that held signals off
+std::atomic<std::thread::id> holder; ///< the last thread that delayed signals
 std::atomic<int> waiting_signal{0};
 std::atomic<CleanUp*> entries{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<CleanUp*>::is_always_lock_free);
@@ -36,7 +36,7 @@ CleanUp* enter(std::filesystem::path path, std::filesystem::path aside, bool dir
     entry->next = entries.load();
     while (!entries.compare_exchange_weak(entry->next, entry)) {
     }
-    // A handler on another thread may have walked the list already: nothing new may appear then.
+    // A handler on another thread may have walked the list already, so no new file may appear.
     if (state == dying) wait_for_the_end();
     return entry;
 }
@@ -49,7 +49,7 @@ void undo_all() {
             else
                 rename_file(e->aside, e->path);
         }
-    for (const CleanUp* e = entries; e; e = e->next) // the last made first
+    for (const CleanUp* e = entries; e; e = e->next) // the latest first
         if (e->active && e->directory) remove_folder(e->path);
 }
 
@@ -84,7 +84,7 @@ void end_at_once(int exit_code, std::string_view message) {
     for (int expected = idle; !state.compare_exchange_strong(expected, dying); expected = idle) {
         if (expected == dying) wait_for_the_end();
         if (holder == std::this_thread::get_id()) return;
-        std::this_thread::yield(); // another gives outputs their names: all of them or none
+        std::this_thread::yield(); // another thread is renaming outputs, which must be all or none
     }
     undo_all();
     write_to_standard_error(message);

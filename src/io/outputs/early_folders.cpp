@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Folders held open at a time: beyond it two runs that fail at once may disturb each other.
+/// The limit for folders held open. Beyond it, two runs that fail at the same time may disturb each other.
 constexpr std::size_t max_open_folders = 128;
 
 } // namespace
@@ -27,7 +27,7 @@ void EarlyFolders::use(const fs::path& folder, bool made) {
 
 void EarlyFolders::make(const fs::path& folder) {
     std::error_code error;
-    constexpr int max_attempts = 100; // another run may remove what it has made
+    constexpr int max_attempts = 100; // another run may remove the folder that it made
     for (int attempt = 0; attempt < max_attempts && !folder.empty(); ++attempt) {
         if (fs::is_directory(folder, error)) {
             use(folder, false);
@@ -51,7 +51,7 @@ std::vector<fs::path> EarlyFolders::made_in() const {
 EarlyFolders::~EarlyFolders() {
     for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
         const bool free = !folder->lock || try_lock(folder->lock);
-        if (folder->made && free) remove_folder(folder->path); // unless something is in it
+        if (folder->made && free) remove_folder(folder->path); // fails if the folder is not empty
         if (folder->made) keep(folder->clean_up);
         folder->lock.close();
     }

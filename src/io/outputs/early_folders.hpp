@@ -1,6 +1,6 @@
 #pragma once
-// Folders of outputs that are made before the sandbox closes: what is made later would have no right of its
-// own.
+// Makes output folders before the sandbox closes, because the sandbox grants rights only to existing
+// folders.
 
 #include "platform/descriptor.hpp"
 
@@ -10,8 +10,8 @@ namespace facetmill::io {
 
 struct CleanUp;
 
-/// While one lives, the folders that it knows are not removed by another that made them. Its end, or a
-/// signal, removes those that it made, are empty, and are used by no other.
+/// Protects the folders in use from removal by other runs that made them. The destructor, or a signal,
+/// removes folders that this object made if they are empty and unused.
 class EarlyFolders {
   public:
     EarlyFolders() = default;
@@ -19,9 +19,11 @@ class EarlyFolders {
     EarlyFolders& operator=(const EarlyFolders&) = delete;
     ~EarlyFolders();
 
-    /// Makes the folder and those above it that are missing. What fails is left to whoever writes there.
+    /// Makes the folder and its missing parents. Ignores errors, because writing to the folder will report
+    /// them.
     void make(const std::filesystem::path& folder);
-    /// The folders in which the first ones were made: what is made and removed there are folders only.
+    /// The parents of all folders made here. The sandbox need only allow making and removing folders in
+    /// these.
     std::vector<std::filesystem::path> made_in() const;
 
   private:
@@ -33,7 +35,7 @@ class EarlyFolders {
     };
     void use(const std::filesystem::path& folder, bool made);
 
-    std::vector<Folder> folders_; ///< an outer one before those in it
+    std::vector<Folder> folders_; ///< outer folders before inner folders
 };
 
 } // namespace facetmill::io

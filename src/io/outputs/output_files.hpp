@@ -1,5 +1,5 @@
 #pragma once
-// What is done to one file of the system while it is written: links, permissions.
+// File operations for a single output: links and permissions.
 
 #include "io/bytes.hpp"
 #include "platform/descriptor.hpp"
@@ -8,31 +8,32 @@
 
 namespace facetmill::io {
 
-/// The way out where a target cannot be written: what the sandbox says of it, else another folder. error: an
+/// A hint for a target that cannot be written: the sandbox's hint, otherwise another folder. error: an
 /// errno.
 [[nodiscard]] std::string hint_to_write(const std::filesystem::path& target, int error);
 
-/// Throws output in words for people: E-SPACE, E-DIRECTORY, else E-WRITE. error: an errno.
+/// Throws output with a readable message: E-SPACE, E-DIRECTORY, otherwise E-WRITE. error: an errno.
 [[noreturn]] void cannot_write(const std::filesystem::path& target, int error);
 
-/// Throws as cannot_write, naming the target.
+/// Throws as cannot_write does, with the target's name.
 void write_all(const Descriptor& file, Span bytes, const std::filesystem::path& target);
 
-/// Whether the target takes bytes one after another and cannot be replaced by a rename.
+/// Whether the target is a stream, which a rename cannot replace.
 bool is_stream(const std::filesystem::path& target);
 
-/// The file that is replaced: symbolic links at the end are followed, also when they lead nowhere yet.
+/// The file to replace: follows symbolic links at the end, even if their target does not exist.
 [[nodiscard]] std::filesystem::path followed(std::filesystem::path path);
 
-/// One name for a file, however it is spelled; "-" stays. Where a folder cannot be looked into, links there
-/// are not followed.
+/// The same path for every spelling of a file's path; "-" stays. Links in unreadable folders are not
+/// followed.
 [[nodiscard]] std::filesystem::path identity(const std::filesystem::path& path);
 
 /// Gives the temporary the permissions, and as far as allowed the owner, of the file it will replace.
 void keep_permissions(const Descriptor& file, const std::filesystem::path& target,
                       const std::filesystem::path& given);
 
-/// A second name (or, where there are no hard links, a copy) of the file at target; empty when there is none.
+/// Makes a hard link to the file at target, or a copy if hard links are not supported, and returns its path.
+/// Empty if the target does not exist.
 [[nodiscard]] std::filesystem::path set_aside(const std::filesystem::path& target);
 
 } // namespace facetmill::io

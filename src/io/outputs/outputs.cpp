@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Temporaries held open with a lock at a time; beyond it the process id alone says that they are alive.
+/// The limit for temporaries held open with a lock. Beyond it, only the process id shows that they are in
+/// use.
 constexpr std::size_t max_locks = 128;
 
 [[noreturn]] void cannot_write(const Outputs::File& file, int error) {
@@ -64,7 +65,7 @@ void Outputs::make_directory(const fs::path& directory) {
         }
         const int why = errno;
         if (fs::is_directory(directory, error)) return;
-        // Another run that failed may have removed this folder or one above, which it had made.
+        // A failed run may have removed this folder or a parent that it had made.
         const bool vanished =
             why == ENOENT || (why == EEXIST && !fs::exists(fs::symlink_status(directory, error)));
         if (vanished && attempt < max_attempts) continue;
@@ -77,8 +78,8 @@ void Outputs::make_directory(const fs::path& directory) {
 
 namespace {
 
-/// Whether a run of this process swept the directory a short while ago: each of a thousand runs would list
-/// the outputs of all.
+/// Whether a run of this process recently cleaned the directory. Without this check, each of a thousand runs
+/// would list the outputs of all.
 bool swept_lately(const fs::path& directory) {
     static std::mutex guard;
     static std::map<fs::path, std::chrono::steady_clock::time_point> times;
@@ -109,15 +110,14 @@ void Outputs::stage(File& file, const std::function<void(const Put&)>& produce) 
         const int why = errno;
         keep(file.clean_up);
         if (attempt >= max_attempts || (why != EEXIST && why != ENOENT)) cannot_write(file, why);
-        if (why == ENOENT) make_directory(directory); // another run that failed had made it, and removed it
+        if (why == ENOENT) make_directory(directory); // a failed run had made it and then removed it
     }
     try {
         try_lock(file.lock);
         keep_permissions(file.lock, file.resolved, file.target);
         produce([&](Span bytes) { write_all(file.lock, bytes, file.target); });
         if (settings_.sync) begin_sync(file.lock);
-        // Network file systems say only at a close that there is no room; the lock lives in the other
-        // descriptor.
+        // Network file systems may report a full disk only on close. The other descriptor holds the lock.
         if (Descriptor copy = duplicate(file.lock); !copy || !copy.close()) cannot_write(file, errno);
     } catch (...) {
         file.lock.close();
@@ -195,7 +195,8 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     const auto put_bytes = [&] { stage(*file, [&](const Put& put) { put(bytes); }); };
     if (!stream && !file->is_input && !by_identity_.contains(self) && !settings_.names_only) {
         make_place(*file);
-        constexpr std::size_t few = std::size_t{1} << 16; // bytes, for which another thread would take longer
+        constexpr std::size_t few = std::size_t{1}
+                                    << 16; // bytes; smaller files cost less than another thread
         parallel_for(
             2, [&](std::size_t i) { i == 0 ? take_sum() : put_bytes(); }, bytes.size() < few ? 2 : 1);
         return hold(std::move(file), self);
@@ -204,7 +205,7 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     if (file->is_input && input->second != file->sha256) refuse_input(target, where);
     if (const auto there = by_identity_.find(self); there != by_identity_.end()) {
         const File& other = *there->second;
-        // Two glTF files in one folder share their textures.
+        // Two glTF files in a folder may share textures.
         if (!stream && other.bytes == file->bytes && other.sha256 == file->sha256) return other;
         refuse_twice(target);
     }
@@ -241,7 +242,7 @@ void put_back(const AllRenamed& all) {
 
 } // namespace
 
-/// Files that have their bytes already count as inputs that do.
+/// Treats files that already have the right bytes as such inputs.
 void Outputs::leave_unchanged() {
     if (!settings_.keep_unchanged) return;
     for (const auto& file : files_) {
@@ -253,7 +254,7 @@ void Outputs::leave_unchanged() {
         try {
             if (sha256(Input::open(there).stored()) != file->sha256) continue;
         } catch (const Error&) {
-            continue; // it cannot be read, so it is replaced
+            continue; // an unreadable file is replaced
         }
         remove_file(file->temporary);
         keep(file->clean_up);
@@ -263,7 +264,7 @@ void Outputs::leave_unchanged() {
     }
 }
 
-/// Whatever the system has kept for later of the files that will get their names now.
+/// Flushes buffered data of the files that are about to be renamed.
 void Outputs::sync_contents() const {
     if (!settings_.sync) return;
     for (const auto& file : files_) {
@@ -274,8 +275,8 @@ void Outputs::sync_contents() const {
     }
 }
 
-/// The folders in which names are new. Where that cannot be had (a folder that may be written, not read; a
-/// disk that fails) it is left to the system: the files are there, whole.
+/// Syncs the folders with new names. Failures are ignored (an unreadable folder, a failing disk), because
+/// the files themselves are complete.
 void Outputs::sync_names() const {
     if (!settings_.sync) return;
     std::set<fs::path> folders;
@@ -309,7 +310,7 @@ std::vector<Outputs::Renamed> Outputs::rename_all(bool streams_follow) {
     }
     sync_names();
     for (auto& renamed : all) {
-        keep(renamed.file->clean_up); // the temporary has another name now
+        keep(renamed.file->clean_up); // the temporary has its final name now
         if (!streams_follow) continue;
         const fs::path& path = renamed.file->resolved;
         renamed.clean_up =
@@ -333,8 +334,8 @@ void Outputs::commit() {
     const bool streams =
         std::any_of(files_.begin(), files_.end(), [](const auto& f) { return is_streamed(*f); });
     std::vector<Renamed> all;
-    leave_unchanged(); // it reads files that may be large, so a signal need not wait for it
-    sync_contents();   // ... nor for the disk
+    leave_unchanged(); // reading may take long for large files, so do it before signals wait
+    sync_contents();   // the same applies to the disk
     {
         const HoldSignals hold;
         all = rename_all(streams);

@@ -1,7 +1,8 @@
 #pragma once
-// All outputs or none. Files are written beside their targets as temporaries and renamed together by
-// commit(); whatever ends the run before (an error, a signal) removes them and leaves older outputs as they
-// were. After kill -9 a temporary may stay; the next run that writes into that directory removes it.
+// Writes all outputs or none. Files are written as temporaries in the target's folder, and commit() renames
+// them together. If an error or a signal ends the run earlier, temporaries are removed and older outputs
+// stay unchanged. After kill -9 a temporary may remain; the next run that writes to the directory removes
+// it.
 
 #include "io/bytes.hpp"
 #include "platform/descriptor.hpp"
@@ -12,12 +13,12 @@
 
 namespace facetmill::io {
 
-struct CleanUp; // what a signal must undo; see io/outputs/clean_up.hpp
+struct CleanUp; // an action to undo on a signal; see io/outputs/clean_up.hpp
 
 struct CommitSettings {
-    bool keep_unchanged = false; ///< a file that has the bytes already is left alone, with its time
-    bool sync = true;        ///< the bytes are on the disk before a file gets its name, and names at the end
-    bool names_only = false; ///< nothing is written, and there is no commit: which files there would be
+    bool keep_unchanged = false; ///< leave files that already have the right bytes unchanged, with their time
+    bool sync = true;            ///< sync the contents of a file before its rename, and folders at the end
+    bool names_only = false;     ///< only list the files: write nothing and commit nothing
 };
 
 /// The outputs of a run.
@@ -26,30 +27,30 @@ class Outputs {
     Outputs() = default;
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
-    ~Outputs(); ///< removes what was not committed, and directories made for it
+    ~Outputs(); ///< removes uncommitted files, and directories made for them
 
     struct File {
         std::filesystem::path target; ///< as given
         std::filesystem::path
-            resolved; ///< what is replaced: symbolic links followed, so that they stay links
+            resolved; ///< the file to replace, with symbolic links followed, so that links stay links
         std::filesystem::path temporary; ///< empty for streams (-, devices, FIFOs), which are kept in memory
-        bool is_input = false; ///< an input that has these bytes already: it is left alone, with its time
+        bool is_input = false; ///< an input that already has these bytes: it stays unchanged, with its time
         Bytes stream;
         std::size_t bytes = 0;
         std::string sha256;
-        Mark where;      ///< what asked for it, for messages
+        Mark where;      ///< the stage or option that requested it, for messages
         Descriptor lock; ///< the temporary, held open and locked while this process lives
         CleanUp* clean_up = nullptr;
     };
 
-    /// An input with its SHA-256: from now on only the same bytes may be written there.
+    /// Protects an input with its SHA-256: from now on, only the same bytes may be written to it.
     void protect(const std::filesystem::path& input, std::string sum);
     /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY,
     /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
     /// already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
-    /// The same for a file that is not in memory: produce hands over its bytes, piece by piece. The target
-    /// is no stream; an input, or one that was staged, is refused whatever its bytes.
+    /// The same for data that is not in memory: `produce` passes it piece by piece. The target must not be a
+    /// stream. Inputs and already staged files are refused, whatever their bytes.
     using Put = std::function<void(Span)>;
     const File& add(const std::filesystem::path& target, const std::function<void(const Put&)>& produce,
                     const Mark& where = {});
@@ -57,12 +58,13 @@ class Outputs {
     void set(const CommitSettings& settings) { settings_ = settings; }
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;
-    /// Renames all, then streams the streams. On error everything not yet renamed is removed, what was
-    /// renamed is put back as it was (what a stream's reader has got is gone), and it throws. A signal that
-    /// arrives between the renames waits for the last; one that ends the streaming puts the files back too.
-    /// With sync, a loss of power leaves each file as it was or whole; of several, some may be new.
+    /// Renames all files, then writes the streams. On an error it removes all remaining temporaries,
+    /// restores replaced files, and throws. Data that a stream's reader received cannot be taken back. A
+    /// signal during the renames waits for the last rename. A signal during streaming also restores the
+    /// files. With sync, a loss of power leaves each file either unchanged or complete, but some of several
+    /// may be new.
     void commit();
-    /// Forgets everything staged (a failed run).
+    /// Discards all staged files, after a failed run.
     void discard();
     const std::vector<std::unique_ptr<File>>& files() const { return files_; }
 
@@ -73,7 +75,7 @@ class Outputs {
     };
     void make_directory(const std::filesystem::path& directory);
     void remove_stale(const std::filesystem::path& directory);
-    /// A file under its own name, and what was there before (empty: nothing).
+    /// A renamed file, and the file that it replaced (empty: none).
     struct Renamed {
         const File* file;
         std::filesystem::path aside;
@@ -87,18 +89,19 @@ class Outputs {
     void sync_contents() const;
     void sync_names() const;
     std::vector<Renamed> rename_all(bool streams_follow);
-    void settle(const std::vector<Renamed>& all); ///< there is no way back from here
+    void settle(const std::vector<Renamed>& all); ///< makes the commit final
     void forget(bool remove);
 
     CommitSettings settings_;
     std::vector<std::unique_ptr<File>> files_;
-    std::map<std::filesystem::path, const File*> by_identity_; ///< of what each replaces; streams by name
+    std::map<std::filesystem::path, const File*>
+        by_identity_; ///< the key is the replaced file; for streams, the name
     std::vector<Directory> made_directories_;
     std::set<std::filesystem::path> swept_;
     std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
 };
 
-/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output.
+/// Writes a single file atomically (reports, --save, depfiles). "-" is standard output.
 void write_now(const std::filesystem::path& target, Span bytes, const CommitSettings& settings = {});
 
 /// Installs handlers that remove staged temporaries and end the process by the signal: SIGINT, SIGTERM,

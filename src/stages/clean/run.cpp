@@ -37,13 +37,13 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
 
 struct CleanStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override { verify_clean(o, given, problems); }
-    /// Components and what lies inside others go as asked; a union takes what solids have in common.
+    /// Removing components loses area on purpose. A union removes the overlap of solids.
     MayLose may_lose() const override {
         if (o.components || o.inner_components || o.open_components) return MayLose::area;
         const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
         return unites ? MayLose::half : MayLose::tenth;
     }
-    /// What is done about intersecting faces is done for those that intersect themselves, too.
+    /// The policy for intersecting faces also covers faces that intersect themselves.
     CrossingFacePolicy crossing_faces() const override {
         return o.self_intersections == Untangle::off ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
     }

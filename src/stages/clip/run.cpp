@@ -37,7 +37,7 @@ struct ClipOptions {
 };
 
 struct PartsToClip {
-    ClipSettings settings; ///< the same for all; planes, memory and the caps' primitive are set part by part
+    ClipSettings settings; ///< shared by all parts; planes, memory and the caps' primitive are set per part
     std::string cap_material;
     const char *front = ".front", *back = ".back"; ///< added to the names of both sides
     bool by_box = false;                           ///< for messages
@@ -80,7 +80,7 @@ void declare(Declare<ClipOptions>& d) {
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
 
-/// The value of an option as written, or the whole.
+/// The option's value as written, or the whole map.
 const Value& written(const Value& given, const char* name) {
     const Value* value = given.is_map() ? given.find(name) : nullptr;
     return value ? *value : given;
@@ -94,7 +94,7 @@ std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& c
     return planes;
 }
 
-/// The planes to clip by, in a scene.
+/// The planes that clip a scene.
 class Cutter {
   public:
     /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
@@ -102,7 +102,7 @@ class Cutter {
         : options_(o), scene_(scene), context_(context) {
         if (o.space == Space::world) world_ = resolved(o, scene, context, nullptr);
     }
-    /// With space: world, as they stand in the scene.
+    /// The planes in world space; empty with space: local.
     const std::vector<Plane>& world() const { return world_; }
     /// In the part's own space.
     std::vector<Plane> planes_for(const Part& part) const {
@@ -138,7 +138,7 @@ void declare_report(DeclareFields<ClipReport>& d) {
     declare_kept_parts(d, &ClipReport::kept);
 }
 
-/// What users should know when all or nothing of the scene was kept.
+/// Warns when the whole scene or nothing was kept.
 void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
     const std::string look = fmt::format("check the position and {} (info prints the bounds)",
                                          how.by_box ? "size of the box" : "direction of the plane");
@@ -155,8 +155,8 @@ void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
                  fmt::format("{}, or keep the {}", look, other));
 }
 
-/// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Warns
-/// of open contours (W-CAP-OPEN), and where no plane meets any part (W-CLIP-ALL) or nothing is left of all
+/// Clips the selected parts by the cutter's planes. With Keep::both, each part's back follows its front.
+/// Warns of open contours (W-CAP-OPEN), if no plane meets a part (W-CLIP-ALL), and if nothing is left
 /// (W-CLIP-NOTHING).
 ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
     ClipSettings settings = how.settings;
@@ -216,12 +216,14 @@ Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& repor
     return scene;
 }
 
-/// Faces of cells that a clip may keep or cut: others do not meet what it keeps, nor what it caps.
+/// Selects the faces of cells that a clip may keep or cut. Other faces touch neither the kept side nor its
+/// caps.
 class Reached {
   public:
     Reached(std::vector<Plane> planes, const PartsToClip& how, const Box& box)
         : planes_(std::move(planes)), keep_(how.settings.keep), convex_(how.settings.convex) {
-        // Caps of a plane close on all that the planes before it have kept.
+        // A plane's caps depend on everything that earlier planes kept, so only the first plane can exclude
+        // faces.
         if (how.settings.cap && planes_.size() > 1) {
             if (keep_ == Keep::back && convex_)
                 planes_.clear();
@@ -237,7 +239,7 @@ class Reached {
     }
 
     bool operator()(const Vec3& a, const Vec3& b, const Vec3& c) {
-        const double away = keep_ == Keep::front ? -1 : 1; // the side that goes
+        const double away = keep_ == Keep::front ? -1 : 1; // the sign of the removed side
         bool all = !planes_.empty(), any = false;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
             const double s[] = {side(planes_[i], a), side(planes_[i], b), side(planes_[i], c)};
@@ -250,7 +252,7 @@ class Reached {
         }
         return !(keep_ == Keep::back && convex_ ? all : any);
     }
-    /// Whether a face lay in a plane, or nearly so.
+    /// Whether any face was in a plane, within the margin.
     bool in_plane() const { return in_plane_; }
 
   private:
@@ -260,8 +262,8 @@ class Reached {
     bool convex_, in_plane_ = false;
 };
 
-/// What becomes of faces in the plane depends on whether the part is closed, which some of its faces do not
-/// tell.
+/// A clip treats faces in the plane differently for closed and open parts. The gathered faces alone may not
+/// show whether the part is closed.
 void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
     if (inspect(some).closed == cells::inspect_cells(*flow.partition, {}, flow.means).closed) return;
     throw Error(ErrorKind::usage, "E-CELLS",
@@ -270,7 +272,7 @@ void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
 }
 
 struct ClipStage : StageOf<run> {
-    /// Adds E-PLANE and E-BOX for what is none.
+    /// Adds E-PLANE for invalid planes and E-BOX for an invalid box.
     void verify(const Value& given, Problems& problems) const override {
         const Value& planes = written(given, "planes");
         if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
@@ -282,7 +284,7 @@ struct ClipStage : StageOf<run> {
             verify_plane(o.planes[i], listed ? planes.items[i].mark : given.mark, problems);
         }
     }
-    /// Brings what the planes reach into memory, and clips that.
+    /// Loads only the faces that the planes reach, and clips them.
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
         if (o.keep == Keep::both) return "keep: both makes nothing small";
@@ -301,7 +303,7 @@ void ClipStage::on_cells(CellFlow& flow, Context& context) const {
     Mesh some = cells::gathered(*flow.partition, std::ref(reached), flow.means);
     if (reached.in_plane()) check_faces_in_plane(flow, some);
     flow.partition.reset();
-    // The rounding that snaps points is that of the whole box.
+    // The corners of the whole box give the same snapping tolerance as the whole mesh.
     for (const double x : {box.min.x, box.max.x})
         for (const double y : {box.min.y, box.max.y})
             for (const double z : {box.min.z, box.max.z}) some.positions.push_back({x, y, z});

@@ -20,9 +20,9 @@ namespace {
 
 struct PartsToCrop {
     CropSettings
-        settings; ///< the same for all; transform, memory and the caps' primitive are set part by part
+        settings; ///< shared by all parts; transform, memory and the caps' primitive are set per part
     bool triangulate = false;
-    bool both = false; ///< the inside and, behind it as a part of its own, the outside
+    bool both = false; ///< keep the inside, and the outside as a separate part after it
     std::string cap_material;
 };
 
@@ -173,7 +173,7 @@ class CropRun {
         std::string text() const {
             return fmt::format("({:.10g}, {:.10g}) to ({:.10g}, {:.10g})", low[0], low[1], high[0], high[1]);
         }
-        /// Whether they may be longitudes and latitudes.
+        /// Whether the coordinates may be longitudes and latitudes.
         bool may_be_degrees() const {
             return low[0] >= -180 && high[0] <= 180 && low[1] >= -90 && high[1] <= 90;
         }
@@ -197,8 +197,8 @@ class CropRun {
         return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of_footprint().text(),
                            report_.kept.all() == 1 ? "part" : "scene", emptied_.text());
     }
-    /// Whether the footprint seems to be in degrees and the parts in metres. Small numbers may as well count
-    /// from another origin: five degrees are 550 km, and within a degree of 0, 0 is only sea.
+    /// Whether the footprint seems to be in degrees and the parts in metres. Small numbers may instead count
+    /// from another origin: five degrees are 550 km, and the area within a degree of 0, 0 is sea.
     bool is_in_degrees() const {
         constexpr double most_degrees = 5, of_sea = 1;
         const Bounds b = bounds_of_footprint();
@@ -248,12 +248,12 @@ class CropRun {
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
-    Bounds emptied_; ///< around the parts of which nothing was kept
+    Bounds emptied_; ///< the box of parts of which nothing was kept
     CropReport report_;
 };
 
-/// Crops the parts selected. Warns of open contours (W-CAP-OPEN), and where the outline meets no part
-/// (W-CROP-ALL) or nothing is left of all (W-CROP-NOTHING).
+/// Crops the selected parts. Warns of open contours (W-CAP-OPEN), if the outline meets no part (W-CROP-ALL),
+/// and if nothing is left (W-CROP-NOTHING).
 CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
     return CropRun(scene, footprint, how, context).run(how.cap_material);
 }
@@ -287,7 +287,7 @@ struct CropStage : StageOf<run> {
                                 "leave out cap, or use by: cut"},
                         "crop", given, problems);
     }
-    /// Faces that are kept whole stay as they are.
+    /// Faces that are kept whole do not change, so they need no filling.
     CrossingFacePolicy crossing_faces() const override {
         return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }

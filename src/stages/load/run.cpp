@@ -127,11 +127,11 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
     return scene;
 }
 
-/// What reading them whole tells of files that state another unit or up axis than is given, or no unit where
-/// others do.
+/// Warns of files whose own unit or up axis differs from the given value. Also warns if some files state a
+/// unit and others do not.
 void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const io::ReadSettings& settings,
                          Unit unit, Context& context) {
-    if (paths.size() < 2 && !settings.unit && !settings.up) return; // one file is taken as it says
+    if (paths.size() < 2 && !settings.unit && !settings.up) return; // a single file defines the convention
     for (const auto& path : paths) {
         const io::Input input = cells::open_mapped(path);
         const io::FileHeader stated = io::file_header(input, {});
@@ -155,7 +155,7 @@ struct LoadStage : StageOf<run> {
     io::FileHeader header(const std::filesystem::path& path, const Folders& places) const override {
         return io::file_header(io::Input::open(path), read_settings(o, places), io::codec_named(o.format));
     }
-    /// As run, of files that do not fit into memory.
+    /// The same as run, for files that do not fit into memory.
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
         if (o.lines) return "lines need the whole file";
@@ -183,10 +183,10 @@ void LoadStage::on_cells(CellFlow& flow, Context& context) const {
     };
     try {
         flow.partition = cells::kept_partition(source, flow.means);
-    } catch (const Error&) { // a report of what failed names the inputs, too
+    } catch (const Error&) { // reports of failed runs also list the inputs
         try {
             record_inputs();
-        } catch (const Error&) { // they cannot be read: what failed is told, and not this
+        } catch (const Error&) { // unreadable files have their own error, so skip this warning
         }
         throw;
     }

@@ -36,8 +36,8 @@ std::pair<std::string_view, std::string_view> displaced(std::string_view name) {
     return {name.substr(0, end + 1), name.substr(end + 1)};
 }
 
-/// Whether every morph target keeps at least one attribute when this semantic goes. Weights count the
-/// targets, so none may become empty.
+/// Whether every morph target keeps at least one attribute without this semantic. Morph weights are per
+/// target, so no target may become empty.
 bool targets_can_lose(const Mesh& mesh, std::string_view semantic) {
     std::map<std::string_view, std::size_t> left;
     for (const Attribute& a : mesh.attributes) {

@@ -116,8 +116,8 @@ class Optimizing {
                 if (p.material < instead.size()) p.material = instead[p.material];
     }
 
-    /// The key of equal materials: the document and the representative material in it, or none and the name;
-    /// sides and colour.
+    /// The key of equal materials: document, representative material (without a document: the name), sides
+    /// and colour.
     using MaterialKey = std::tuple<int, std::size_t, std::string, bool, std::array<std::uint64_t, 4>>;
 
     MaterialKey key_of(const Material& m, const std::vector<std::vector<std::size_t>>& stands_for) const {

@@ -15,7 +15,7 @@ namespace {
 /// The parameter shown to users: for a ray, the distance from its start.
 double shown(const Line& line, double t) { return line.ray ? t * length(line.to - line.from) : t; }
 
-/// Sets the face's part and number in the answer; unset for none.
+/// Sets the face's part and number in the answer. Leaves both unset without a face.
 template <class Answer>
 void name_face(Answer& answer, const FaceNames& faces, Index face) {
     const auto [part, number] = faces.of(face);

@@ -20,10 +20,9 @@ bool is_from_load(const RenderOptions& o);
 [[nodiscard]] std::string unit_of_legend(const RenderOptions& o, const Quantity* quantity, Unit unit,
                                          const Context& context);
 
-/// The selected parts with the measured numbers as an attribute; quantities that compare measure against
-/// `other`. bind: the scene is skinned or morphed. It is measured in bind pose as stages see it, and not
-/// taken apart, so that it can be posed. For deviation, large faces are cut into small faces, unless their
-/// edges are drawn.
+/// The selected parts with the measured numbers as an attribute. A quantity that compares is measured
+/// against `other`. bind: the scene is skinned or morphed, so it is measured in bind pose and not split, so
+/// that it can be posed. For deviation, large faces are cut into small faces, unless their edges are drawn.
 [[nodiscard]] Scene measured(const RenderOptions& o, const Quantity& quantity, const Scene& scene,
                              const std::function<bool(const Part&)>& selects, const FaceTree* other,
                              bool bind);

@@ -112,7 +112,7 @@ std::optional<SectionFrame> first_frame(const SectionReport& r) {
 
 // --- lines
 
-/// Empty for none.
+/// A count with its noun; empty for 0.
 std::string some(std::size_t n, const char* one, const char* several) {
     return n == 0 ? std::string() : grouped(n) + " " + noun_for(n, one, several);
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double max_lines = 5e6;
 
-/// Refuses to draw more lines than anybody can look at, or memory can hold.
+/// Refuses to draw more lines than a viewer can show or memory can hold.
 void check_hatching(const std::vector<Section>& sections, double spacing) {
     double lines = 0;
     for (const Section& s : sections) {
@@ -33,7 +33,7 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
                     "choose a larger spacing, or fewer planes");
 }
 
-/// The extent of the parts selected along the normal.
+/// The extent of the selected parts along the normal.
 Extent extent_of(const Scene& scene, const Plane& plane, const Context& context) {
     Extent extent;
     for (const Part& part : scene.parts)
@@ -41,8 +41,8 @@ Extent extent_of(const Scene& scene, const Plane& plane, const Context& context)
     return extent;
 }
 
-/// The planes: one alone without spacing and count, else as geometry/section_stack says over the extent.
-/// Throws stage (E-SECTION) for a spacing that comes to 0, and what stack_of throws.
+/// The planes: a single plane without spacing and count, otherwise a stack over the extent
+/// (geometry/section_stack). Throws stage (E-SECTION) if the spacing is 0, and the errors of stack_of.
 template <class ExtentOf>
 Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, Context& context) {
     if (!o.spacing && !o.count) return {};
@@ -66,7 +66,7 @@ std::optional<polygon::HatchSettings> hatching_for(const SectionOptions& o, cons
     return o.hatch ? std::optional(resolve_hatch(*o.hatch, scene, context)) : std::nullopt;
 }
 
-/// The volume of the parts selected, in the world; none when one is not closed.
+/// The volume of the selected parts in the world; none if a part is not closed.
 std::optional<double> volume_of(const Scene& scene, const Context& context) {
     double volume = 0;
     for (const Part& part : scene.parts) {
@@ -78,9 +78,9 @@ std::optional<double> volume_of(const Scene& scene, const Context& context) {
     return volume;
 }
 
-/// A sheet for each plane, with the sections of the parts selected and their hatching. Throws what section
-/// and hatch throw, and limit (E-HATCH) for a stack that would take more than five
-/// million lines in a part.
+/// One sheet per plane, with the sections of the selected parts and their hatching. Throws the errors of
+/// section and hatch. Throws limit (E-HATCH) if the hatching of a part would need more than five million
+/// lines.
 io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& stack,
                           const std::optional<polygon::HatchSettings>& hatching, Context& context) {
     io::Drawing drawing{context.name(), scene.unit, {}};
@@ -128,7 +128,7 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
 struct SectionStage : StageOf<run> {
     StageFiles files() const override { return StageFiles{{}, o.path}; }
     void verify(const Value& given, Problems& problems) const override { verify_section(o, given, problems); }
-    /// Brings the faces that the planes cut into memory, and cuts those: a section needs no others.
+    /// Loads only the faces that the planes cut, because a section needs no others.
     void on_cells(CellFlow& flow, Context& context) const override;
 };
 

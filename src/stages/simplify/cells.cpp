@@ -18,7 +18,8 @@ SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flo
     if (o.max_quadric_error) {
         const Length& limit = *o.max_quadric_error;
         const bool of_part = limit.kind == Length::Kind::percent && limit.of == Length::Of::part;
-        const Scene outline = flow.outline(); // limits are of the world, the cells are before the transform
+        const Scene outline =
+            flow.outline(); // limits use world units, but cells are stored before the transform
         settings.max_quadric_error =
             of_part ? limit.amount / 100 * diagonal(outline.parts.front().mesh.bounds())
                     : context.resolve(limit, outline, "max_quadric_error") / greatest_stretch(flow.transform);
@@ -27,7 +28,7 @@ SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flo
     return settings;
 }
 
-/// The result as that of any simplification.
+/// Converts the result to the common result of simplification.
 SimplifyResult told(const cells::HierarchyResult& done, const Mesh& mesh, const cells::Partition& partition) {
     SimplifyResult r;
     r.changes = done.changes;

@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about simplify.
+// The help and manual texts of simplify.
 
 namespace facetmill::help::simplify {
 

@@ -153,7 +153,7 @@ void declare_targets(Declare<SimplifyOptions>& d) {
     declare_max_quadric_error(d);
 }
 
-/// What the algorithm takes just as users say it.
+/// Declares the settings that the algorithm uses without conversion.
 void declare_settings(Declare<SimplifySettings>& d) {
     d.choice<Method>(
         "method", &SimplifySettings::method,
@@ -189,7 +189,7 @@ void declare_settings(Declare<SimplifySettings>& d) {
         .also_called(property_named("self_intersections")->also_called);
 }
 
-/// Collects conflicts: options that only another method, or none of those given, uses.
+/// Collects conflicts: options that only other methods use, or that no given option uses.
 class Conflicts {
   public:
     Conflicts(const Value& given, Problems& problems) : given_(given), problems_(problems) {}

@@ -1,5 +1,5 @@
 #pragma once
-// The options of simplify, and what they come to.
+// The options of simplify, and the settings that follow from them.
 
 #include "geometry/simplify/simplify.hpp"
 #include "stage/options/box.hpp"
@@ -28,7 +28,7 @@ struct SimplifyOptions {
     std::optional<Length> max_error;
     Share share = Share::error;
     std::optional<Length> max_quadric_error = Length::percent(1, Length::Of::part); ///< none: off
-    SimplifySettings settings{}; ///< what the algorithm takes just as users say it; the rest is unset
+    SimplifySettings settings{}; ///< options that the algorithm uses without conversion; the rest is unset
     LockOptions lock;
     Angle feature_angle = Angle::degrees(30);
     std::optional<LevelOptions> lods;
@@ -38,11 +38,11 @@ struct SimplifyOptions {
 
 /// Whether the method measures the error that max_quadric_error limits.
 bool has_quadrics(const SimplifyOptions& o);
-/// Whether several parts come to one target in one order of cost.
+/// Whether several parts share one target and collapse in one order of cost.
 bool shares_by_error(const SimplifyOptions& o);
 
 void declare_simplify(Declare<SimplifyOptions>& d);
-/// What the declaration cannot say: options that do not go together.
+/// Checks for options that conflict, which the declaration cannot express.
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems);
 
 /// The settings for all parts together, with lengths as written and without the planes of lock: {box}.

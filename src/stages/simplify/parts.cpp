@@ -15,7 +15,7 @@ bool is_of_part(const Length& length) {
     return length.kind == Length::Kind::percent && length.of == Length::Of::part;
 }
 
-/// The lengths are resolved in the order in which the report has them.
+/// Resolve the lengths in the order of the report.
 SimplifyPartsSettings settings_in(const Scene& scene, const SimplifyOptions& o, Context& context) {
     SimplifyPartsSettings s{.all = simplify_settings(o), .selected = {}, .size_before = {}};
     for (const Part& part : scene.parts) s.selected.push_back(context.selects(part, scene));
@@ -35,8 +35,8 @@ SimplifyPartsSettings settings_in(const Scene& scene, const SimplifyOptions& o, 
     return s;
 }
 
-/// Whether the target of a level is other than all that there is: 100 %, or as many faces, does nothing, as
-/// it says.
+/// Whether a level's target differs from the current counts. A ratio of 100 %, or the same number of faces,
+/// asks for nothing.
 bool asks_for_less(const SimplifyOptions& o, const MeshCounts& all, std::size_t level) {
     if (o.lods) return o.lods->ratios[level].value < 1;
     const auto differs = [](std::optional<std::int64_t> target, std::size_t count) {
@@ -62,7 +62,7 @@ void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Con
                      fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
                                  counted(r.faces_before, "triangle"),
                                  counted(r.vertices_before, "vertex", "vertices")));
-    if (r.stop == Stop::stuck && asked.target) // else it went as far as it goes within the error
+    if (r.stop == Stop::stuck && asked.target) // without a target, the error limit ends the work
         context.warn("W-SIMPLIFY-STOPPED",
                      fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
                                  counted(r.faces_after, "triangle"), held_by(r)),
@@ -98,7 +98,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;
     std::vector<Limited> limited;
     std::vector<Part> coarser;
-    // An entry is a kilobyte: to grow the list would copy and fault in several times as many.
+    // An entry takes a kilobyte, so growing the list would copy several times as much.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
         scene.parts[number].changed = true;
@@ -112,7 +112,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
             warn_of_stop(part, r, {asks_for_less(o, all, i), has_target}, context);
             if (r.stop == Stop::max_quadric_error)
                 limited.push_back({part.name, r.faces_before, r.faces_after});
-            if (levels[i].surface && !o.lods) // with lods, other parts come between
+            if (levels[i].surface && !o.lods) // lods add parts to the scene
                 context.keep_size(number, *levels[i].surface);
             levels[i].part = part.name;
             report.parts.push_back(std::move(levels[i]));

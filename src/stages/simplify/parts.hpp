@@ -1,5 +1,5 @@
 #pragma once
-// What the stage simplify does to the parts of a scene.
+// The stage simplify for the parts of a scene.
 
 #include "stage/stage.hpp"
 #include "stages/simplify/options.hpp"
@@ -7,17 +7,18 @@
 
 namespace facetmill::simplify_stage {
 
-/// Simplifies the selected parts (geometry/simplify) and reports the results; coarser levels of detail become
-/// parts of their own.
+/// Simplifies the selected parts (geometry/simplify) and reports the results. Coarser levels of detail
+/// become separate parts.
 [[nodiscard]] Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context,
                                    SimplifyReport& report);
 
-/// What was asked for: less than there is; a number of faces or vertices, and not only an error.
+/// less: the target is below the current counts. target: it is a number of faces or vertices, not only an
+/// error.
 struct AskedFor {
     bool less = true, target = true;
 };
 
-/// Warns where a part stopped above its target, had nothing to do, or vanished.
+/// Warns if a part stopped above its target, had nothing to do, or vanished.
 void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context);
 
 /// A part that max_quadric_error stopped above its target.

@@ -54,7 +54,7 @@ template <class T>
 auto of_result(T SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) -> const T& { return p.result.*member; };
 }
-/// ... a length, in scene units.
+/// A length, in scene units.
 auto of_length(std::optional<double> SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) {
         const auto& length = p.result.*member;
@@ -136,7 +136,7 @@ void declare_counts(DeclareFields<SimplifiedPart>& d) {
              "What ended the simplification.");
 }
 
-/// Counts of the work, and what it left.
+/// Counts of the work, and of the remaining obstacles.
 void declare_work(DeclareFields<SimplifiedPart>& d) {
     d.field("largest_error", of_length(&SimplifyResult::largest_error),
             "The largest error of a collapse, as the method measures it.")
@@ -203,7 +203,7 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
 
 // --- lines for the terminal
 
-constexpr std::size_t few = 5; // parts that are told one by one
+constexpr std::size_t few = 5; // more parts are summarized
 
 std::string counts_text(std::uint64_t before, std::uint64_t after) {
     std::string text = fmt::format("{} -> {} triangles", grouped(before), grouped(after));

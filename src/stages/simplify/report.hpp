@@ -1,5 +1,5 @@
 #pragma once
-// A simplification as reports have it.
+// The report of a simplification.
 
 #include "geometry/simplify/simplify.hpp"
 #include "options/fields.hpp"
@@ -12,11 +12,12 @@ namespace facetmill::simplify_stage {
 struct SimplifyReport {
     std::vector<SimplifiedPart> parts;
 };
-/// Lines for the terminal: counts, what stopped it, the deviation. A few parts one by one, more of them
-/// together.
+/// Lines for the terminal: counts, the reason for the stop, the deviation. A few parts get a line each; more
+/// are summarized.
 void declare_simplify_report(DeclareFields<SimplifyReport>& d);
 
-/// What holds the edges that are left, as a phrase; and what can be done about most of them.
+/// held_by: a phrase with the reasons why the remaining edges cannot collapse. hint_for: the advice for the
+/// most frequent reason.
 [[nodiscard]] std::string held_by(const SimplifyResult& r);
 [[nodiscard]] std::string hint_for(const SimplifyResult& r);
 

@@ -10,7 +10,7 @@ namespace facetmill::split_stage {
 
 namespace {
 
-/// The attribute changes of a pass, taken from the first cell.
+/// The attribute changes of a pass. The first cell represents all cells.
 AttributeChanges changes_of(const cells::Partition& partition) {
     const Mesh mesh = partition.cell(0).mesh;
     return split(mesh, {.method = SplitMethod::midpoint}).changes;

@@ -18,7 +18,7 @@ std::uint64_t share(const SplitOptions& o, const Part& part, double total) {
         1, static_cast<std::uint64_t>(static_cast<double>(*o.max_faces) * (total > 0 ? mine / total : 1)));
 }
 
-/// split, whose refusals name the part.
+/// Runs split and adds the part's name to errors.
 SplitResult split_part(const Part& part, const SplitSettings& settings) {
     try {
         return split(part.mesh, settings);
@@ -60,9 +60,9 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
 
 struct SplitStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override { verify_split(o, given, problems); }
-    /// Smooth methods approach a surface inside the corners of the first, however much that is.
+    /// Smooth methods converge to a surface inside the original corners, so any loss of area is intended.
     MayLose may_lose() const override { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
-    /// A grid takes faces of four corners at most, so that they cannot be filled.
+    /// A grid accepts at most four corners per face, so crossing faces cannot be filled.
     CrossingFacePolicy crossing_faces() const override {
         return o.chosen() == SplitMethod::grid ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
     }

@@ -36,7 +36,7 @@ struct ImageSettings {
 [[nodiscard]] ImageSettings for_data(const TexturesOptions& o);
 
 void declare_textures(Declare<TexturesOptions>& d);
-/// Whether the options ask for KTX2 in a role.
+/// Whether any role is to be encoded as KTX2.
 bool wants_ktx2(const TexturesOptions& o);
 
 /// Checks beyond the declaration: lossless needs WebP, and KTX2 needs an installed encoder.

@@ -25,7 +25,7 @@ struct TexturesReport {
     std::size_t resized = 0, converted = 0, repacked = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
 };
 
-/// Images of equal bytes, wherever they are.
+/// Images with equal bytes, in any document.
 struct Job {
     const io::DocumentImage* image = nullptr; ///< the first of them
     ImageState before;
@@ -34,7 +34,7 @@ struct Job {
     ProcessedImage processed_image;
 };
 
-/// The materials of each document that parts use which are left out.
+/// Materials used by parts that are left out, for each document.
 std::vector<std::set<int>> held_materials(const Scene& scene, const Context& context) {
     std::vector<std::set<int>> held(scene.documents.size());
     for (const Part& part : scene.parts) {
@@ -62,7 +62,7 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
     std::map<std::string, std::size_t> known; // by digest
     for (std::size_t d = 0; d < images.size(); ++d)
         for (const io::DocumentImage& image : images[d]) {
-            // Without bytes there is nothing that two could share.
+            // Images without bytes cannot be shared.
             const std::string key =
                 image.bytes.empty() ? fmt::format("{} {}", d, image.index) : sha256(image.bytes);
             const auto [place, fresh] = known.try_emplace(key, jobs.size());
@@ -74,7 +74,7 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
     return jobs;
 }
 
-/// What went wrong in the program that encodes it.
+/// Adds the image's name to an error of the KTX2 encoder.
 Error about_image(const Error& error, const std::string& image) {
     const Diagnostic& first = error.diagnostics().front();
     if (first.id != "E-KTX") return error;
@@ -85,7 +85,8 @@ Error about_image(const Error& error, const std::string& image) {
             first.hint.empty() ? "facetmill explain E-KTX" : first.hint};
 }
 
-/// Several images at once, but not more pixels than one image may have, which bounds the memory.
+/// Processes several images at once. Their total is limited to the pixels of the largest allowed image,
+/// which bounds the memory.
 void work(std::vector<Job>& jobs, const TexturesOptions& o) {
     using io::max_pixels;
     for (std::size_t begin = 0; begin < jobs.size();) {
@@ -203,7 +204,8 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
     std::vector<Job> jobs = jobs_of(images);
     work(jobs, o);
     put_back(scene, jobs);
-    if (wants_ktx2(o)) context.mark_uncacheable(); // another version of the program may write other bytes
+    if (wants_ktx2(o))
+        context.mark_uncacheable(); // a different version of the program may write different bytes
     tell(jobs, context, report);
     return scene;
 }
@@ -224,7 +226,7 @@ const RegisterStage registered = make_stage<TexturesStage>(
                   "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"},
      .changes_images = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all}, // it touches no mesh: nothing is to be compared
+     .may_lose = MayLose::all}, // it changes no mesh, so nothing is compared
     declare_textures, declare_report);
 
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using Mode = ThickenOptions::Mode;
 
-/// Thickens surfaces; parts that are one shape but for a move are worked on once.
+/// Thickens surfaces. Parts that differ only by a move are processed once.
 class SurfaceThickener {
   public:
     SurfaceThickener(const Scene& scene, const ThickenOptions& o)
@@ -33,7 +33,7 @@ class SurfaceThickener {
   private:
     struct Known {
         ThickenResult result;
-        Vec3 origin; ///< of the part that it was made of, in the world
+        Vec3 origin; ///< in world space, of the part that it was made from
     };
 
     ThickenResult result_for(const Part& part, double thickness) {
@@ -54,7 +54,8 @@ class SurfaceThickener {
     const Scene& scene_;
     const ThickenOptions& o_;
     DistinctParts shapes_;
-    std::map<std::pair<std::size_t, std::uint64_t>, Known> known_; ///< by the first part and the thickness
+    std::map<std::pair<std::size_t, std::uint64_t>, Known>
+        known_; ///< the key: first equal part and thickness
 };
 
 ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
@@ -92,7 +93,7 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
 }
 
 struct ThickenStage : StageOf<run> {
-    /// Of wires, only the edges count.
+    /// Wires use only the edges of faces.
     CrossingFacePolicy crossing_faces() const override {
         return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }

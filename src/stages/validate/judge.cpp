@@ -106,7 +106,7 @@ class Judge {
             Failure failure = failure_of(
                 check, subject, s_.baseline ? location_keys(scene, assertion) : std::vector<std::uint64_t>{});
             const auto verdict = known_.judge(failure);
-            // New locations come first if other locations are already known.
+            // If some locations are already known, new locations come first.
             const bool some = verdict.known && !verdict.keys.empty();
             check.evidence =
                 some ? evidence_among(scene, assertion, verdict.keys) : evidence_against(scene, assertion);

@@ -17,7 +17,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// Reads the file again: that its bytes are those that were handed over.
+/// Reads the file back and compares its hash with the bytes handed over.
 void read_again(const io::Outputs::File& file, Context& context) {
     const cells::ReadFile there(file.temporary);
     Sha256 sum;
@@ -47,7 +47,7 @@ struct Staged {
     report::FileRecord told;
 };
 
-/// Stages one file of bytes, told as the pipeline names it.
+/// Stages one file of bytes under the name that the pipeline uses.
 Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& context) {
     const auto& staged =
         context.outputs().add(context.places().output(name.string()), bytes, context.where());
@@ -55,7 +55,7 @@ Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& con
     return {&staged, {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, bytes)}};
 }
 
-/// The cells as a tileset, each tile staged as soon as it is made.
+/// Writes the cells as a tileset. Each tile is staged as soon as it is made, to limit memory.
 void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, CellFlow& flow,
                    const Scene& outline, WriteReport& report, Context& context) {
     const std::filesystem::path path = o.path.text, folder = path.parent_path();
@@ -80,7 +80,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
     for (const io::Outputs::File* file : staged) read_again(*file, context);
 }
 
-/// A GLB could hold the attributes of cells, but gets none.
+/// Warns that a GLB written from cells has positions only, although the format could hold attributes.
 void tell_of_positions_only(const WriteOptions& o, CellFlow& flow, const Part& part, Context& context) {
     constexpr const char* why = "a GLB that is written from cells has positions only";
     std::vector<std::string> names;

@@ -22,7 +22,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// The positions of all parts in the world, as a plain Draco file has them.
+/// The world positions of all parts, as a plain Draco file has them.
 Mesh in_one(const Scene& scene) {
     Mesh all;
     for (const Part& part : scene.parts)
@@ -30,8 +30,8 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// For each part, as few bits as have steps no larger, in the world, than those of `bits` for the longest
-/// side of the scene; at least 10 (if `bits` are not fewer), a thousandth of the part.
+/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
+/// the scene's longest side. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
 std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     constexpr int fewest = 10;
     const double whole = scene.bounds().longest_side();
@@ -46,8 +46,8 @@ std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     return all;
 }
 
-/// As many bits as keep the vertices apart, up to the limit, if there is one. False where the limit is not
-/// enough: then they are as usual.
+/// Raises the bits until vertices stay distinct. Returns false if the limit is not enough; the bits are then
+/// the usual number. Without a limit, nothing changes.
 bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> limit) {
     if (!limit) return true;
     const std::optional<int> found = io::bits_that_keep_distinct(mesh, bits);
@@ -56,7 +56,7 @@ bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> li
     return enough;
 }
 
-/// Parts that share a mesh have the most that one of them needs.
+/// Parts that share a mesh get the largest number of bits among them.
 void as_shared(std::vector<int>& bits, const Scene& scene) {
     std::map<std::pair<int, int>, int> most;
     const auto key = [&](std::size_t i) {
@@ -74,7 +74,7 @@ std::string why(int usual, Grid grid, int limit, bool enough) {
     return fmt::format("{} would not keep all vertices distinct", limit);
 }
 
-/// Why rounding put points on others or faces on lines, and the hint.
+/// The reason why rounding merged points or put points onto lines, and the hint.
 std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const std::size_t points = back.changes.rounded;
     const std::string what = points > 0 ? fmt::format("put {} on others", counted(points, "point"))
@@ -92,7 +92,7 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
         codec.name, what);
 }
 
-/// Why a file is less sound than the scene, and the hint.
+/// The reason why a file is less sound than the scene, and the hint.
 std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const io::VertexChanges& changes = back.changes;
     std::vector<std::string> reasons;
@@ -140,7 +140,7 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 
 namespace {
 constexpr double tolerable_rounding =
-    1e-6; // of the diagonal, as for the origin of glTF and what is read back
+    1e-6; // of the diagonal, the same as for glTF origins and for the read-back
 } // namespace
 
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds) {
@@ -149,7 +149,7 @@ bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bou
     double farthest = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
         farthest = std::max({farthest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
-    constexpr double step = 1.0 / (1 << 24); // the largest rounding of a float32, of its size
+    constexpr double step = 1.0 / (1 << 24); // the largest relative rounding error of a float32
     return farthest <= std::numeric_limits<float>::max() &&
            farthest * step > tolerable_rounding * diagonal(bounds);
 }
@@ -222,7 +222,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
                                    : Grid::scene;
     const std::optional<int> limit = given ? std::nullopt : std::optional(s.draco.on ? 24 : 16);
     s.tiles.given_bits = given;
-    if (codec.can.tiles) return; // which have one grid, and choose it: io/tileset/frame.hpp
+    if (codec.can.tiles) return; // tilesets choose a common grid: io/tileset/frame.hpp
     bool enough = true;
     if (codec.can.transforms) {
         s.part_bits =

@@ -1,5 +1,5 @@
 #pragma once
-// How write brings a scene into a file's convention and precision, and the file among the outputs of the run.
+// Helpers of write: conversion to the file's convention and precision, and staging of the file.
 
 #include "stages/write/options.hpp"
 
@@ -7,7 +7,7 @@ namespace facetmill::write_stage {
 
 struct WriteReport {
     struct Bits {
-        int position_bits = 0; ///< of the part that has the most
+        int position_bits = 0; ///< in the part with the most
         std::optional<int> least;
         std::string why;
     };
@@ -21,36 +21,36 @@ struct WriteReport {
 
 void declare_write_report(DeclareFields<WriteReport>& d);
 
-/// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
-/// when the option asks for one and the scene has none; warns of guesses.
+/// Converts to the unit and up axis of the file: the option's, otherwise the format's. Throws stage (E-UNIT,
+/// E-UP) if the option gives one and the scene has none. Warns of guesses.
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
                    WriteReport& report);
 
-/// Whether precision is automatic, the format can have all digits and no origin of its own, and coordinates
-/// may be too far from the origin for float32.
+/// Whether precision is automatic, coordinates may be too far from the origin for float32, and the format
+/// stores all digits but no origin.
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds);
-/// How far float32 moves a coordinate of the scene, in the world, at most. O(vertices).
+/// The largest distance that float32 moves a world coordinate of the scene. O(vertices).
 [[nodiscard]] double moved_by_floats(const Scene& scene);
-/// Whether that is more than a millionth of the diagonal; says so.
+/// Whether the rounding exceeds a millionth of the diagonal; if so, logs it.
 bool needs_full(double rounding, const Box& bounds, Context& context);
 
-/// By material of the scene, the set of texture coordinates that its map of normals reads, if it has one.
+/// For each material of the scene, the set of texture coordinates of its normal map, if any.
 [[nodiscard]] std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
-/// Gives a part tangents where a material of it has a map of normals. False, and nothing changed, where it
-/// has none, or lacks normals or the texture coordinates, or has tangents already and they are to stay.
+/// Adds tangents to a part if one of its materials has a normal map. Returns false, and changes nothing,
+/// without a normal map, normals or texture coordinates. The same applies if existing tangents are to stay.
 bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
                    Context& context);
 
-/// Whether the user gave the bits of positions of a file with a grid.
+/// Whether the user gave the position bits for a file with a grid.
 bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o);
 
-/// Bits of position for a file with a grid (Draco, quantize), part by part: those that are given or usual, of
-/// the scene or of each mesh, and, unless given, as many as keep vertices apart.
+/// Chooses the position bits per part for a file with a grid (Draco, quantize). The given or usual bits
+/// apply to the scene or to each mesh. Bits that were not given grow until vertices stay distinct.
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report);
 
-/// Stages the files, the first at the path as the pipeline names it and the others beside it, and reads the
-/// first back. Warns when what is read is less sound than the scene.
+/// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go
+/// into the same folder. Warns if the file read back is less sound than the scene.
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
                  const Scene& scene, const io::WriteSettings& settings, Context& context);
 

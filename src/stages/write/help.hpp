@@ -1,5 +1,5 @@
 #pragma once
-// What the help and the manual say about write.
+// The help and manual texts of write.
 
 namespace facetmill::help::write {
 

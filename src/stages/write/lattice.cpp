@@ -17,15 +17,16 @@ namespace {
 
 double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
 
-/// The steps of the scene: the bits' own, a little longer (1e-4 to 2e-4), so that their number stays below
-/// what the bits hold, and with five digits, so that places on the grid have few, too.
+/// The step of the scene's grid: longest side / (2^bits - 1), made 1e-4 to 2e-4 longer so that the number of
+/// steps fits. It has five digits, so that grid coordinates are short too.
 double step_of_scene(const Scene& scene, int bits) {
     const double step = scene.bounds().longest_side() / steps_of(bits) * (1 + 2e-4);
     return parse_real(fmt::format("{:.4e}", step)).value_or(step);
 }
 
-/// How much a transform lengthens at most: exact for similarities, and nearly for what rounding made of them.
-/// The greatest eigenvalue of a symmetric matrix is at most the greatest sum of a row's absolute numbers.
+/// An upper bound for the stretch of a transform. It is exact for similarities, and nearly exact for rounded
+/// similarities. The greatest eigenvalue of a symmetric matrix is at most the greatest sum of a row's
+/// absolute numbers.
 double stretch_of(const Transform& t) {
     const Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
     double most = 0;
@@ -37,7 +38,7 @@ double stretch_of(const Transform& t) {
     return most > 0 ? std::sqrt(most) : 1;
 }
 
-/// How much the transform enlarges everything, when it does nothing else but move; 0 for others.
+/// The uniform scale of a transform without rotation or shear; 0 for other transforms.
 double plain_scale(const Transform& t) {
     const double scale = t.m[0][0];
     for (std::size_t r = 0; r < 3; ++r)
@@ -46,11 +47,11 @@ double plain_scale(const Transform& t) {
     return scale > 0 ? scale : 0;
 }
 
-/// The last point of the lattice in the world that is not above the bounds, for a part that its node does not
-/// turn; else of the one through the part's own zero.
+/// For a part that its node only scales uniformly and moves: the last world grid point that is not above the
+/// bounds. For other parts the grid goes through the part's own zero.
 Vec3 origin_of(const Part& part, const Box& box, double step, bool in_world) {
     const double scale = in_world ? plain_scale(part.transform) : 0;
-    constexpr double exact = 0x1p44; // steps, which doubles count with bits to spare
+    constexpr double exact = 0x1p44; // steps; doubles represent this many exactly
     Vec3 origin;
     for (std::size_t c = 0; c < 3; ++c) {
         double moved = scale > 0 ? part.transform.m[c][3] / scale : 0;
@@ -62,7 +63,7 @@ Vec3 origin_of(const Part& part, const Box& box, double step, bool in_world) {
 
 using Place = std::array<std::int64_t, 3>;
 
-/// How many different points the vertices are rounded to.
+/// Counts the distinct grid points after rounding.
 std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
     std::vector<Place> places(mesh.vertex_count());
     parallel_for(places.size(), [&](std::size_t v) {
@@ -82,8 +83,8 @@ std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
     return count;
 }
 
-/// The step, or a half of it, a quarter ..., that keeps the vertices apart; the step itself if none does that
-/// is not below the least one.
+/// The first of step, step / 2, step / 4 ... that keeps vertices distinct. Returns the step itself if only
+/// steps below `least` would.
 double step_apart(const Part& part, const Box& box, double step, double least, bool in_world) {
     if (!(box.longest_side() > 0)) return step;
     const std::size_t wanted = places_on(part.mesh, {box.min, box.longest_side() * 0x1p-40});
@@ -95,7 +96,7 @@ double step_apart(const Part& part, const Box& box, double step, double least, b
     }
 }
 
-/// The fewest bits whose steps of this length reach as far.
+/// The fewest bits whose steps of this length cover the given length.
 int bits_for(double length, double step, int most) {
     int bits = 1;
     while (bits < most && steps_of(bits) * step < length) ++bits;
@@ -109,7 +110,7 @@ EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, 
     EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
     const double whole = step_of_scene(scene, bits);
     if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
-    std::map<std::pair<int, int>, std::vector<std::size_t>> users; // of a mesh of a document
+    std::map<std::pair<int, int>, std::vector<std::size_t>> users; // the parts that use a mesh of a document
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const Part& part = scene.parts[i];
         const bool shares = part.document >= 0 && part.source_mesh >= 0;
@@ -123,9 +124,10 @@ EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, 
             const Part& part = scene.parts[i];
             const Box box = part.mesh.bounds();
             const double own = box.longest_side(), here = whole / stretch_of(part.transform);
-            const bool whole_numbers = own / here < 0x1p53 && here > 0; // false for what is no number
+            const bool whole_numbers =
+                own / here < 0x1p53 && here > 0; // false if the step is zero or not a number
             if (moved || box.empty() || !whole_numbers) step = 0;
-            // One step less at either end, for what lies between the origin and the bounds.
+            // Reserve one step at either end for the gap between the origin and the bounds.
             const double least = own / std::max(steps_of(limit) - 2, 1.0);
             if (step > 0) step = std::min(step, step_apart(part, box, here, least, parts.size() == 1));
         }

@@ -1,5 +1,5 @@
 #pragma once
-// The same steps of positions for all parts of a scene (grid: even).
+// A common step of positions for all parts of a scene (grid: even).
 
 #include "io/codec.hpp"
 
@@ -7,19 +7,18 @@
 
 namespace facetmill::write_stage {
 
-/// What each part's positions are rounded to, and how many bits the whole numbers take.
+/// The grid that each part's positions are rounded to, and the bits of the whole numbers.
 struct EvenGrid {
     std::vector<io::Lattice> lattices;
     std::vector<int> bits;
 };
 
-/// The longest side of the scene, in the world, is divided into 2^bits - 1 steps, which every part has: in
-/// its own coordinates a step is shorter where its node enlarges it. Parts that their nodes do not turn are
-/// rounded to the same points of the world. A part some of whose vertices would coincide has steps of a half,
-/// a quarter
-/// ... of it, down to 2^limit - 1 for its own longest side, if that keeps them apart. Parts of one mesh of a
-/// document have the finest steps that one of them needs. Parts that are `left`, empty or not finite have no
-/// lattice and keep their usual bits; so do all in a scene of a single part or point.
+/// The scene's longest side in the world is divided into 2^bits - 1 steps, which all parts share. If a node
+/// enlarges a part, the step in the part's own coordinates is shorter. Parts that nodes do not rotate are
+/// rounded to the same world points. If vertices of a part would coincide, its step is halved until they
+/// stay distinct. The limit is 2^limit - 1 steps along the part's own longest side. Parts of the same mesh
+/// of a document share the finest step among them. Parts that are `left`, empty or not finite have no
+/// lattice and keep their usual bits. The same applies to scenes of a single part or point.
 [[nodiscard]] EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
                                  const std::vector<bool>& left);
 

@@ -124,7 +124,7 @@ void declare_tiles(Declare<TilesOptions>& d) {
         "How the tileset names its tiles.");
 }
 
-/// An option that only some formats know, and whether it asks for something.
+/// An option that only some formats support, and whether it is set to have an effect.
 struct FormatOption {
     const char* name;
     bool asked;
@@ -151,7 +151,7 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"tangents", o.tangents != Tangents::keep, &Can::quantize}};
 }
 
-/// Options that say something another format knows.
+/// Adds an error for options that the chosen format does not support but another does.
 void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& given, Problems& problems) {
     for (const auto& [name, asked, known] : format_options(o)) {
         if (!asked || known(codec.can)) continue;
@@ -309,7 +309,7 @@ void declare_write(Declare<WriteOptions>& d) {
 
 namespace {
 
-/// What writes such a file, or the formats that there are.
+/// The stage that writes such a file, otherwise the list of formats.
 std::string hint_of_suffix(const std::string& path, const std::vector<std::string>& names) {
     const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
     if (suffix == ".svg" || suffix == ".dxf")
@@ -409,8 +409,7 @@ StageFiles files_of_write(const WriteOptions& o) {
     if (!codec->can.companion.empty()) files.outputs.push_back(beside(codec->can.companion));
     if (!codec->can.library.empty()) files.materials = beside(codec->can.library);
     using io::Textures;
-    // What is embedded is not asked for: only images of no known kind are copied then, and named when they
-    // are.
+    // Embedded images need no file. Only images of unknown kinds are copied then, and a warning lists them.
     const bool embeds =
         o.textures == Textures::embed || (o.textures == Textures::automatic && !codec->can.copies_images);
     if (codec->can.textures && !embeds)

@@ -1,5 +1,5 @@
 #pragma once
-// The options of write, and what they come to.
+// The options of write, and the settings that follow from them.
 
 #include "geometry/normals/normals.hpp"
 #include "stage/stage.hpp"
@@ -7,7 +7,7 @@
 
 namespace facetmill::write_stage {
 
-/// What the bits of positions are of.
+/// The extent that position bits divide.
 enum class Grid { scene, mesh, even };
 
 struct DracoOptions {
@@ -40,7 +40,7 @@ struct TilesOptions {
     bool implicit = false;
 };
 
-/// Which parts with a map of normals get tangents.
+/// The parts with a normal map that get tangents.
 enum class Tangents { keep, missing, all };
 
 struct WriteOptions {
@@ -66,14 +66,15 @@ struct WriteOptions {
 };
 
 void declare_write(Declare<WriteOptions>& d);
-/// What the declaration cannot say: names without a format, and options that the format does not know.
+/// Checks that the declaration cannot express: file names without a format, and options that the format does
+/// not support.
 void verify_write(const WriteOptions& o, const Value& given, Problems& problems);
-/// The file and, of a .gltf, the buffer beside it.
+/// The output file, and the buffer file of a .gltf.
 [[nodiscard]] StageFiles files_of_write(const WriteOptions& o);
 
-/// The format that is named, or asked for by tiles, or the suffix's; null when there is none.
+/// The format given by name, by the option tiles, or by the suffix; null if unknown.
 [[nodiscard]] const io::Codec* codec_of(const WriteOptions& o);
-/// What the codec is told; bits of position are the usual ones when they are not given.
+/// The settings for the codec. Position bits have their usual values if not given.
 [[nodiscard]] io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                                             const std::filesystem::path& target);
 

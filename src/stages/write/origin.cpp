@@ -35,19 +35,20 @@ namespace write_stage {
 
 namespace {
 
-/// How far float32 moves a point of the part at most, in the world.
+/// The largest distance in the world that float32 moves a point of the part.
 double rounding_of(const Part& part) {
     const Box box = part.mesh.bounds();
     double most = 0;
     for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
         most = std::max({most, std::abs(box.min[i]), std::abs(box.max[i])});
     const auto x = static_cast<float>(most);
-    if (!std::isfinite(x)) return 0; // it is refused
+    if (!std::isfinite(x)) return 0; // such coordinates are refused
     const double step = static_cast<double>(std::nextafter(x, HUGE_VALF)) - static_cast<double>(x);
     return step / 2 * greatest_stretch(part.transform);
 }
 
-/// Documents whose nodes do more than place their meshes.
+/// Whether the part is skinned, or its document has animations or instances, so that its node must not
+/// change.
 bool moves_nodes(const Scene& scene, const Part& part) {
     if (part.skinned) return true;
     if (part.document < 0 || part.node < 0) return false;
@@ -56,7 +57,8 @@ bool moves_nodes(const Scene& scene, const Part& part) {
            json.find("\"EXT_mesh_gpu_instancing\"") != std::string::npos;
 }
 
-/// The centre of the box, on a grid of a sixteenth of its diagonal or less, so that it has few digits.
+/// The centre of the box, rounded to a grid of at most a sixteenth of its diagonal, so that it has few
+/// digits.
 Vec3 near_centre(const Box& box) {
     const double step = std::ldexp(1.0, std::ilogb(box.diagonal() / 8));
     Vec3 p = box.centre();
@@ -89,7 +91,8 @@ std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option
                                              fmt::join(kept, ", ")));
     if (chosen.empty()) return {};
     OriginReport report{option.kind == Kind::point ? option.point : near_centre(box), chosen.size()};
-    const auto first = DistinctParts(scene).first; // of the meshes as they are, which stay equal
+    const auto first =
+        DistinctParts(scene).first; // of the meshes before the move, because the moved meshes stay equal
     std::map<std::size_t, Vec3> offsets;
     for (const std::size_t i : chosen) {
         Part& part = scene.parts[i];

@@ -1,6 +1,6 @@
 #pragma once
-// Where the coordinates of a file count from: float32 numbers far from the origin are coarse, so meshes there
-// count from a point near them, and their nodes stand at that point.
+// Moves the origin of a file's coordinates. Far from the origin, float32 numbers are coarse, so meshes count
+// from a point near them. The nodes are translated by that point.
 
 #include "io/codec.hpp"
 #include "options/declaration.hpp"
@@ -33,11 +33,10 @@ struct OriginReport {
     std::size_t parts = 0;
 };
 
-/// Moves the origin of parts to a point of the world: what is subtracted from the positions is added to the
-/// transform. automatic: a point near the centre, for parts that float32 would round by more than a millionth
-/// of the scene's diagonal. Skinned parts keep theirs, as do, with the rest of a document, those under
-/// animations and instancing (W-ORIGIN where a point is asked for). moved: the parts and the positions that
-/// they had.
+/// Moves the origin of parts to a world point: subtracts it from the positions and adds it to the transform.
+/// automatic: a point near the centre, for parts that float32 would round by more than a millionth of the
+/// scene's diagonal. Skinned parts stay unchanged. So do all parts of a document under animations or
+/// instancing (W-ORIGIN if a point was requested). moved: the moved parts and their previous positions.
 [[nodiscard]] std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option,
                                                       Context& context,
                                                       std::map<std::size_t, std::vector<Vec3>>& moved);

@@ -14,16 +14,16 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// Where a part came from, and what it was.
+/// A part lent to the written scene: its number in the scene, and its state before.
 struct Lent {
     std::size_t part;
     Transform transform;
     bool changed;
-    std::optional<Mesh> mesh{}; ///< with the normals that the scene keeps, when the file has others
-    std::optional<std::vector<Vec3>> positions{}; ///< when the file counts from another origin
+    std::optional<Mesh> mesh{}; ///< the scene's mesh, if the file gets other faces, normals or tangents
+    std::optional<std::vector<Vec3>> positions{}; ///< the scene's positions, if the file uses another origin
 };
 
-/// The scene's own meshes stay with what was lent.
+/// Triangulates the written parts and saves the scene's own meshes in `lent`.
 void make_triangles(Scene& out, std::vector<Lent>& lent) {
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
@@ -34,12 +34,13 @@ void make_triangles(Scene& out, std::vector<Lent>& lent) {
     }
 }
 
-/// The same for normals.
+/// The same, for normals.
 void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.normals == NormalKind::keep) return;
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
-        if (part.mesh.face_count() == 0 && o.normals != NormalKind::none) continue; // points and lines
+        if (part.mesh.face_count() == 0 && o.normals != NormalKind::none)
+            continue; // points and lines have no faces to compute normals from
         if (!lent[k].mesh) lent[k].mesh = part.mesh;
         context.attribute_changes(
             part, give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
@@ -47,7 +48,7 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     }
 }
 
-/// The same for tangents.
+/// The same, for tangents.
 void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.tangents == Tangents::keep) return;
     const auto uvs = normal_map_uvs(out);
@@ -82,7 +83,7 @@ void declare_tiles_written(DeclareFields<io::TilesWritten>& d) {
     d.field("error", &Tiles::error, "The geometric error of the root, in metres.");
 }
 
-/// The names of the formats that are written and can do that.
+/// The names of the written formats with that capability.
 std::vector<std::string> formats_with(bool io::Capabilities::*what) {
     std::vector<std::string> names;
     for (const io::Codec& codec : io::codecs())
@@ -95,7 +96,7 @@ bool is_left_out(const Part& part, const io::Codec& codec) {
     return part.mesh.line_count() > 0 && !codec.can.lines;
 }
 
-/// Says which parts were left out; throws stage (E-EMPTY) when nothing else is there.
+/// Warns of parts left out because they have lines. Throws stage (E-EMPTY) if no other part is left.
 void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, const io::Codec& codec,
                 Context& context) {
     std::vector<std::string> names;
@@ -116,7 +117,7 @@ void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, con
                  hint);
 }
 
-/// Throws stage (E-EMPTY) unless the scene is of points or lines that the format holds as it is asked for.
+/// Throws stage (E-EMPTY) unless the format can store the scene's points or lines with these options.
 void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
@@ -146,7 +147,7 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
         context.where());
 }
 
-/// Says how many faces the file has as triangles, unless none is larger.
+/// Logs the number of faces that are written as triangles, unless all faces are triangles.
 void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
     if (codec.can.polygons && !o.triangulate) return;
     std::size_t larger = 0;
@@ -196,7 +197,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (!codec || !codec->write)
         throw Error(ErrorKind::usage, "E-FORMAT",
                     fmt::format("the suffix of '{}' names no format", o.path.text), {}, context.where());
-    // The parts are lent to the scene that is written, so that no mesh is copied, and come back as they were.
+    // Moves the parts into the written scene, so that no mesh is copied. They return unchanged afterwards.
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
@@ -247,7 +248,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
 struct WriteStage : StageOf<run> {
     StageFiles files() const override { return files_of_write(o); }
     void verify(const Value& given, Problems& problems) const override { verify_write(o, given, problems); }
-    /// A file of polygons has them as they are.
+    /// A format with polygons needs no triangulation, so crossing faces stay.
     CrossingFacePolicy crossing_faces() const override {
         const io::Codec* codec = codec_of(o);
         return codec && (o.triangulate || !codec->can.polygons) ? CrossingFacePolicy::name
@@ -268,7 +269,7 @@ const RegisterStage registered = make_stage<WriteStage>(
                   "write: {path: out/tileset.json, tiles: 3d, draco: true}"},
      .tells = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all, // the scene passes on: nothing is to be compared
+     .may_lose = MayLose::all, // the scene passes through unchanged, so nothing is compared
      .crossing_faces = CrossingFacePolicy::name,
      .roles = {.writes_in_unit = "unit"}},
     declare_write, declare_write_report);

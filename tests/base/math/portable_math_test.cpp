@@ -104,7 +104,7 @@ TEST_CASE("arc tangents side by side are those one by one, to the last bit", "[b
     std::vector<double> angles(y.size());
     arc_tangents(y, x, angles);
     for (std::size_t i = 0; i < y.size(); ++i) CHECK(angles[i] == arc_tangent(y[i], x[i]));
-    arc_tangents(y, x, y); // in place
+    arc_tangents(y, x, y); // the result may replace the input
     CHECK(y == angles);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("inverse_normals are inverse_normal's bits, side by side", "[base]") {
         INFO(p[i]);
         CHECK(same(x[i], inverse_normal(p[i])));
     }
-    inverse_normals(p, p); // in place
+    inverse_normals(p, p); // the result may replace the input
     CHECK(std::equal(p.begin(), p.end(), x.begin(), same));
 }
 #include <vector>

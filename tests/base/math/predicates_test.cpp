@@ -99,5 +99,5 @@ TEST_CASE("predicates agree with rational numbers on coordinates of all sizes", 
         flat += floor == 0;
     }
     CHECK(differ == 0);
-    CHECK(flat > 1000); // or the hard cases were none
+    CHECK(flat > 1000); // otherwise the test has no hard cases
 }

@@ -15,7 +15,7 @@ TEST_CASE("escaped texts have only what XML can hold", "[base]") {
     CHECK(escaped("\xC0\xAF") == bad + bad);                     // spelled longer than needed
     CHECK(escaped("\xED\xA0\x80") == bad + bad + bad);           // a surrogate
     CHECK(escaped("\xF4\x90\x80\x80") == bad + bad + bad + bad); // beyond the last character
-    CHECK(escaped("\xE4<") == bad + "&lt;");                     // what follows is read for itself
+    CHECK(escaped("\xE4<") == bad + "&lt;"); // the following character is decoded separately
 }
 
 TEST_CASE("a text in Markdown has no markup", "[base]") {

@@ -24,7 +24,7 @@ struct KeptRun {
     HierarchyResult result;
 };
 
-/// One run of a program that keeps its cells, or none of them.
+/// Runs a program with or without kept cells.
 KeptRun run_kept(const std::filesystem::path& path, const std::filesystem::path& kept, char key = 'a',
                  std::size_t target = 900) {
     KeptRun run;
@@ -165,11 +165,11 @@ TEST_CASE("inputs that are as they were are not read for their digests", "[cells
         REQUIRE(again.told.size() == 2);
         CHECK(again.told[0].find("cells reused from") != std::string::npos);
         CHECK(is_same(again.result, first.result));
-        stamp(std::string(64, '0')); // it is believed, and then told by those who read
+        stamp(std::string(64, '0')); // the stamp is trusted; later readers report the difference
         again = run_kept(path, kept);
         REQUIRE(again.told.size() >= 1);
         CHECK(again.told[0].find("of other inputs: they are made again") != std::string::npos);
-        again = run_kept(path, kept); // the file was read, so its digest is known again
+        again = run_kept(path, kept); // the file was read, so its digest is stored again
         REQUIRE(again.told.size() == 2);
         CHECK(again.told[0].find("cells reused from") != std::string::npos);
         CHECK(is_same(again.result, first.result));
@@ -182,7 +182,7 @@ TEST_CASE("what was found when cells were made is known when they are taken up",
     scene.parts.emplace_back().mesh = test::noisy_icosphere(3, 0.01, 7);
     const auto ply = folder / "m.ply";
     io::write_now(ply, io::codec_for(ply)->write(scene, {.double_positions = true}).files.front().bytes);
-    // A face of two corners behind the others.
+    // A face of two corners after the others.
     const io::Bytes bytes = *CellFolder({folder.path(), false}).read("m.ply");
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto at = text.find("element face 1280");
@@ -218,7 +218,7 @@ TEST_CASE("cells of an input that grew while it was read are not kept", "[cells]
         CHECK(test::failure_id([&] { kept_partition(source, means, 700); }) == "E-CHANGED");
         CHECK_FALSE(std::filesystem::exists(kept / kept_files[0]));
         CHECK_FALSE(std::filesystem::exists(kept / InputStamps::file));
-        means.kept.reset(); // its lock goes
+        means.kept.reset(); // releases the lock
         const KeptRun next = run_kept(path, kept);
         CHECK(is_same(next.result, run_kept(path, {}).result));
         CHECK(next.told.empty());

@@ -204,7 +204,7 @@ TEST_CASE("a malformed file is refused as elsewhere", "[cells]") {
         CHECK(error.diagnostics().front().hint.find("the file is read whole then") != std::string::npos);
     }
     bad = whole;
-    std::memset(bad.data() + whole.size() - 4, 0x7f, 4); // a vertex that is not there
+    std::memset(bad.data() + whole.size() - 4, 0x7f, 4); // a missing vertex
     CHECK(failure(bad) == "E-PLY");
     const std::string stl = test::get(as_file(folder, "m.stl", mesh, {}));
     CHECK(failure(stl.substr(0, stl.size() - 10), "bad.stl") == "E-STL");

@@ -19,7 +19,7 @@ std::vector<std::uint8_t> faces_with(const Mesh& mesh, const std::vector<std::ui
     return faces;
 }
 
-/// What border_closure_of gets of a whole mesh: the part, the faces around it, and what the rest is.
+/// The input of border_closure_of: a part, the faces around it, and the components of the rest.
 struct PartOfMesh {
     Mesh mesh;
     std::vector<std::uint8_t> part;

@@ -17,7 +17,7 @@ using namespace facetmill::cells;
 
 namespace {
 
-/// How many places clean leaves alone, and how many faces it changes, say whether a test tests anything.
+/// Compares clean in cells with clean in memory. The returned counts show whether the test is meaningful.
 CleanCounts check_clean(const Mesh& mesh, std::uint64_t most, const CleanSettings& settings = {}) {
     const test::TemporaryDirectory folder;
     const CellResources means{folder.path(), test::cell_memory};
@@ -56,8 +56,8 @@ Mesh on_a_lattice(Mesh mesh) {
     return mesh;
 }
 
-/// Few scars on a closed surface: holes, faces repeated and turned, faces without area, vertices in the
-/// middle of one side of an edge, faces apart from their neighbours, faces through the mesh.
+/// Adds a few defects to a closed surface: holes, repeated and reversed faces, faces without area, split
+/// edges, separate faces and intersecting faces.
 Mesh scarred(unsigned seed, unsigned rarely) {
     const Mesh whole = on_a_lattice(test::noisy_icosphere(4, 0.02, seed));
     Mesh mesh;

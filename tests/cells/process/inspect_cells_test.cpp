@@ -12,7 +12,7 @@ using namespace facetmill::cells;
 
 namespace {
 
-/// All that cells tell, as in memory.
+/// Checks that all results from cells equal the results in memory.
 void check_equal(const Mesh& mesh, std::uint64_t most) {
     const test::TemporaryDirectory folder;
     Part part;

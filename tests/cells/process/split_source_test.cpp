@@ -22,7 +22,7 @@ void check_split(const Mesh& mesh, std::uint64_t most) {
         CHECK(partition->faces() == whole.face_count());
         CHECK(partition->vertices() == whole.vertex_count());
         const Mesh all = test::rejoined(*partition);
-        CHECK(all.vertex_count() == whole.vertex_count()); // what cells share is shared
+        CHECK(all.vertex_count() == whole.vertex_count()); // cells still share their common vertices
         CHECK(test::triangles_of(all) == test::triangles_of(whole));
         const FacetShape a = shape_of_cells(*partition, {}), b = facet_shape(whole);
         CHECK(a.longest_edge == b.longest_edge);

@@ -50,7 +50,7 @@ Mesh read_in_cells(const std::vector<std::filesystem::path>& paths, std::uint64_
     return test::rejoined(partition);
 }
 
-/// What reading it in memory, and in cells, ends with: the id and the line.
+/// The error of reading in memory or in cells: the id and the line.
 std::string failure_of(const std::filesystem::path& path, bool cells) {
     try {
         if (cells)
@@ -64,7 +64,7 @@ std::string failure_of(const std::filesystem::path& path, bool cells) {
     return "none";
 }
 
-/// A closed mesh with polygons of three to five corners, whose numbers are those of floats.
+/// A closed mesh with polygons of three to five corners, whose coordinates are exact as float32.
 Mesh polygons() {
     Mesh mesh = test::noisy_icosphere(4, 0.01, 7);
     for (Vec3& p : mesh.positions) p = {double(float(p.x)), double(float(p.y)), double(float(p.z))};
@@ -234,7 +234,7 @@ TEST_CASE("digests are those of the files, however far they were read", "[cells]
     const test::TemporaryDirectory folder;
     Scene scene;
     scene.parts.emplace_back().mesh = test::noisy_icosphere(3, 0.01, 7);
-    Scene with_lines = scene; // a PLY has them behind the faces
+    Scene with_lines = scene; // PLY stores them after the faces
     with_lines.parts.emplace_back().mesh.positions = {{0, 0, 0}, {0, 0, 1}};
     with_lines.parts.back().mesh.lines = {0, 1};
     for (const char* name : {"m.ply", "lines.ply", "m.stl", "m.obj"}) {

@@ -51,7 +51,7 @@ TEST_CASE("a spool of numbers gives what it was given, in fewer bytes", "[cells]
         CHECK(spool.read(list, 4800, 12000) == io::Bytes(part.begin(), part.end()));
     }
     std::vector<Block> blocks;
-    const SpillFile stored = spool.stored(folder / "kept", {1, 0}, false, blocks); // as they are
+    const SpillFile stored = spool.stored(folder / "kept", {1, 0}, false, blocks); // copied unchanged
     CHECK(std::filesystem::file_size(folder / "kept") == given[0].size() + given[1].size());
     CHECK(stored.read(0) == given[1]);
     CHECK(stored.read(1) == given[0]);

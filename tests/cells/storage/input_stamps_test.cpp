@@ -18,12 +18,12 @@ std::vector<FaceSource::File> opened(const std::filesystem::path& path) {
     return files;
 }
 
-/// What the next run knows of its digest.
+/// The digest that the next run finds.
 std::vector<std::string> known(const CellFolder& folder, const std::filesystem::path& path) {
     return InputStamps(opened(path)).digests(folder);
 }
 
-/// What is stored of the file 10 s from now, as if nothing had happened to it.
+/// The digest that is stored if the file is 10 s old and unchanged.
 std::vector<std::string> stamped(const CellFolder& folder, const std::filesystem::path& path) {
     const auto files = opened(path);
     InputStamps(files, InputStamps::now() + long_since).store(folder, files);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t stream_numbers = 300000;
 
-/// A file of the numbers 0, 1, 2 ... behind four bytes.
+/// A file of the numbers 0, 1, 2 ... after four bytes.
 std::filesystem::path file_of_numbers(const test::TemporaryDirectory& folder) {
     std::vector<std::uint32_t> all(stream_numbers + 1);
     std::iota(all.begin(), all.end(), UINT32_MAX);

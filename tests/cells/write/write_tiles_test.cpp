@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint64_t ample = std::uint64_t{1} << 30;
 
-/// What is written of a mesh in cells of at most so many faces.
+/// The files of a mesh in cells of at most this many faces.
 struct Written {
     WrittenTiles tiles;
     std::map<std::string, io::Bytes> files;
@@ -114,7 +114,8 @@ class Cuts {
     Vec3 origin_;
 };
 
-/// Checks that cuts of a closed mesh of one component are, too; returns how many were of several levels.
+/// Checks that cuts of a closed connected mesh are closed and connected. Returns the number of cuts with
+/// several levels.
 std::size_t closed_cuts(const Cuts& cuts, std::uint64_t count) {
     std::size_t mixed = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed) {
@@ -153,7 +154,8 @@ TEST_CASE("every cut of tiles from cells is closed, and as near as its tiles say
 TEST_CASE("cells of fewer faces than four tiles are tiled together", "[cells]") {
     const test::TemporaryDirectory folder;
     const auto path = ply_of(folder, test::noisy_torus(320, 128, 0.002, 3)); // 81,920 faces
-    // 32 cells of 2,560, 16 of 5,120 or 64 of 1,280: 64 leaves of 1,280 and four below each tile either way.
+    // All three cell sizes give 64 leaves of 1,280 faces, with four below each tile: 32 cells of 2,560, 16
+    // of 5,120 or 64 of 1,280.
     for (const std::uint64_t cell : {2600, 5200, 1300}) {
         const Written all = written(path, {.cell = cell, .tile = 1500});
         CAPTURE(cell);

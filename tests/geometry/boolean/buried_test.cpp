@@ -1,4 +1,4 @@
-// What is left uncut deep in unions and differences, against voxels and against operations one at a time.
+// Checks faces that stay uncut deep in unions and differences, against voxels and against single operations.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/measure.hpp"
@@ -34,7 +34,7 @@ Mesh block(const Vec3& low, const Vec3& high, bool squares = false) {
     return mesh;
 }
 
-/// A turn that takes no axis to an axis: by a unit quaternion of rounded numbers.
+/// A rotation that maps no axis to an axis, by a unit quaternion of rounded numbers.
 Mesh turned_by(Mesh mesh, std::uint64_t seed) {
     const Vec3 v = random_point(1, seed, 31);
     const double w = between(-1, 1, seed, 32), n = w * w + dot(v, v);
@@ -68,7 +68,7 @@ std::vector<IntegerBox> random_blocks(std::uint64_t seed, std::size_t count, int
             b.high[k] = b.low[k] + size;
         }
         all.push_back(b);
-        if (number(0, 8) == 0) all.push_back(b); // there twice
+        if (number(0, 8) == 0) all.push_back(b); // present twice
     }
     return all;
 }
@@ -93,7 +93,7 @@ class LatticeCubes {
         });
         return count;
     }
-    /// V - E + F of the surface; none where cubes touch at an edge or at a vertex only, or leave such a gap.
+    /// V - E + F of the surface. None if cubes touch at an edge or a vertex only, or leave such a gap.
     std::optional<int> euler() const {
         int total = area();
         bool is_manifold = true;
@@ -125,8 +125,8 @@ class LatticeCubes {
             for (int j = 0; j <= lattice; ++j)
                 for (int k = 0; k <= lattice; ++k) act(i, j, k);
     }
-    /// Whether a vertex of the surface is there. Of the eight cubes around it those that are set, and those
-    /// that are not, must each hang together over faces.
+    /// Whether the surface has a vertex at this position. The filled cubes and the empty cubes among its
+    /// eight neighbours must each be connected over faces.
     int vertex(int i, int j, int k, bool& is_manifold) const {
         std::array<bool, 8> around{};
         for (unsigned n = 0; n < 8; ++n) around[n] = at(i - int(n & 1), j - int(n >> 1 & 1), k - int(n >> 2));
@@ -257,7 +257,8 @@ TEST_CASE("what meets within a third solid is not cut", "[geometry][combine]") {
     CHECK(r.mesh.face_count() == 12);
     CHECK(r.cut_faces == 0);
     CHECK(r.covered_faces == 12 + 6);
-    // Likewise in what is taken away, of what it is taken from too; not in what stays.
+    // The same applies to subtracted solids and the solid that they are subtracted from, but not to
+    // remaining solids.
     CHECK(sound_one({one, other, around}, Task::subtract, 2).mesh.face_count() == 0);
     const auto hole = sound_one({around, one, other}, Task::subtract, 1);
     CHECK(hole.cut_faces > 0);
@@ -266,7 +267,7 @@ TEST_CASE("what meets within a third solid is not cut", "[geometry][combine]") {
     const auto part = sound_one({block({-1, -1, -1}, {11, 11, 11}), around, one, other}, Task::intersect, 1);
     CHECK(part.cut_faces == 0);
     CHECK(part.mesh.face_count() == 12);
-    // Two together are around what neither is around alone.
+    // Two solids together can enclose a region that neither encloses alone.
     const auto two = sound_one({block({0, 0, 0}, {6, 10, 10}), block({4, 0, 0}, {10, 10, 10}),
                                 block({1, 4, 4}, {9, 6, 6}), block({1, 5, 3}, {9, 7, 5})},
                                Task::unite);
@@ -291,7 +292,7 @@ TEST_CASE("nothing is buried by its own faces, by cavities, or where solids only
                thick = block({3, 3, 3}, {7, 7, 7});
     const Mesh filled = sound_one({hollow, bar, across, thick}, Task::unite).mesh;
     CHECK(test::volume(filled) == Approx(1000 - 216 + 64 + 16));
-    // A solid that passes through itself, inside out at one end, is not taken for more than it is.
+    // A solid that passes through itself, inside out at one end, does not hide more than its actual inside.
     Mesh eight = block({0, 0, 0}, {4, 1, 1});
     for (Vec3& p : eight.positions)
         if (p.x > 2) p = {p.x, 0.2 - 0.4 * p.y + 0.3, p.z}; // turned over, and smaller

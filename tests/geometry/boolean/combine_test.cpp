@@ -85,7 +85,7 @@ bool expected(Operation operation, bool a, bool b) {
     return a && b;
 }
 
-/// The volume of what b, moved by so many half cubes, makes of a.
+/// The volume of the result if b is moved by this many half cubes.
 double volume_of_voxels(const Voxels& a, const Voxels& b, int moved_by, Operation operation) {
     double eighths = 0;
     const auto cell = [](int x) { return x >= 0 ? x / 2 : -1; };
@@ -156,7 +156,7 @@ TEST_CASE("combine hollows solids and opens cavities", "[geometry][combine]") {
     const double inside = test::volume(combined(bar, hollow, Operation::intersect));
     CHECK(test::volume(combined(hollow, bar, Operation::subtract)) == Approx(test::volume(hollow) - inside));
     CHECK(test::euler(combined(hollow, bar, Operation::subtract)) == 0); // two openings: a torus
-    // What is taken away may have a cavity: what was in it stays.
+    // A subtracted solid may have a cavity, whose contents stay.
     CHECK(test::volume(combined(ball, hollow, Operation::subtract)) == Approx(test::volume(core)));
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("combine refuses what is no solid, and says which it is", "[geometry][
     CHECK(names(why(unsure), 1, "inconsistently oriented"));
     const Mesh turned = orient(test::moved(solid, {0.5, 0, 0}), {OrientMethod::flip, {}}).mesh;
     CHECK(names(why(turned), 1, "is inside out"));
-    const Mesh within = orient(solid, {OrientMethod::flip, {}}).mesh; // a cavity only of its own mesh
+    const Mesh within = orient(solid, {OrientMethod::flip, {}}).mesh; // a cavity of its own mesh only
     Mesh around = solid;
     for (Vec3& p : around.positions) p *= 2.0;
     CHECK(combine({around, within}, {}).failure);
@@ -251,7 +251,7 @@ TEST_CASE("combine says when rounding is why solids cannot be combined", "[geome
 
 TEST_CASE("combine takes no more memory than the run may", "[geometry][combine]") {
     const Mesh a = shapes::icosphere(3), b = test::moved(a, {0.5, 0.1, 0.2});
-    const auto why_within = [&](std::uint64_t bytes) { // more than there are in use
+    const auto why_within = [&](std::uint64_t bytes) { // above the memory in use
         std::uint64_t limit = std::uint64_t{1} << 20;
         for (set_memory_limit(limit); *memory_left() == 0; set_memory_limit(limit)) limit *= 2;
         set_memory_limit(limit - *memory_left() + bytes);

@@ -1,5 +1,5 @@
-// What bounds nothing of a result, told before anything is cut: against distances, and against results of
-// solids that pass through themselves where that does not matter.
+// Checks the detection of faces that cannot bound the result. Compares with distances, and with results for
+// solids that pass through themselves without effect.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/measure.hpp"
@@ -80,7 +80,7 @@ TEST_CASE("pairs of faces that are lost are not looked for", "[geometry][combine
     const auto all = crossings_and_rings(p.both, place, max_pairs, {});
     const auto lost = lost_faces(p.both, p.second, CombineOperation::intersect);
     const auto some = crossings_and_rings(p.both, place, max_pairs, lost);
-    CHECK(some.found.pairs == all.found.pairs); // none of one operand
+    CHECK(some.found.pairs == all.found.pairs); // no pairs within an operand
     CHECK(some.rings == all.rings);
     CHECK(some.found.box_pairs * 2 < all.found.box_pairs);
 }
@@ -120,7 +120,7 @@ TEST_CASE("solids may pass through themselves where they are lost", "[geometry][
 
 TEST_CASE("what winds less than zero times takes nothing away from another part",
           "[geometry][combine][lost]") {
-    // Below its waist this ball is turned over, so it winds -1 times around what is there.
+    // Below its waist this ball is inverted, so the winding number is -1 there.
     Mesh turned = ball(4, {}, 1);
     for (Vec3& p : turned.positions) p.x *= p.z + 0.63;
     Mesh other = shapes::cube(); // around the lower part

@@ -1,4 +1,4 @@
-// What combine leaves of faces that it cut: vertices where the cut shows, and no others.
+// Checks that combine leaves vertices on cut faces only at visible cuts.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/measure.hpp"
@@ -67,7 +67,8 @@ TEST_CASE("a cut leaves no vertex where it crosses a diagonal", "[geometry][comb
         const Mesh a = brick({0, 0, 0}, {1, 1, 1}, squares),
                    b = brick({0.5, 0.25, 0.375}, {1.5, 1.25, 1.375});
         const Mesh united = made_of({a, b}, Operation::unite).mesh;
-        CHECK(united.vertex_count() == 7 + 7 + 6); // of each what the other does not hold, and the line
+        CHECK(united.vertex_count() ==
+              7 + 7 + 6); // the vertices of each solid outside the other, and the line
         CHECK(test::volume(united) == 2 - 0.5 * 0.75 * 0.625);
         CHECK(made_of({a, b}, Operation::subtract).mesh.vertex_count() == 14);
         CHECK(made_of({a, b}, Operation::intersect).mesh.vertex_count() == 8);
@@ -81,7 +82,7 @@ TEST_CASE("a drilled plate has the corners of the plate and of the holes", "[geo
     const auto r = made_of(meshes, Operation::subtract);
     CHECK(r.mesh.vertex_count() == 8 + 16 * 2 * 16);
     CHECK(test::euler(r.mesh) == 2 - 2 * 16);
-    for (Index f = 0; f < r.mesh.face_count(); ++f) { // a side of a hole is of its drill
+    for (Index f = 0; f < r.mesh.face_count(); ++f) { // the sides of a hole come from its drill
         const bool upright = r.mesh.point(3 * f).z != r.mesh.point(3 * f + 1).z ||
                              r.mesh.point(3 * f).z != r.mesh.point(3 * f + 2).z;
         const Vec3 middle = (r.mesh.point(3 * f) + r.mesh.point(3 * f + 1) + r.mesh.point(3 * f + 2)) / 3;
@@ -91,7 +92,7 @@ TEST_CASE("a drilled plate has the corners of the plate and of the holes", "[geo
 }
 
 TEST_CASE("cuts that a third solid covers leave nothing", "[geometry][combine]") {
-    // Two blocks on a plate, which overlap: what each cuts out of the plate within the other is gone.
+    // Two overlapping blocks on a plate: the cut of each in the plate is removed within the other block.
     const Mesh plate = brick({0, 0, 0}, {10, 10, 1}), one = brick({2, 2, 0.5}, {6, 6, 2}),
                other = brick({4, 4, 0.5}, {8, 8, 2});
     const Mesh mesh = made_of({plate, one, other}, Operation::unite).mesh;

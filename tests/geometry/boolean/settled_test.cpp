@@ -1,4 +1,4 @@
-// What is left out around rings of faces, against the same work with all edges and all faces looked at.
+// Compares the work that skips faces around rings with the work on all edges and faces.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
 #include "support/corpus.hpp"
@@ -15,7 +15,7 @@ using namespace facetmill::clean_steps;
 
 namespace {
 
-/// is_tidy, with all of the mesh looked at.
+/// The same as is_tidy, but tests the whole mesh.
 bool is_tidy_all_over(const Mesh& mesh) {
     const auto place = lowest_at_place(mesh);
     for (Index v = 0; v < place.size(); ++v)
@@ -34,7 +34,7 @@ struct Seen {
     std::size_t rings = 0, tidy = 0, not_tidy = 0;
 };
 
-/// Solids, and what they are united to, are the same with rings and without.
+/// Checks that solids and their unions are the same with and without rings.
 void check_rings(Mesh mesh, Seen& seen) {
     const auto [found, rings] = crossings_and_rings(mesh, lowest_at_place(mesh), clean_steps::max_pairs, {});
     if (rings.empty() || found.count > 20'000) return;
@@ -138,7 +138,7 @@ TEST_CASE("what is not tidy is seen where vertices are not settled", "[geometry]
     Mesh at_one_place = ball;
     at_one_place.positions[far] = at_one_place.positions[a];
     CHECK_FALSE(tidy(at_one_place, {a, far}));
-    Mesh walled = ball; // a sheet of two faces of its own
+    Mesh walled = ball; // a separate sheet of two faces
     const auto v = static_cast<Index>(ball.vertex_count());
     for (const Vec3& p : {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, 1, 0}}) walled.positions.push_back(p);
     add_face(walled, std::array{v, v + 1, v + 2});

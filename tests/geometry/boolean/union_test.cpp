@@ -46,7 +46,8 @@ Mesh together(std::initializer_list<Mesh> all) {
     return mesh;
 }
 
-/// The union, which must be closed and cross nothing; faces that touch at one place only do not count.
+/// The union, checked to be closed and without intersections. Faces that touch at a single position do not
+/// count.
 Mesh united(const Mesh& mesh) {
     const auto r = clean(mesh, uniting());
     CHECK(broken_invariants(r.mesh) == std::vector<std::string>{});
@@ -129,7 +130,7 @@ TEST_CASE("clean unites grids that overlap and meet in their edges only", "[geom
     CHECK(test::volume(result) == 15);
     CHECK(test::area(result) == 42);
     CHECK(test::euler(result) == 2);
-    // Beside each other along an edge they do not overlap.
+    // Neighbours that share an edge do not overlap.
     const auto beside = clean(together({a, block({2, 2, 0})}), uniting());
     CHECK(beside.counts.united_components == 0);
     CHECK(test::volume(beside.mesh) == 16);
@@ -203,7 +204,7 @@ TEST_CASE("clean refuses to unite what has no inside, and leaves it as it was", 
     Mesh unsure = other;
     std::swap(unsure.corners[0], unsure.corners[1]);
     CHECK(says(refusal(together({solid, unsure})), "inconsistently oriented"));
-    // What can be united is, beside what cannot.
+    // Components that can be united are united, even if others cannot.
     const Mesh far = moved(together({solid, other}), {10, 0, 0});
     const auto r = clean(together({solid, inside_out(other), far}), uniting());
     CHECK(r.not_done.size() == 1);
@@ -254,7 +255,7 @@ TEST_CASE("clean carries texture coordinates to where solids are cut", "[geometr
         CHECK(r.mesh.find("heat", Domain::vertex)->value(v, 0) ==
               Approx(r.mesh.positions[v].x).margin(1e-13));
     const Attribute* side = r.mesh.find("group", Domain::face);
-    for (Index f = 0; f < r.mesh.face_count(); ++f) { // nearer to the sphere that it came from
+    for (Index f = 0; f < r.mesh.face_count(); ++f) { // nearer to its original sphere
         Vec3 middle;
         for (Index c = 3 * f; c < 3 * f + 3; ++c) middle += r.mesh.point(c) / 3;
         const double a = std::abs(length(middle) - 1), b = std::abs(length(middle - Vec3{0.7, 0.2, 0.1}) - 1);
@@ -325,7 +326,7 @@ TEST_CASE("triangles without area are taken out of a closed surface", "[geometry
     work.mesh = shapes::tetrahedron(); // faces 0 2 1, 0 1 3, 1 2 3, 2 0 3
     work.mesh.positions.push_back({0.5, 0, 0});
     work.mesh.positions.push_back({0.25, 0, 0});
-    // The first face ends at 4, and flat faces on 0 1 and on 0 4 lead from there to the second.
+    // The first face ends at 4. Flat faces on 0 1 and on 0 4 connect it with the second.
     work.mesh.corners = {0, 2, 4, 4, 2, 1, 0, 4, 5, 5, 4, 0, 0, 4, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
     REQUIRE(test::closed(work.mesh));
     REQUIRE(inspect(work.mesh).degenerate_faces == 3);
@@ -389,7 +390,7 @@ TEST_CASE("once much was tried in vain, clean leaves meshes of more crossings th
     CHECK(test::same_mesh(r.mesh, bars));
     REQUIRE(r.not_done.size() == 1);
     CHECK(says(r.not_done[0].why, "reasonable time"));
-    // What cannot be united is in vain, and once a mesh: the second round finds it as it was.
+    // A failed union uses up the budget only once per mesh, because the second round finds the same mesh.
     const Mesh turned = together({box({0, 0, 0}, {2, 2, 2}), inside_out(box({1, 1, 1}, {3, 3, 3}))});
     const CleanResult vain = clean(turned, uniting());
     CHECK_FALSE(vain.not_done.empty());
@@ -400,7 +401,7 @@ TEST_CASE("once much was tried in vain, clean leaves meshes of more crossings th
 }
 
 TEST_CASE("clean refuses solids that cross far too often", "[geometry]") {
-    Mesh needles; // all stand on one plane, and each crosses each there
+    Mesh needles; // all lie on a plane, and each crosses each other there
     for (int i = 0; i < 800; ++i) {
         Mesh needle = shapes::tetrahedron();
         for (std::size_t k = 0; k < 3; ++k) {

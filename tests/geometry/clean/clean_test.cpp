@@ -177,8 +177,8 @@ TEST_CASE("clean splits an edge of three faces", "[geometry]") {
 }
 
 TEST_CASE("clean puts a point on an edge that its ends hold together", "[geometry]") {
-    // A ring of four cubes around a hole that has closed to one edge: both ends of the edge lie inside the
-    // surface of a slab below and above.
+    // A ring of four cubes whose hole has shrunk to an edge. Both ends of the edge lie inside the surface of
+    // a slab.
     Mesh mesh;
     const auto cube_at = [&](double x, double y, double z) {
         Mesh cube = shapes::cube();
@@ -434,7 +434,7 @@ TEST_CASE("the end of a flat sheet is no hole", "[geometry]") {
             CHECK(test::area(r.mesh) == Approx(area));
             CHECK(boundary_edges(r.mesh).size() == 20);
         }
-    // What is not flat is closed as before, also with flat walls around.
+    // Holes that are not flat are closed as before, even between flat walls.
     Mesh box = shapes::cube();
     box.corners.resize(box.corners.size() - 6);
     s.holes->method = HoleFill::minimal;

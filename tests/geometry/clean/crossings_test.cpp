@@ -32,7 +32,7 @@ Mesh pierced() {
     return mesh;
 }
 
-/// Two rings that stand across and pass through each other.
+/// Two perpendicular rings that pass through each other.
 Mesh crossing_tubes() {
     Mesh mesh;
     for (int tube = 0; tube < 2; ++tube) {
@@ -58,8 +58,8 @@ Mesh sheet_without(int columns, int rows, const std::vector<std::pair<int, int>>
     return mesh;
 }
 
-/// Cubes around a hole that has closed to the edge from (1, 1, 1) to (1, 1, 2), whose ends lie inside the
-/// surface of a slab below and one above.
+/// Cubes around a hole that has shrunk to the edge from (1, 1, 1) to (1, 1, 2). Its ends lie inside the
+/// surfaces of two slabs.
 Mesh closed_ring() {
     Mesh mesh;
     for (int z = 0; z < 3; ++z)
@@ -196,7 +196,7 @@ TEST_CASE("clean keeps doubled faces that hold a closed surface closed", "[geome
     REQUIRE(inspect(mesh).closed);
     REQUIRE(inspect(mesh).duplicate_faces == 1);
     CHECK(inspect(clean(mesh, {}).mesh).closed);
-    // A second copy of a face of a closed surface goes.
+    // A second copy of a face of a closed surface is removed.
     Mesh copied = shapes::cube();
     for (const Index c : {0U, 1U, 2U, 0U, 1U, 2U}) copied.corners.push_back(copied.corners[c]);
     CHECK(clean(copied, {}).mesh.corners == shapes::cube().corners);
@@ -251,7 +251,7 @@ TEST_CASE("clean adds one point less where the middle of an edge is exact", "[ge
 
 TEST_CASE("clean leaves an edge of more than two faces where its rounded middle would spoil faces",
           "[geometry]") {
-    // The middle rounds onto a line through a vertex that lies beside the edge.
+    // The midpoint is rounded onto a line through a vertex next to the edge.
     Mesh mesh = closed_ring();
     const double step = std::ldexp(1.0, -23);
     const Index a = vertex_at(mesh, {1, 1, 1}), b = vertex_at(mesh, {1, 1, 2});

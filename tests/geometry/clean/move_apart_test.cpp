@@ -24,7 +24,7 @@ CleanSettings apart() {
 
 bool has_equal_places(const Mesh& mesh) { return !clean_steps::are_distinct(lowest_at_place(mesh)); }
 
-/// What a reader makes of a file of triangles: positions of 32 bits, and one vertex at each place.
+/// The mesh as a reader of a triangle file makes it: float32 positions, and merged vertices.
 Mesh as_read_back(Mesh mesh) {
     for (Vec3& p : mesh.positions) p = as_float32(p);
     const std::vector<Index> lowest = lowest_at_place(mesh);
@@ -43,7 +43,7 @@ Mesh together(Mesh a, const Mesh& b) {
     return a;
 }
 
-/// How far a vertex is from where it was at most; of meshes whose vertices are the same.
+/// The largest move of a vertex. Both meshes must have the same vertices.
 double farthest_move(const Mesh& before, const Mesh& after) {
     double most = 0;
     for (std::size_t v = 0; v < before.positions.size(); ++v)

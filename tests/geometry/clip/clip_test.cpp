@@ -38,7 +38,7 @@ std::vector<Index> sizes_in_front(double a, double b, double c) {
     return sizes;
 }
 
-/// The open square from -1 to 1 in n x n cells, with coordinates as they are computed.
+/// The open square from -1 to 1 in n x n cells, with unrounded coordinates.
 Mesh computed_grid(int n) {
     Mesh mesh = shapes::grid(n, n);
     for (Vec3& p : mesh.positions) p = {-1 + 2.0 / n * p.x, -1 + 2.0 / n * p.y, 0};
@@ -72,7 +72,7 @@ TEST_CASE("every case with corners on the plane", "[geometry]") {
     ClipSettings drop = at_plane({{1, 0, 0}, {}, 0});
     drop.coplanar = Coplanar::drop;
     CHECK(clip(triangle(0, 0, 0), drop).front.face_count() == 0);
-    drop.keep = Keep::both; // neither side keeps what is dropped
+    drop.keep = Keep::both; // neither side keeps dropped faces
     const ClipResult both = clip(triangle(0, 0, 0), drop);
     CHECK(both.front.face_count() + both.back.face_count() == 0);
     drop.coplanar = Coplanar::keep;
@@ -339,7 +339,7 @@ TEST_CASE("a plane through computed vertices cuts no slivers off at them", "[geo
     const Mesh grid = computed_grid(10);
     ClipSettings settings = at_plane({{1, 1, 0}, {0.2, 0, 0}, 0});
     const ClipResult pure = clip(grid, settings);
-    REQUIRE(pure.cut_faces > 18); // vertices lie beside the plane, by rounding
+    REQUIRE(pure.cut_faces > 18); // vertices are slightly off the plane because of rounding
     settings.snap = true;
     const ClipResult snapped = clip(grid, settings);
     CHECK(snapped.snapped > 0);

@@ -28,7 +28,7 @@ CropResult cropped(const Mesh& mesh, const Rings& rings, CropBy by = CropBy::cut
     return r;
 }
 
-/// Edges of one face only whose ends lie on no outline: there the crop tore something apart.
+/// Counts boundary edges with ends off the outline, where the crop tore the surface.
 std::size_t cracks(const Mesh& mesh, const Rings& rings, const Mesh& before) {
     const Box box = before.bounds();
     std::size_t count = 0;
@@ -336,8 +336,8 @@ TEST_CASE("a face that many segments cross is cut as often as there are segments
     }
     const Footprint round({circle});
     const auto sides = crop_both(square, round, {});
-    // Both parts of the disc, and what one cut leaves outside, for each segment and each crossing of the
-    // diagonal.
+    // Both parts of the disc, and the faces that a cut leaves outside, for each segment and each crossing of
+    // the diagonal.
     CHECK(sides[0].mesh.face_count() == 2);
     CHECK(sides[1].mesh.face_count() < n + 10);
     CHECK(test::area(sides[0].mesh) == Approx(round.area()).epsilon(1e-12));
@@ -364,7 +364,7 @@ TEST_CASE("a face that many segments cross is cut as often as there are segments
 TEST_CASE("vertices on one segment that snap takes as on another as well are counted", "[geometry]") {
     Mesh cube = shapes::cube();
     for (Vec3& p : cube.positions) p = p * static_cast<double>(0.1F);
-    // The vertices at (0.1F, 0) are exactly on the outline, and beside the upright side of its hole.
+    // The vertices at (0.1F, 0) are exactly on the outline, and next to the upright side of its hole.
     const Rings touched{{{0, 0}, {0.2, 0}, {0.2, 0.2}, {0, 0.2}}, {{0.1, 0}, {0.15, 0.05}, {0.1, 0.05}}};
     CropSettings settings;
     settings.cap = settings.snap = true;
@@ -415,7 +415,7 @@ TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
     const Rings outline{{at(0.65, 1.85), at(35.05, 5.1), at(31.25, 32.75), at(5.1, 30.45)}};
     const double wanted =
         0.5 * std::fabs(cross(outline[0][2] - outline[0][0], outline[0][3] - outline[0][1]));
-    for (const double height : {0.0, 1.0 / 3}) { // all floats, and none
+    for (const double height : {0.0, 1.0 / 3}) { // exact in float32, and not exact
         INFO(height);
         Mesh terrain;
         for (Index i = 0; i < side * side; ++i)
@@ -435,7 +435,7 @@ TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
         CHECK(std::fabs(test::area(crop(terrain, Footprint(outline), settings).mesh) - (all - wanted)) <
               1e-5);
     }
-    // Half metres are what floats in the north come to, so they may have been others.
+    // At northern coordinates, float32 has steps of half a metre, so vertices may have been elsewhere.
     Mesh rounded = shapes::cube();
     for (Vec3& p : rounded.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
     CropSettings settings;
@@ -503,7 +503,7 @@ TEST_CASE("a face seen edge-on is cut along every segment that may enter it", "[
     wall.positions = {{0, 0, 0}, {10, 10, 0}, {10, 10, 5}, {0, 0, 5}};
     wall.corners = {0, 1, 2, 3};
     wall.face_offsets = {0, 4};
-    // The longest segment runs along the wall, but for a little, and another is within its box, beside it.
+    // The longest segment runs almost along the wall, and another segment next to it is within its box.
     const CropResult out =
         cropped(wall, {{{1, 0}, {8, 2}, {7, 2.2}, {9, 10}}}, CropBy::cut, polygon::Keep::outside);
     CHECK(out.mesh.face_count() == 3);

@@ -27,7 +27,7 @@ OutlineCut cut(const Mesh& mesh) {
     return cut_at_outline(mesh, CropView(outline, settings), memory);
 }
 
-/// What is known of each corner of each face.
+/// The values of each corner of each face.
 using Corner = std::array<double, 5>;
 std::vector<std::vector<Corner>> faces_of(const OutlineCut& cut) {
     std::vector<std::vector<Corner>> faces;

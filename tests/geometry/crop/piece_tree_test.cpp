@@ -26,7 +26,7 @@ TEST_CASE("pieces stay in order, and are found, however one-sided the cuts are",
         tree.add_face({7}, strip(0, 1));
         tree.add_face({0, last}, strip(0, last));
         Index left = 0, right = last, rest = 1;
-        while (right - left > 1) { // a strip at one end comes off
+        while (right - left > 1) { // removes a strip at one end
             const Index middle = from_left ? left + 1 : right - 1;
             const std::vector<Bounds> boxes{strip(left, middle), strip(middle, right)};
             std::vector<std::vector<Index>> parts{{left, middle}, {middle, right}};

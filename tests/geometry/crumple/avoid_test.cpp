@@ -171,7 +171,7 @@ TEST_CASE("sheets that are opened again for each round come out the same, whatev
           "[geometry]") {
     std::vector<Mesh> alone, kept, opened;
     std::vector<CrumpleSheet> of_kept, of_opened;
-    for (int i = 0; i < 4; ++i) { // alike but for the second, and they move differently
+    for (int i = 0; i < 4; ++i) { // all are alike except the second, and they move differently
         Mesh mesh = sponge();
         if (i == 1) mesh.positions[0].x += 1e-3;
         kept.push_back(mesh);
@@ -297,7 +297,7 @@ TEST_CASE("where most faces would meet, a sample tells before all are looked at"
 }
 
 TEST_CASE("faces that lie close are looked at, however many they are", "[geometry]") {
-    Mesh layers; // every box meets those of the next sheets
+    Mesh layers; // every box meets the boxes of the next sheets
     for (int i = 0; i < 40; ++i) {
         Mesh sheet = shapes::grid(4, 4);
         for (Vec3& p : sheet.positions) p = {p.x, p.y, p.x / 2 + i * 1e-3};

@@ -85,7 +85,7 @@ TEST_CASE("a fixed boundary is not crumpled", "[geometry]") {
 
 TEST_CASE("vertices at one place move together, welded or not, whatever their order", "[geometry]") {
     const Mesh whole = shapes::icosphere(2);
-    Mesh loose; // every face by itself, in reverse
+    Mesh loose; // every face separate, in reverse order
     for (Index f = static_cast<Index>(whole.face_count()); f-- > 0;)
         for (Index c = 3 * f; c < 3 * f + 3; ++c) {
             loose.corners.push_back(static_cast<Index>(loose.positions.size()));
@@ -114,7 +114,7 @@ TEST_CASE("along the normal, unwelded faces stay together too", "[geometry]") {
 
 TEST_CASE("a mask and a fixed boundary tear no unwelded copies apart", "[geometry]") {
     const Mesh whole = shapes::grid(6, 6);
-    Mesh loose; // every face by itself
+    Mesh loose; // every face separate
     for (Index c = 0; c < whole.corner_count(); ++c) {
         loose.corners.push_back(c);
         loose.positions.push_back(whole.point(c));
@@ -124,7 +124,7 @@ TEST_CASE("a mask and a fixed boundary tear no unwelded copies apart", "[geometr
         for (Index c = 0; c < whole.corner_count(); ++c) CHECK(a.point(c) == b.point(c));
     };
     const CrumpleResult a = crumple(whole, s), b = crumple(loose, s);
-    same(a.mesh, b.mesh); // the boundary is that of the surface, not of every face
+    same(a.mesh, b.mesh); // the boundary of the surface counts, not the boundary of every face
     CHECK(a.moved == 25);
     s.boundary = Boundary::free;
     s.mask.assign(loose.vertex_count(), 1);

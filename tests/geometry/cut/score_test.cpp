@@ -6,7 +6,7 @@
 using namespace facetmill;
 
 TEST_CASE("an edge without length in the plane goes to one piece only", "[geometry]") {
-    Mesh pillow; // a pentagon, two of whose corners are at one place, and its back
+    Mesh pillow; // a pentagon with two corners at the same position, and its back
     pillow.positions = {{-1, 0, 0}, {0, -1, 0}, {0, -1, 0}, {1, 0, 0}, {0, 1, 0}};
     pillow.corners = {0, 1, 2, 3, 4, 4, 3, 2, 1, 0};
     pillow.face_offsets = {0, 5, 10};

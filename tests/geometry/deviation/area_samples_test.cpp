@@ -11,7 +11,7 @@ using namespace facetmill;
 namespace {
 
 std::vector<Surface> sampled_surfaces() {
-    Mesh holes = test::noisy_icosphere(3, 0.05, 3); // some triangles without an area, some without a place
+    Mesh holes = test::noisy_icosphere(3, 0.05, 3); // some triangles have no area, and some have no position
     for (Index c = 30; c < 90; c += 3) holes.corners[c] = holes.corners[c + 1];
     holes.positions[5].x = std::nan("");
     holes.corners.insert(holes.corners.end(), {1, 1, 2}); // the last one, too

@@ -64,7 +64,7 @@ TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
 
 TEST_CASE("a surface with a part missing is far one way only", "[geometry]") {
     const auto d = deviation(shapes::grid(2, 1), shapes::grid(1, 1), {.mean_error = 0, .certify = true});
-    CHECK(d.forward.maximum == 1); // at a vertex: those are samples as well
+    CHECK(d.forward.maximum == 1); // at a vertex, because vertices are samples too
     CHECK(d.forward.from.x == 2);
     CHECK(d.forward.to.x == 1);
     CHECK(d.forward.face == none);
@@ -108,7 +108,7 @@ TEST_CASE("the bound of a corrugated sheet is what its slopes say", "[geometry]"
         CHECK(*d.forward.bound <= height * 1.01 + 1e-6 * d.diagonal);
         CHECK(d.backward.maximum <= truth * (1 + 1e-12));
         CHECK(*d.backward.bound >= truth * (1 - 1e-12));
-        CHECK(*d.backward.bound <= height * 1.01 + 1e-6 * d.diagonal); // the larger of both is asked about
+        CHECK(*d.backward.bound <= height * 1.01 + 1e-6 * d.diagonal); // only the larger direction is bounded
         const auto back = deviation_to(surface_of(flat), FaceTree(surface_of(ridges)),
                                        {.samples = samples, .certify = true});
         CHECK(*back.bound >= truth * (1 - 1e-12));
@@ -160,7 +160,7 @@ TEST_CASE("the bound of each way is at least the maximum of both", "[geometry]")
 }
 
 TEST_CASE("little work is enough for a bound where little of a surface is far", "[geometry]") {
-    // A large triangle is near many small ones, and parts of it are cut again before those of the next.
+    // A large triangle is near many small triangles, and its pieces are cut again before the next triangle.
     const Surface coarse = surface_of(test::noisy_icosphere(3, 0.004, 2)),
                   fine = surface_of(test::noisy_icosphere(6, 0.004, 1));
     const auto d = deviation_to(coarse, FaceTree(fine), {.certify = true, .certify_work = 400});
@@ -313,7 +313,7 @@ TEST_CASE("isolated vertices are those without faces, in the world", "[geometry]
 
 namespace {
 
-/// What a deviation is by its definition, each point by itself.
+/// The deviation by definition, computed for each point separately.
 struct Plain {
     double maximum = 0, rms = 0, mean = 0;
 };
@@ -434,7 +434,7 @@ TEST_CASE("means of some of the samples are those of all, and the maximum is tha
         set_threads(0);
     }
     CHECK(fewer >= 8);
-    CHECK(uneven > 0); // no more 18ths than it takes, which need not be ninths
+    CHECK(uneven > 0); // no more 18ths than needed, which need not be ninths
 }
 
 TEST_CASE("where deviation is rare all samples are averaged", "[geometry]") {
@@ -463,8 +463,8 @@ TEST_CASE("figures keep their digits at any size", "[geometry]") {
 }
 
 TEST_CASE("slivers that lie askew and meet in one place are measured as others are", "[geometry]") {
-    // A cone of 3,000 slivers from its apex against one of 300. The larger one is farther out everywhere, by
-    // what the chords of the base cut off.
+    // A cone of 3,000 slivers from its apex, compared with a cone of 300. The first is farther out
+    // everywhere, because the chords of its base are shorter.
     const auto cone = [](std::size_t sides) {
         Surface s;
         s.positions.push_back({0, 0, 1});
@@ -486,7 +486,7 @@ TEST_CASE("slivers that lie askew and meet in one place are measured as others a
 }
 
 TEST_CASE("triangles that are all in one place are not searched one by one", "[geometry]") {
-    Surface one; // a search of each of these points for the lowest of these triangles would take minutes
+    Surface one; // searching the lowest of these triangles for each of these points would take minutes
     one.positions.assign(200000, Vec3{1, 2, 3});
     for (Index i = 0; i < 3 * 60000; ++i) one.corners.push_back(i);
     Surface other = one;

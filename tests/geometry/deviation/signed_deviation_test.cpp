@@ -107,14 +107,14 @@ TEST_CASE("what closes a cut is not measured, unless the reference has it", "[ge
         CHECK(all.low < -0.7); // inside the ball, the cap's middle is as far from it as that
         const auto found = signed_deviation(scene, near_tree(ball), {.last_cap = 0});
         CHECK(found.caps == half.cap_faces);
-        CHECK(found.low == Approx(0).margin(1e-12)); // cut edges lie on the ball's faces, but for rounding
+        CHECK(found.low == Approx(0).margin(1e-12)); // cut edges lie on the ball's faces, except for rounding
         CHECK(found.high ==
               (mesh.vertex_count() > half.front.vertex_count() ? Approx(2) : Approx(0).margin(1e-12)));
-        REQUIRE(found.scene.parts.size() == 2); // the caps are there to be seen
+        REQUIRE(found.scene.parts.size() == 2); // the caps are visible
         CHECK(found.scene.parts[1].mesh.face_count() == half.cap_faces);
         CHECK(found.scene.parts[1].mesh.attributes.empty());
     }
-    // A boolean operation numbers what it took from another part, and gives it no group: that is measured.
+    // A boolean operation numbers faces from another part but gives them no group, so they are measured.
     Mesh taken = half.front;
     taken.drop(group_attribute, Domain::face);
     CHECK(signed_deviation(scene_with(taken), near_tree(ball), {.last_cap = 0}).caps == 0);

@@ -9,7 +9,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A triangle whose corners are each of many wedges, with numbers below `values`; -0 beside 0 is another.
+/// A triangle whose corners have many wedges, with numbers below `values`. -0 and 0 are different.
 Mesh of_wedges(std::size_t faces, std::uint64_t values) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

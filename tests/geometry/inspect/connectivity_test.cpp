@@ -13,7 +13,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A sphere of which some faces are turned, doubled or gone, and some vertices are one.
+/// A sphere with some faces reversed, doubled or missing, and some vertices merged.
 Mesh faulty_sphere(std::uint64_t seed, std::uint64_t faults) {
     const Mesh sphere = shapes::icosphere(2);
     Mesh mesh;

@@ -37,7 +37,7 @@ Vec3 exact_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) 
     return place;
 }
 
-/// By Cramer's rule; none of planes without just one point in common.
+/// By Cramer's rule; none if the planes do not meet in a single point.
 std::optional<Vec3> exact_crossing(const std::array<std::array<Vec3, 3>, 3>& planes) {
     std::array<Exact, 3> normal;
     Exact height;
@@ -160,7 +160,8 @@ TEST_CASE("the place where three planes meet is the exact one, rounded towards z
         std::array<std::array<Vec3, 3>, 3> planes;
         for (std::uint64_t i = 0; i < 9; ++i)
             planes[i / 3][i % 3] = random_point(seed, i, middle, seed % 2 == 0 ? 52 : 24);
-        for (std::size_t i = 0; i < seed % 4; ++i) // so many stand across axes, maybe two across one
+        for (std::size_t i = 0; i < seed % 4;
+             ++i) // so many are perpendicular to axes, possibly two to the same axis
             for (std::size_t k = 0, axis = (seed + (seed % 5 == 0 ? 0 : i)) % 3; k < 3; ++k)
                 planes[i][k][axis] = planes[i][0][axis];
         const auto place = planes_crossing(planes);

@@ -62,7 +62,7 @@ TEST_CASE("a corner of a cube has the mass of the textbook", "[geometry]") {
     CHECK(r.shell.area == Approx(1.5 + std::sqrt(3.0) / 2).epsilon(1e-14));
     CHECK(r.solid->volume == Approx(1.0 / 6).epsilon(1e-14));
     check_close(r.solid->centroid, {0.25, 0.25, 0.25});
-    // About the origin xx is 1/60 and xy 1/120; Steiner takes V/16 off both.
+    // About the origin xx is 1/60 and xy 1/120. Steiner's theorem subtracts V/16 from both.
     CHECK(r.solid->spread.xx == Approx(1.0 / 60 - 1.0 / 96).epsilon(1e-13));
     CHECK(r.solid->spread.xy == Approx(1.0 / 120 - 1.0 / 96).epsilon(1e-13));
 }
@@ -159,7 +159,7 @@ TEST_CASE("curvature of a sphere is one, and the missing angles sum to Euler's n
     CHECK(r.total == Approx(4 * pi).epsilon(1e-12));
     CHECK(measure_curvature(shapes::torus(30, 12)).total == Approx(0).margin(1e-11));
     CHECK(measure_curvature(shapes::grid(3, 3)).total == Approx(2 * pi).epsilon(1e-13));
-    CHECK(measure_curvature(shapes::grid(3, 3)).of_gaussian.count == 4); // those inside
+    CHECK(measure_curvature(shapes::grid(3, 3)).of_gaussian.count == 4); // the inner vertices
     CHECK(measure_curvature(shapes::quad_cube()).total == Approx(4 * pi).epsilon(1e-13));
 }
 

@@ -22,7 +22,7 @@ std::uint64_t sum(const Histogram& h) {
     return std::accumulate(h.counts.begin(), h.counts.end(), std::uint64_t{0});
 }
 
-/// What the bin that holds the number has.
+/// The count of the bin that contains the number.
 std::uint64_t count_at(const Histogram& h, double x) {
     for (std::size_t i = 0; i < h.counts.size(); ++i)
         if (h.limits[i] <= x && x < h.limits[i + 1]) return h.counts[i];

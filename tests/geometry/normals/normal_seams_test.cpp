@@ -14,7 +14,7 @@ namespace {
 
 const double thirty = 30 * pi / 180;
 
-/// Every corner a wedge of its own, with the normal of its face.
+/// Gives every corner a separate wedge with the face's normal.
 Mesh flat_shaded(Mesh m) {
     Attribute normals{"NORMAL", Domain::wedge, Role::normal, 3, false, {}};
     std::vector<float> data;
@@ -46,7 +46,7 @@ double worst_facing(const Mesh& m) {
     return worst;
 }
 
-/// A prism around the z axis, open at both ends; smooth all around but for a seam at every edge.
+/// A prism around the z axis, open at both ends; smooth all around except for a seam at every edge.
 Mesh prism(int sides, double turn_of_normals) {
     Mesh m;
     for (int i = 0; i < sides; ++i)

@@ -15,7 +15,7 @@ Vec3 normal_of(const Mesh& m, Index w) {
     return {a.value(w, 0), a.value(w, 1), a.value(w, 2)};
 }
 
-/// The largest distance between a corner's normal and that of its face.
+/// The largest distance between a corner's normal and its face's normal.
 double worst_against_faces(const Mesh& m) {
     double worst = 0;
     for (Index f = 0; f < m.face_count(); ++f) {
@@ -82,7 +82,7 @@ TEST_CASE("the normals of a sphere point away from its centre", "[geometry]") {
 
 TEST_CASE("seams of other attributes stay, with one normal on both sides", "[geometry]") {
     Mesh m = centred_cube();
-    // Every corner has a texture point of its own.
+    // Every corner has its own texture point.
     std::vector<Index> vertices;
     std::vector<float> uvs;
     for (Index c = 0; c < m.corner_count(); ++c) {

@@ -1,5 +1,5 @@
-// Tangents as MikkTSpace makes them: the expected numbers are those of its reference implementation (npm
-// mikktspace 1.1.1), with the sign of the bitangent reversed, as v points down in glTF.
+// Tangents of MikkTSpace. The expected numbers come from its reference implementation (npm mikktspace
+// 1.1.1). The sign of the bitangent is reversed, because v points down in glTF.
 #include "support/catch.hpp"
 
 #include "geometry/normals/tangents.hpp"

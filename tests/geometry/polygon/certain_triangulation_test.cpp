@@ -134,7 +134,7 @@ TEST_CASE("triangulations of random points cover the triangle and have empty cir
             const double d = 2 * cross(u, v);
             const Vec2 middle{(v.y * dot(u, u) - u.y * dot(v, v)) / d,
                               (u.x * dot(v, v) - v.x * dot(u, u)) / d};
-            for (const Vec2& q : cut.points) // in the circle, but for rounding
+            for (const Vec2& q : cut.points) // on the circle, except for rounding
                 wrong += length(q - p - middle) < length(middle) * (1 - 1e-9);
         }
         wrong += std::abs(sum - 6) > 1e-12;
@@ -151,7 +151,7 @@ TEST_CASE("lines that cross are told where that is sure", "[geometry]") {
     cut.lines = {{a, b}, {c, d}, {d, e}};
     CHECK(certain_crossings(cut) == Pairs{{0, 1}}); // lines 1 and 2 end in one point
     const Index on = add(cut, {1.25, 1.25});
-    cut.lines.push_back({on, e}); // ends on line 0, as far as doubles tell
+    cut.lines.push_back({on, e}); // ends on line 0 within the accuracy of doubles
     CHECK(!certain_crossings(cut));
     cut.lines.back() = {add(cut, {1.25, 1.0}), e};
     CHECK(certain_crossings(cut) == Pairs{{0, 1}});

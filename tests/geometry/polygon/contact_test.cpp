@@ -37,7 +37,7 @@ bool back(const Piece& e, const Piece& f) {
     return turn_of(e.a, e.b, f.b) == 0 && dot(e.b - e.a, f.b - f.a) < 0;
 }
 
-/// All pairs, as the words of Contact say.
+/// Tests all pairs, by the definition of Contact.
 Contact contact_by_pairs(const Many& rings) {
     std::vector<Piece> pieces;
     for (const Points& ring : rings) {
@@ -194,7 +194,7 @@ TEST_CASE("how large stars and combs meet themselves, one corner moved", "[geome
     }
 }
 
-// Of which nearly all pairs of edges have boxes that meet.
+// The boxes of nearly all pairs of edges overlap.
 TEST_CASE("a star and a comb of 100,000 corners are seen through at once", "[geometry]") {
     Points star, comb;
     for (int i = 0; i < 100'000; ++i) {

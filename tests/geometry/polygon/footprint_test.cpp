@@ -29,7 +29,7 @@ TEST_CASE("a footprint finds places as a look at all edges does", "[geometry]") 
     };
     for (std::uint64_t i = 0; i < 3000; ++i)
         check({uniform(hashed(1, i)) * 72 - 2, uniform(hashed(2, i)) * 8 - 1});
-    for (const auto& ring : rings) // on corners, and at their heights and beside them
+    for (const auto& ring : rings) // on corners, at their heights, and next to them
         for (const Vec2& corner : ring) {
             check(corner);
             for (const double x : {-1.0, 0.25, 20.5, 45.5, 46.5, 60.5, 80.0}) check({x, corner.y});

@@ -129,7 +129,7 @@ TEST_CASE("a preview lays textures on as their materials say", "[geometry]") {
     CHECK(largest == Approx(12));
     CHECK(laid_on.mesh.find("NORMAL", Domain::wedge) != nullptr);
 
-    // A scene of far more faces than asked for has the texture as colours.
+    // A scene with far more faces than requested gets the texture as vertex colours.
     scene.parts[0].mesh = shapes::icosphere(5);
     Mesh& sphere = scene.parts[0].mesh;
     sphere.attributes.push_back(
@@ -180,7 +180,7 @@ TEST_CASE("lines and single points come after the triangles of a preview, with t
     scene.materials[1].base_colour[2] = 0;
     Mesh lines;
     lines.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {HUGE_VAL, 0, 0}};
-    lines.lines = {0, 1, 1, 2, 2, 3}; // the last goes nowhere
+    lines.lines = {0, 1, 1, 2, 2, 3}; // the last has no further point
     lines.primitives = {{none, {}, {}}, {1, {}, {}}};
     lines.line_primitive = {0, 1, 1};
     scene.parts.emplace_back().mesh = lines;

@@ -108,7 +108,7 @@ TEST_CASE("errors fall from the root to 0 at the leaves, which have all faces", 
     }
     CHECK(faces == mesh.face_count());
     CHECK(tiles[0].mesh.face_count() <= 1000);
-    CHECK_FALSE(tiles[0].mesh.has_seams()); // what tiles had in common is no seam above
+    CHECK_FALSE(tiles[0].mesh.has_seams()); // common borders of tiles are not seams in the parent
 }
 
 TEST_CASE("a pyramid has as few tiles as its faces need, and as even ones", "[pyramid]") {

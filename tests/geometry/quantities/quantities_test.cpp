@@ -45,7 +45,7 @@ TEST_CASE("the walls of a ball are as thick as it, and its curvature is that of 
     constexpr double r = 3;
     const Part ball = part_of_size(shapes::icosphere(4), r);
     check_numbers(numbers_of("wall_thickness", ball), 2 * r, 0.01);
-    // But for the twelve vertices of five faces, where a third of the area is not what is nearest.
+    // Except at the twelve vertices of five faces, where a third of the area is not the nearest region.
     const auto median = [&](const char* name) {
         auto all = numbers_of(name, ball);
         std::nth_element(all.begin(), all.begin() + 1000, all.end());
@@ -78,7 +78,8 @@ TEST_CASE("deviation is positive outside, negative inside and 0 on the surface",
 TEST_CASE("what has no number is told", "[geometry]") {
     const Part sheet = part_of_size(shapes::grid(2, 2), 1);
     for (const double x : numbers_of("wall_thickness", sheet)) CHECK(std::isnan(x));
-    const auto bends = numbers_of("mean_curvature", sheet); // but for the middle all are on the boundary
+    const auto bends =
+        numbers_of("mean_curvature", sheet); // all vertices except the middle are on the boundary
     CHECK(std::count_if(bends.begin(), bends.end(), [](double x) { return std::isnan(x); }) == 8);
     Part flat = part_of_size(shapes::cube(), 1);
     flat.mesh.positions[0] = flat.mesh.positions[1] = flat.mesh.positions[2];

@@ -28,7 +28,7 @@ RelaxSettings by(Method method, std::int64_t iterations = 1) {
 
 Mesh noisy_sphere() { return crumple(shapes::icosphere(4), {.amplitude = 0.01, .seed = 1}).mesh; }
 
-/// How far the vertices are from the unit sphere's shape: the deviation of their distances from their mean.
+/// The roughness of the unit sphere: the deviation of the distances from their mean.
 double roughness(const Mesh& mesh) {
     double mean = 0, sum = 0;
     for (const Vec3& p : mesh.positions) mean += length(p);
@@ -180,7 +180,7 @@ TEST_CASE("morph targets are relaxed as the surfaces they stand for", "[geometry
 TEST_CASE("degenerate and non-manifold places give numbers", "[geometry]") {
     Mesh mesh = shapes::icosphere(1);
     mesh.positions.push_back({9, 9, 9});                       // of no face
-    mesh.positions.insert(mesh.positions.end(), 3, {5, 5, 5}); // a face in one place
+    mesh.positions.insert(mesh.positions.end(), 3, {5, 5, 5}); // a face with all corners at the same position
     const Index n = 43;
     mesh.corners.insert(mesh.corners.end(), {0, 0, 1, 2, 2, 2, 0, 1, 5, n, n + 1, n + 2, 3, 4, 42});
     for (const Method method : every_method)

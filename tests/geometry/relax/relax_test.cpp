@@ -41,7 +41,7 @@ TEST_CASE("a step of relaxation puts a vertex at its neighbours' mean", "[geomet
     for (Index v = 1; v < 6; ++v)
         if (length(m.positions[v] + shapes::octahedron().positions[0]) < 1e-12) opposite = v;
     REQUIRE(opposite != none);
-    // The four others are the neighbours of both: both come to lie at their mean, the centre.
+    // The four others are the neighbours of both, so both move to their mean, the centre.
     CHECK(length(r.mesh.positions[0]) < 1e-15);
     CHECK(length(r.mesh.positions[opposite]) < 1e-15);
     CHECK(r.moved == 6);

@@ -28,7 +28,7 @@ std::size_t covered(const Picture& picture) {
     return count;
 }
 
-/// Whether the surface's inner side is seen there: more red than blue, by far.
+/// Whether the pixel shows the inner side: far more red than blue.
 bool inner(const Pixel& p) { return p.r > p.b + 60; }
 
 } // namespace
@@ -64,7 +64,7 @@ TEST_CASE("the inner side of a surface is orange, unless its material is double-
 
 namespace {
 
-/// A flat square in the plane z = 0 that looks towards +z, seen from there at 20 pixels a side or so.
+/// A flat square in the plane z = 0 that faces +z, seen from +z at about 20 pixels per side.
 Scene square(bool turned = false) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -89,7 +89,7 @@ int shade(double cosine) {
     return static_cast<int>(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055) + 0.5);
 }
 
-/// Width and height of what is covered.
+/// The width and height of the covered pixels.
 std::pair<int, int> size_of(const Picture& picture) {
     int left = picture.width, right = -1, top = picture.height, bottom = -1;
     for (int y = 0; y < picture.height; ++y)
@@ -118,7 +118,7 @@ TEST_CASE("the cosine between normal and light shades a face, or its absolute va
     both.parts[0].mesh.primitives.resize(1);
     both.parts[0].mesh.primitives[0].material = 0;
     CHECK(middle(both, Shading::one_sided) == shade(facing));
-    // Doubled faces: the front is seen, whichever comes first.
+    // Doubled faces: the front is visible, whichever comes first.
     for (const bool first : {false, true}) {
         Scene doubled = square(first);
         append(doubled.parts[0].mesh, square(!first).parts[0].mesh);
@@ -171,7 +171,7 @@ TEST_CASE("a box has its sides where the viewer stands", "[geometry]") {
     scene.up = UpAxis::y;
     CHECK(size(Viewpoint::front) == Size{920, 400});
     CHECK(picture_of(scene, seen_from({0, 0, 5})).scale == Approx(92.0 / 4.6));
-    // Left and right are told apart: a square beside the box on the right is seen on the right.
+    // Left and right are not swapped: a square to the right of the box appears on the right.
     Scene two = square();
     two.up = UpAxis::y;
     two.parts[0].mesh.positions[2] = two.parts[0].mesh.positions[1] = {1, 0.5, 0};
@@ -362,7 +362,7 @@ TEST_CASE("folds are darker than planes", "[geometry]") {
         for (const int y : {47, 53}) CHECK(red_at(true, y) < red_at(false, y) - 5);  // at the fold
         for (const int y : {25, 75}) CHECK(red_at(true, y) >= red_at(false, y) - 1); // far from it
     }
-    // A plane hides nothing of itself, however it stands.
+    // A plane does not occlude itself, whatever its orientation.
     PictureSettings steep = seen_from({0.2, 3, 1});
     const Picture with = picture_of(square(), steep);
     steep.occlusion = false;
@@ -568,7 +568,7 @@ TEST_CASE("lines and points without a colour are seen on white and on black", "[
     const auto contrast = [&](float ground) {
         settings.ground = {ground, ground, ground};
         const Picture picture = picture_of(scene, settings);
-        float best = 0; // of the pixels that are not ground: those that are covered whole
+        float best = 0; // only fully covered pixels, not the background
         for (int y = 0; y < 100; ++y)
             for (int x = 0; x < 100; ++x) {
                 const Pixel p = at(picture, x, y), there = at(picture, 0, 0);
@@ -584,7 +584,7 @@ TEST_CASE("lines and points without a colour are seen on white and on black", "[
     };
     for (const bool lines : {false, true}) {
         if (lines) mesh.lines = {0, 1, 1, 2, 2, 0};
-        for (const bool white : {false, true}) { // the material of glTF that says nothing
+        for (const bool white : {false, true}) { // with glTF's default material
             scene.materials.resize(white);
             mesh.primitives.assign(white, {0, {}, {}});
             for (const float ground : {0.0f, 0.01f, 0.9f, 1.0f}) CHECK(contrast(ground) > 3);

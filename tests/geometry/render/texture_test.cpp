@@ -28,7 +28,7 @@ Texture four_colours() {
     return t;
 }
 
-/// A square from 0 to 1 in x and y, seen along -z by 100 x 100 pixels, with texture coordinates of glTF: v
+/// A square from 0 to 1 in x and y, seen along -z by 100 x 100 pixels, with glTF texture coordinates: v
 /// grows downwards.
 Scene textured_square(float from = 0, float to = 1) {
     Mesh mesh;
@@ -88,7 +88,7 @@ TEST_CASE("mip levels are means in linear light", "[geometry]") {
         image_of(2, 2, {{0, 0, 0, 255}, {255, 255, 255, 255}, {255, 255, 255, 255}, {0, 0, 0, 255}}, true);
     REQUIRE(checks->levels.size() == 2);
     CHECK(checks->levels[1].rgba == std::vector<std::uint8_t>{188, 188, 188, 255}); // half the light
-    // What is transparent has no say in the colour.
+    // Transparent pixels do not affect the colour.
     const auto leaf = image_of(2, 1, {{0, 255, 0, 255}, {255, 0, 0, 0}});
     CHECK(leaf->levels[1].rgba == std::vector<std::uint8_t>{0, 255, 0, 128});
     // An odd side: each pixel counts by the area that is covered.

@@ -26,7 +26,8 @@ void add(Mesh& m, const char* name, Role role, int components,
     m.attributes.push_back(std::move(a));
 }
 
-/// How far an attribute on the simplified flat sheet is from what it was at the same place: root mean square.
+/// The root mean square error of an attribute on the simplified flat sheet, compared with the original at
+/// the same position.
 double off(const Mesh& given, const Mesh& now, const char* name) {
     const Surface surface = surface_of(given);
     const FaceTree tree(surface);
@@ -71,12 +72,12 @@ double bump(const Vec3& p) {
 } // namespace
 
 TEST_CASE("what is painted on a flat sheet is seen by the weights", "[geometry]") {
-    // Flat, so the shape alone says nothing: only the attributes tell where vertices are needed.
+    // The sheet is flat, so only the attributes determine where vertices are needed.
     Mesh m = shapes::grid(40, 40);
     add(m, "COLOR_0", Role::colour, 3, [](const Vec3& p, double* c) { c[0] = c[1] = c[2] = bump(p); });
     const auto on = simplify(m, {.weights = {.colour = 1}, .ratio = 0.1});
     const auto without = simplify(m, {.weights = {.colour = 0}, .ratio = 0.1});
-    // The last collapse may take one face more than was asked for.
+    // The last collapse may remove one face more than requested.
     for (const auto* r : {&on, &without}) CHECK((r->faces_after == 319 || r->faces_after == 320));
     CHECK(off(m, on.mesh, "COLOR_0") < 0.25 * off(m, without.mesh, "COLOR_0"));
 }

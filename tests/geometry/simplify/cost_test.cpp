@@ -1,4 +1,4 @@
-// The costs of edges four at a time, against those one by one.
+// Compares the costs of edges computed four at a time with single costs.
 #include "support/catch.hpp"
 
 #include "base/math/portable_math.hpp"
@@ -36,15 +36,15 @@ std::size_t check_costs(const State& s) {
     for (Index c = 0; c < s.tri.size(); ++c) {
         if (!(s.edges.cost[c] < never)) continue;
         const double one = cost_of(s, c, s.edges.flags[c]);
-        // Single precision, and another pull to the middle where the planes leave the place free.
+        // Single precision, and a different pull to the middle if the planes do not determine the position.
         CHECK(s.edges.cost[c] == Approx(one).epsilon(1e-2));
         ++priced;
     }
     return priced;
 }
 
-/// A square of n x n cells in the plane z = 0, one sheet on the other, joined along the border: closed, and
-/// without a volume. slivers: at the border, faces without area lie between the two.
+/// Two square sheets of n x n cells in the plane z = 0, joined along the border: closed and without volume.
+/// slivers: faces without area lie between the two at the border.
 Mesh double_sheet(int n, bool slivers) {
     Mesh m = shapes::grid(n, n);
     const Index side = static_cast<Index>(n) + 1, front = static_cast<Index>(m.vertex_count());
@@ -64,7 +64,7 @@ Mesh double_sheet(int n, bool slivers) {
         for (std::size_t k = 3; k-- > 0;)
             back.push_back(on_border(corners[f + k]) ? corners[f + k] : corners[f + k] + front);
         m.corners.insert(m.corners.end(), back.begin(), back.end());
-        std::size_t open = 3; // the edge of this face that is to get a sliver
+        std::size_t open = 3; // the edge of this face that gets a sliver
         for (std::size_t k = 0; k < 3 && slivers; ++k)
             if (uses[std::minmax(corners[f + k], corners[f + (k + 1) % 3])] == 1) open = k;
         if (open == 3) {
@@ -81,8 +81,8 @@ Mesh double_sheet(int n, bool slivers) {
     return m;
 }
 
-/// A square plate of side 2 and thickness 0.05 whose upright edges are rounded with radius 1/8, in so many
-/// steps each; bottom and top are fans about a vertex of their outline.
+/// A square plate of side 2 and thickness 0.05. Its upright edges are rounded with radius 1/8, in this many
+/// steps each. Bottom and top are fans around a vertex of their outline.
 Mesh rounded_plate(int steps) {
     constexpr double radius = 0.125;
     const std::array<Vec3, 4> centres{Vec3{1 - radius, 1 - radius, 0}, Vec3{radius - 1, 1 - radius, 0},

@@ -46,8 +46,8 @@ TEST_CASE("meshes that share a target end at about the same error", "[geometry]"
     const auto r = simplify_sharing(both(sharing(rough_ball(5)), sharing(rough_ball(4), 5)), {.ratio = 0.05});
     const auto &large = r[0][0][0], &small = r[1][0][0]; // by the number of triangles
     CHECK(large.faces_after + small.faces_after == 20480 / 20 + 5120 / 20);
-    // Costs are squared errors times the (5/8)th power of an area, so a surface 25 times as large has about
-    // 25^(5/16) = 2.7 times less error.
+    // Costs are squared errors times the (5/8)th power of an area. A surface 25 times as large therefore has
+    // about 25^(5/16) = 2.7 times less error.
     CHECK(*large.largest_error / (5 * *small.largest_error) > 0.7);
     CHECK(*large.largest_error / (5 * *small.largest_error) < 3);
     CHECK(test::sound(large.mesh, 2));
@@ -88,7 +88,7 @@ TEST_CASE("no collapse is beyond max_quadric_error", "[geometry]") {
         CHECK(r.faces_after > 20);
         CHECK(test::sound(r.mesh, 2));
     }
-    // Where the target is met first, it changes nothing.
+    // If the target is reached first, the limit changes nothing.
     const auto free = simplify(rough_ball(4), {.ratio = 0.2});
     CHECK(test::same(simplify(rough_ball(4), {.ratio = 0.2, .max_quadric_error = 0.05}).mesh, free.mesh));
     CHECK(test::failure([] { simplify(shapes::cube(), {.ratio = 0.5, .max_quadric_error = 0}); }) != "");

@@ -87,7 +87,7 @@ TEST_CASE("what borders that touch carry stays with their sides", "[geometry]") 
 }
 
 TEST_CASE("a slit within a surface stays a hole, a seam from border to border stays matched", "[geometry]") {
-    // A tube that was never closed: the first and the last column of a sheet are at the same places.
+    // A tube that was never closed: the first and the last column of a sheet have the same positions.
     Mesh tube = shapes::grid(24, 12);
     for (Vec3& p : tube.positions) {
         const double angle = p.x == 24 ? 0 : p.x / 24 * 2 * pi;

@@ -149,8 +149,8 @@ TEST_CASE("the boundary of an open sheet keeps its shape", "[geometry]") {
     CHECK(count(r.mesh).euler == 1);
     CHECK(count(r.mesh).crowded == 0);
     CHECK(test::area(r.mesh) == Approx(256).epsilon(1e-6));
-    // The method of P. Bourke, "Surface (polygonal) Simplification" (1997), knows no shape: it moves along
-    // the boundary's edges, and cuts corners.
+    // The method of P. Bourke, "Surface (polygonal) Simplification" (1997), ignores the shape. It moves
+    // along the boundary's edges and cuts corners.
     const auto note = simplify(m, {.method = Method::shortest_edge, .ratio = 0.25});
     CHECK(count(note.mesh).euler == 1);
     CHECK(test::area(note.mesh) > 0.95 * 256);
@@ -452,7 +452,7 @@ TEST_CASE("levels of detail are one chain", "[geometry]") {
         CHECK(levels[i].largest_error >= levels[i - 1].largest_error);
         CHECK(levels[i].collapses == 2562 - levels[i].vertices_after);
     }
-    // The first level is what a run of its own gives.
+    // The first level equals the result of a separate run.
     CHECK(test::same(levels[1].mesh, simplify(m, {.ratio = 0.5}).mesh));
     CHECK(simplify_levels(shapes::cube(), at_levels({0.5, 0.25}))[1].stop == Stop::stuck);
     CHECK(test::failure([] {
@@ -484,7 +484,7 @@ TEST_CASE("simplification avoids new self-intersections on request", "[geometry]
     CHECK(avoided.intersections_after == 0u);
     CHECK(find_self_intersections(avoided.mesh).count == 0);
     CHECK(avoided.held > 0);
-    CHECK(avoided.faces_after < 3 * m.face_count() / 4); // not all goes back to how it came
+    CHECK(avoided.faces_after < 3 * m.face_count() / 4); // not all faces return to their original state
     CHECK(count(avoided.mesh).euler == 2);
 }
 
@@ -506,7 +506,7 @@ TEST_CASE("the constrained method keeps its constraints, seams and guarantees", 
     const Mesh m = rough(shapes::icosphere(3), 0.005);
     const auto r = simplify(m, {.method = Method::constrained, .ratio = 0.2});
     CHECK(r.stop == Stop::ratio);
-    CHECK_FALSE(r.largest_error); // OpenMesh does not tell it
+    CHECK_FALSE(r.largest_error); // OpenMesh does not report it
     CHECK(sound(r.mesh, 2));
     CHECK(broken_invariants(r.mesh).empty());
     const auto near =

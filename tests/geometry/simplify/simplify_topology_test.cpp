@@ -57,7 +57,7 @@ TEST_CASE("topology: allow lets crumbs vanish, keep does not", "[geometry]") {
         CHECK(r.mesh.face_count() == r.faces_after);
         CHECK(r.mesh.vertex_count() == r.vertices_after);
         CHECK(broken_invariants(r.mesh).empty());
-        CHECK(sound(r.mesh, 2)); // what is left is the sphere
+        CHECK(sound(r.mesh, 2)); // only the sphere remains
         CHECK(r.mesh.bounds().max.x < 1.1);
     }
 }
@@ -71,8 +71,8 @@ TEST_CASE("topology: allow goes down to nothing, and counts what it does", "[geo
 }
 
 TEST_CASE("topology: allow goes down to a number of faces and not far below it", "[geometry]") {
-    // Cubes that are all alike: each ends as a tetrahedron, whose last collapse takes four faces. At most the
-    // last one goes beyond the target.
+    // Equal cubes: each ends as a tetrahedron, whose last collapse removes four faces. At most the last
+    // collapse goes beyond the target.
     Mesh m;
     for (int i = 0; i < 3000; ++i) {
         Mesh cube = shapes::cube();
@@ -144,7 +144,7 @@ TEST_CASE("cluster meets its targets by the size of the cells", "[geometry]") {
 }
 
 TEST_CASE("cluster meets the planes of a cell where they meet", "[geometry]") {
-    // The corners of the box are found again, although no cell's mean is there.
+    // The result has the corners of the box, although no cell's mean is at a corner.
     const Mesh m = split(shapes::cube(), {.passes = 4}).mesh;
     const auto coarse = simplify(m, {.method = Method::cluster, .ratio = 0.1});
     const Box box = coarse.mesh.bounds(), whole = m.bounds();
@@ -194,7 +194,7 @@ TEST_CASE("cluster keeps thin sheets as double faces, islands of a texture apart
         for (std::size_t k = 0; k < 3; ++k)
             worst = std::max(worst, std::abs(at->value(w, static_cast<int>(k)) -
                                              smooth.mesh.positions[smooth.mesh.vertex_of_wedge(w)][k]));
-    CHECK(worst < 0.01); // values are of the place, not of the cell's first vertex
+    CHECK(worst < 0.01); // values belong to the position, not to the cell's first vertex
     CHECK(test::same_for_any_threads(
         [&] { return simplify(m, {.method = Method::cluster, .ratio = 0.1}).mesh; }));
 }

@@ -26,7 +26,7 @@ Pairs pairs_of(const std::vector<Box>& boxes, const std::vector<std::uint8_t>& a
             a.insert(b.begin(), b.end());
             return a;
         });
-    CHECK(count == pairs.size()); // none twice
+    CHECK(count == pairs.size()); // no pair twice
     return pairs;
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("triangles are surely disjoint only when they are", "[geometry]") {
     CHECK(surely_disjoint(a, {{{1, 1, 1}, {2, 1, 1}, {1, 2, 1.5}}}, 0)); // above the plane
     CHECK_FALSE(surely_disjoint(a, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 0}}}, 0));
     CHECK_FALSE(surely_disjoint(a, {{{1, 1, 0}, {2, 1, 5}, {1, 2, 5}}}, 0)); // touches
-    CHECK(surely_disjoint(a, {{{0, 0, 0}, {-4, -1, 0}, {-1, -4, 1}}}, 1));   // beside each other
+    CHECK(surely_disjoint(a, {{{0, 0, 0}, {-4, -1, 0}, {-1, -4, 1}}}, 1));   // next to each other
     CHECK(surely_disjoint(a, {{{0, 0, 0}, {4, 1, 1}, {1, 4, 1}}}, 1));       // over each other, rising
     CHECK_FALSE(surely_disjoint(a, {{{0, 0, 0}, {4, 1, 1}, {1, 4, -1}}}, 1));
     CHECK_FALSE(surely_disjoint(a, {{{0, 0, 0}, {1, 1, 0}, {-4, 1, 0}}}, 1));

@@ -14,8 +14,7 @@ using namespace facetmill;
 
 namespace {
 
-/// The trees that know distances: of all uses, for near points, that with what far points need, for few and
-/// for far fewer; and those over a surface that stays.
+/// Trees of all uses that find distances, some of them flattened, and trees over an existing surface.
 std::vector<FaceTree> trees_of(const Surface& surface) {
     std::vector<FaceTree> trees;
     trees.emplace_back(surface);
@@ -145,7 +144,7 @@ TEST_CASE("triangles far away from the others change no distance", "[geometry]")
     }
     for (const FaceTree& tree : trees_of(surface)) {
         const auto found = closest_points(tree, points);
-        for (std::size_t i = 0; i < points.size(); ++i) // as well as the coordinates of a point tell
+        for (std::size_t i = 0; i < points.size(); ++i) // within the accuracy of a point's coordinates
             REQUIRE(found[i].distance ==
                     Approx(distance_by_trial(surface, points[i])).epsilon(1e-14).margin(4e-15 * (1 + far)));
     }

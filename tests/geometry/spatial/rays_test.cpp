@@ -102,7 +102,7 @@ TEST_CASE("lists of hits are those of single lines, whatever the number of threa
     std::vector<Line> lines;
     for (std::uint64_t k = 0; k < 2000; ++k)
         lines.push_back({test::random_point(2, 6, 2 * k), test::random_point(2, 6, 2 * k + 1)});
-    // Lines that are none, among the others and all of a piece at the end.
+    // Degenerate lines among the others, and a run of them at the end.
     const double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 40; ++i) lines[37 * i].to = i % 2 ? lines[37 * i].from : Vec3{infinity, 0, 0};
     lines.resize(lines.size() + 600, {{9, 9, 9}, {9, 9, 9}});
@@ -128,7 +128,7 @@ TEST_CASE("the winding number is 1 inside, 0 outside, and adds up", "[geometry]"
         const double r = length(p);
         if (r < 0.89) CHECK(winding(tree, p) == 1);
         if (r > 1.11) CHECK(winding(tree, p) == 0);
-        // A ray in any other direction says the same.
+        // A ray in any other direction gives the same result.
         CHECK(winding(tree, p) ==
               sum_of_ways(all_hits(tree, {p, p + test::random_point(1, 6, 1000 + k), true})));
     }
@@ -142,7 +142,7 @@ TEST_CASE("the winding number is 1 inside, 0 outside, and adds up", "[geometry]"
 
 TEST_CASE("many points, each asked from the one before, get what each gets alone", "[geometry]") {
     Mesh mesh = shapes::cube();
-    Mesh other = shapes::cube(); // overlaps the first, and lies in its planes
+    Mesh other = shapes::cube(); // overlaps the first, and shares its planes
     for (auto& p : other.positions) p = {p.x * 0.5 + 0.5, p.y * 0.5, p.z * 2};
     append(mesh, other);
     append(mesh, test::noisy_icosphere(2, 0.1, 5));

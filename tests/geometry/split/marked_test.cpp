@@ -113,7 +113,7 @@ TEST_CASE("max_edge: no edge is longer, and short ones are whole", "[geometry]")
     CHECK(test::sound(r.mesh, 2));
     CHECK(test::volume(r.mesh) == Approx(test::volume(mesh)).epsilon(1e-12));
     CHECK(r.added == r.mesh.face_count() - mesh.face_count());
-    // A mesh that has it already stays as it is.
+    // A mesh that already has it stays unchanged.
     CHECK(split(r.mesh, s).added == 0);
     s.method = SplitMethod::midpoint;
     CHECK(facet_shape(split(mesh, s).mesh).longest_edge <= s.max_edge);

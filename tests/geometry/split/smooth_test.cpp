@@ -20,8 +20,8 @@ SplitSettings passes_of(SplitMethod method, int passes = 1) {
     return s;
 }
 
-/// The faces by the vertices of `to` that theirs lie on, each from its lowest vertex, sorted; empty when some
-/// vertex lies on none.
+/// The faces as lists of coincident vertices of `to`, each from its lowest vertex, sorted. Empty if a vertex
+/// coincides with none.
 std::vector<std::vector<Index>> faces_on(const Mesh& mesh, const Mesh& to) {
     std::vector<Index> place;
     for (const Vec3& p : mesh.positions) {

@@ -1,5 +1,5 @@
-// Split where faces cannot be cut each by itself: concave faces, faces that share two edges, large polygons,
-// and targets that are not reached.
+// Splits faces that cannot be cut independently: concave faces, faces that share two edges, large polygons.
+// Also tests targets that are not reached.
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/split/split.hpp"
 #include "mesh/invariants.hpp"
@@ -129,7 +129,7 @@ TEST_CASE("quads that share two edges stay manifold with varignon and diagonal",
     const Mesh mesh = pocket();
     const auto before = test::count(mesh);
     REQUIRE(before.crowded == 0);
-    CHECK(test::count(triangulated(mesh)).crowded == 0); // one of two diagonals in one place is turned
+    CHECK(test::count(triangulated(mesh)).crowded == 0); // two diagonals would coincide, so one is flipped
     for (const auto method : {SplitMethod::varignon, SplitMethod::diagonal}) {
         const SplitResult r = split(mesh, {method, 1});
         const auto after = test::count(r.mesh);

@@ -1,4 +1,4 @@
-// What thicken does where the walls of a closed surface have no room.
+// Tests thicken on closed surfaces whose walls do not fit inside.
 #include "support/catch.hpp"
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
@@ -106,7 +106,7 @@ TEST_CASE("thicken fills a ball that is thinner than its wall, on the side that 
     CHECK(test::volume(r.mesh) == Approx(volume * (1.6 * 1.6 * 1.6 - 0.4 * 0.4 * 0.4)).epsilon(0.02));
     r = thicken(ball, {.thickness = 1.2, .side = ThickenSide::outward});
     CHECK((is_sound(r) && r.filled == 0));
-    // One that is filled beside one that is hollow: each for itself.
+    // A component that becomes filled, next to a hollow component: each is handled separately.
     Mesh large = scaled(ball, {3, 3, 3});
     for (Vec3& p : large.positions) p.x += 10;
     r = thicken(both(ball, large), {.thickness = 1.2});
@@ -123,14 +123,14 @@ TEST_CASE("thicken says where walls that are not filled fold over", "[geometry]"
     CHECK(std::abs(waist.first_turned->x) < 1.5);
     const auto thin = thicken(dumbbell(), {.thickness = 0.01});
     CHECK(is_sound(thin));
-    Mesh trough = shapes::icosphere(3); // an open half: there is no inside to fill
+    Mesh trough = shapes::icosphere(3); // an open half has no inside to fill
     std::vector<Index> below;
     for (Index f = 0; f < trough.face_count(); ++f)
         if (trough.point(3 * f).z < 0)
             for (Index c = 3 * f; c < 3 * f + 3; ++c) below.push_back(trough.corners[c]);
     trough.corners = below;
     const auto bowl = thicken(trough, {.thickness = 1.2});
-    CHECK(bowl.turned > trough.face_count() * 95 / 100); // but for the uneven border
+    CHECK(bowl.turned > trough.face_count() * 95 / 100); // except for the uneven border
     CHECK(bowl.filled == 0);
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("turned_faces: a face that shrank to nothing on the way is turned", "[
 }
 
 TEST_CASE("room_inside finds whether a ball fits", "[geometry]") {
-    const double far = 1e-3; // what counts as none
+    const double far = 1e-3; // a smaller margin counts as no room
     const Mesh ball = shapes::icosphere(3), solid = tetrahedron();
     const double radius = 3 * test::volume(solid) / test::area(solid);
     for (const auto& [mesh, most] : {std::pair(solid, radius), {scaled(solid, {7, 7, 7}), 7 * radius}}) {

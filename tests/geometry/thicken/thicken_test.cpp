@@ -41,7 +41,7 @@ TEST_CASE("thicken makes solids of sheets that meet at an edge, and walls apart 
 }
 
 TEST_CASE("thicken does not look through what is thicker than it is large", "[geometry]") {
-    const Mesh cone = shapes::open_cone(8); // open: there is no inside to fill
+    const Mesh cone = shapes::open_cone(8); // an open surface has no inside to fill
     const double size = length(cone.bounds().max - cone.bounds().min);
     CHECK(thicken(cone, {.thickness = 0.9 * size}).self_intersections.has_value());
     CHECK_FALSE(thicken(cone, {.thickness = 1.1 * size}).self_intersections);

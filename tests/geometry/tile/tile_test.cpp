@@ -73,7 +73,7 @@ TEST_CASE("tiles add up and are closed when they are capped", "[geometry]") {
 
 namespace {
 
-/// Compares what neighbours have at their borders; returns how many borders there are.
+/// Compares the borders of neighbouring tiles; returns the number of borders.
 std::size_t check_borders(const TileResult& r, double size, const std::array<double, 2>& origin,
                           bool capped) {
     std::size_t borders = 0;

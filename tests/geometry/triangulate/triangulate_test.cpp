@@ -20,7 +20,7 @@ Mesh face(const std::vector<Vec3>& corners) {
     return mesh;
 }
 
-/// Stood up in space: x along (0, 1, 0), y along (0, 0, 1), bent by nothing.
+/// Upright in space: x along (0, 1, 0), y along (0, 0, 1), not bent.
 Mesh face(const std::vector<Vec2>& ring) {
     std::vector<Vec3> corners;
     for (const Vec2& p : ring) corners.push_back({2, p.x, p.y});
@@ -81,7 +81,7 @@ TEST_CASE("a face that intersects itself is cut as a fan", "[geometry]") {
 }
 
 TEST_CASE("coincident corners keep their own vertices, so what is around them stays closed", "[geometry]") {
-    // A slab with a square hole: top and bottom are keyholes of ten corners, walls join what they must.
+    // A slab with a square hole: top and bottom are keyholes of ten corners, connected by walls.
     const auto ring = test::keyhole();
     Mesh slab;
     const auto n = static_cast<Index>(ring.size());

@@ -22,7 +22,7 @@ Lines path(const std::vector<Vec3>& points, bool closed = false) {
     return lines;
 }
 
-/// Of a regular polygon.
+/// The area of a regular polygon.
 double section_area(double thickness, int sides) {
     return sides * std::sin(2 * pi / sides) / 2 * thickness * thickness / 4;
 }
@@ -67,7 +67,7 @@ TEST_CASE("a closed line becomes a ring, planar or not", "[geometry]") {
     check_sound(square.mesh, 0);
     CHECK(*inspect(square.mesh).volume == Approx(16 * section_area(0.5, 8)));
     CHECK_FALSE(square.mesh.all_triangles());
-    // A knot that comes back turned: what is left over is taken up along the way.
+    // A knot whose frame returns rotated: the remaining rotation is spread along the way.
     std::vector<Vec3> knot;
     for (int i = 0; i < 200; ++i) {
         const double t = 2 * pi * i / 200;
@@ -87,7 +87,7 @@ TEST_CASE("a closed line becomes a ring, planar or not", "[geometry]") {
 TEST_CASE("lines follow one another whatever their order and direction, up to a fork", "[geometry]") {
     Lines lines;
     lines.points = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}, {1, 0, 0}, {3, 1, 5}, {3, 4, 1}};
-    lines.segments = {{3, 2}, {0, 1}, {2, 4}}; // point 4 lies where 1 does
+    lines.segments = {{3, 2}, {0, 1}, {2, 4}}; // point 4 coincides with point 1
     CHECK(tubes(lines, {0.1, 5}).tubes == 1);
     lines.segments.push_back({3, 5});
     lines.segments.push_back({6, 3});
@@ -95,7 +95,7 @@ TEST_CASE("lines follow one another whatever their order and direction, up to a 
     CHECK((forked.tubes == 3 && forked.segments == 5));
     CHECK(inspect(forked.mesh).components == 3);
     lines.segments.push_back({1, 4}); // without length
-    lines.segments.push_back({1, 0}); // there already
+    lines.segments.push_back({1, 0}); // already present
     CHECK(tubes(lines, {0.1, 5}).skipped == 2);
     CHECK(tubes(lines, {0.1, 5}).mesh.positions == forked.mesh.positions);
 }

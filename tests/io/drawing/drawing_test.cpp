@@ -61,8 +61,8 @@ TEST_CASE("second moments in the world are those of the points there", "[io]") {
     const Section s = section(shapes::cube(), {plane, {0}, {}}).at(0);
     const Drawing drawing{"cut", Unit::unknown, {{0, frame_of(plane), {{"cube", s, {}}}}}};
     const Json c = Json::parse(to_json(drawing))["sections"][0]["parts"][0]["contours"][0];
-    // A polygon's: the sum over a fan of triangles of A / 12 (s s^T + the sum of p p^T over the corners), s
-    // being their sum.
+    // For a polygon: the sum over a fan of triangles of A / 12 (s s^T + the sum of p p^T over the corners).
+    // s is the sum of the corners.
     double xz = 0, yy = 0;
     const auto ring = s.ring(s.contours[0]);
     for (std::size_t i = 1; i + 1 < ring.size(); ++i) {

@@ -1,5 +1,5 @@
-// Other people's readers on what we write: the Khronos validator, and draco_decoder for what it cannot look
-// into.
+// Checks written files with independent readers: the Khronos validator, and draco_decoder for compressed
+// data.
 #include "io/codec.hpp"
 #include "io/outputs/outputs.hpp"
 #include "mesh/shapes.hpp"
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// True when the tool is there; else says so, and fails when it is required.
+/// Whether the tool is installed. If not, the test says so, and fails if the tool is required.
 bool available(bool there, const char* what) {
     if (there) return true;
     std::cout << "skipped: " << what << "\n";
@@ -96,7 +96,8 @@ TEST_CASE("the Khronos validator finds no error in what is written", "[io]") {
                     settings.meshopt.on = how == std::string("meshopt");
                     settings.quantize.on = settings.meshopt.on || how == std::string("quantize");
                     settings.mesh_manifold = manifold;
-                    settings.lods = number % 2 == 0; // most scenes have none: told, and no harm
+                    settings.lods =
+                        number % 2 == 0; // most scenes have no levels, which gives a harmless warning
                     settings.title = "f";
                     files += put(folder / std::to_string(number++), test::written(scene, codec, settings));
                 }

@@ -51,7 +51,7 @@ TEST_CASE("every file of the corpus is read, or refused in words", "[io]") {
             check_written_again(scene, true);
             for (auto& part : scene.parts) part.changed = true;
             check_written_again(scene, false);
-        } catch (const Error& e) { // what nothing reads is not looked at before it must be copied
+        } catch (const Error& e) { // unused data is only checked when it must be copied
             CHECK(e.kind() == ErrorKind::malformed);
             CHECK(file.string().find("malformed") != std::string::npos);
             if (std::getenv("FACETMILL_CORPUS_LIST")) std::cout << "not written: " << e.what() << "\n";

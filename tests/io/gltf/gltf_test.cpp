@@ -495,7 +495,7 @@ TEST_CASE("scenes that refer to nothing do not keep a file from being read", "[i
 }
 
 TEST_CASE("a part more asks for memory as often as its mesh and its document need it", "[io]") {
-    const auto counts = [](std::size_t parts) { // of writing what was read, and of reading it
+    const auto counts = [](std::size_t parts) { // for rewriting a file, and for reading it
         Scene scene = test::scene_in_metres(shapes::cube());
         for (std::size_t i = 1; i < parts; ++i) {
             Part part = scene.parts[0];

@@ -12,7 +12,7 @@ using namespace facetmill;
 
 namespace {
 
-/// Soft colours, with alpha from 0 to 255 to the right where that is asked for.
+/// Soft colours, optionally with alpha from 0 to 255 to the right.
 io::Pixels soft(bool alpha, bool grey) {
     io::Pixels image{48, 32, {}, false};
     for (std::size_t y = 0; y < image.height; ++y)
@@ -135,7 +135,7 @@ TEST_CASE("images are packed anew with the same pixels, or not at all", "[io]") 
         CHECK(io::media_type(packed) == io::media_type(given));
         CHECK(io::decoded_image(packed)->rgba == io::decoded_image(given)->rgba);
         CHECK(io::repacked_image(packed).empty()); // nothing more is gained
-        // What is broken stays as it is.
+        // Broken images stay unchanged.
         CHECK(io::repacked_image(io::Span(given).first(given.size() * 2 / 3)).empty());
         CHECK(io::repacked_image(io::Span(given).first(20)).empty());
     }
@@ -152,8 +152,8 @@ TEST_CASE("a large PNG of a palette is packed anew as colours only where it is w
     const io::Bytes noise = palette_png([](std::size_t pixel) { return (hashed(5, pixel) & 1) != 0; }, 9);
     REQUIRE(io::decoded_image(noise));
     CHECK(io::repacked_image(noise).empty());
-    // Four patterns of 64 pixels, in any order: they take less at the slowest level, but at the fastest more
-    // than half as much again. So the slowest is not tried.
+    // Four patterns of 64 pixels, in any order. They need fewer bytes at the slowest level, but over half as
+    // much again at the fastest. So the slowest level is not tried.
     const io::Bytes patterns = palette_png(
         [](std::size_t pixel) { return (hashed(hashed(7, pixel / 64) % 4, pixel % 64) & 1) != 0; }, 0);
     CHECK(io::encoded_png(*io::decoded_image(patterns)).size() < patterns.size() / 2);

@@ -72,7 +72,7 @@ TEST_CASE("what cannot be seen does not colour what can", "[io]") {
     CHECK((seen[0] == 0 && seen[1] == 200 && seen[2] == 0));
     CHECK((seen[3] == 127 || seen[3] == 128)); // the mean is 127.5
     CHECK(pixel(io::resized_image(leaf, 8, 8, PixelKind::colours, false), 4, 4)[0] > 150);
-    // Where nothing is seen at all, colours stay what they were, for the filters of who draws them.
+    // Fully transparent areas keep their colours, because renderers filter them.
     const auto clear = painted(32, 32, [](std::size_t, std::size_t) { return Pixel{9, 99, 199, 0}; });
     CHECK(pixel(io::resized_image(clear, 4, 4, PixelKind::colours, true), 2, 2) == Pixel{9, 99, 199, 0});
 }

@@ -1,5 +1,5 @@
-// Materials of glTF as an MTL library with images beside it: what is read from one is written so that it is
-// read the same again, and what it cannot say is said.
+// glTF materials as an MTL library with image files. Materials from an MTL file round-trip exactly, and
+// losses of other materials give warnings.
 #include "base/hash.hpp"
 #include "io/gltf/contents/textures.hpp"
 #include "mesh/shapes.hpp"
@@ -39,7 +39,7 @@ void put_images(const fs::path& folder) {
     put(folder / "alpha.png", png_of(6, "\x10\x20\x30\x40"));
 }
 
-/// What is written, in a folder.
+/// Puts the written files into a folder.
 void put_files(const io::Written& written, const fs::path& folder) {
     for (const auto& file : written.files) {
         fs::create_directories((folder / file.name).parent_path());
@@ -65,7 +65,7 @@ std::string warnings_of(const io::Written& written) {
     return all;
 }
 
-/// Puts the sampler and the digest of its image in the place of each texture's index.
+/// Replaces each texture index by the sampler and the digest of its image.
 void resolve(Json& json, const Json& document, const std::vector<io::Bytes>& images) {
     if (!json.is_object()) return;
     for (auto& [key, value] : json.items()) {
@@ -104,7 +104,7 @@ std::string triangle(const std::string& material, const std::string& uri = "red.
         material, sampler, uri);
 }
 
-/// What an OBJ of the triangle is.
+/// The OBJ output of the triangle.
 io::Written obj_of(const TemporaryDirectory& dir, const std::string& material,
                    const std::string& uri = "red.png", const std::string& sampler = "{}") {
     put_images(dir.path());
@@ -234,7 +234,7 @@ TEST_CASE("one material for faces with and without texture points is one again",
     };
     CHECK(both("Kd 0.5 0.5 1\nmap_Kd red.png\n") == Names{"m"});
     CHECK(both("Kd 1 1 1\nd 0.5\nmap_Kd red.png\nmap_Pr grey.png\nnorm red.png\n") == Names{"m"});
-    // Black is white beside a texture, and black without one.
+    // Black means white with a texture, and black without a texture.
     CHECK(both("Kd 0 0 0\nmap_Kd red.png\n") == Names{"m", "m_2"});
 }
 
@@ -306,7 +306,7 @@ TEST_CASE("what MTL cannot say of a material is said", "[io]") {
               "KHR_materials_clearcoat (MTL has no such word)\n");
     CHECK(told(R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[0.5,1,1]}})")
               .find("of m: specularColorFactor (it goes with neither Pr nor Pm)") != std::string::npos);
-    // What is seen in spite of that is written.
+    // Properties that remain visible are written.
     const io::Written masked = obj_of(dir, std::string(R"("alphaMode":"MASK",)") + textured, "alpha.png");
     CHECK(warnings_of(masked).find("W-MTL") == 0);
     CHECK(text_of(masked, "lamp.mtl").find("map_d lamp.alpha.png") != std::string::npos);
@@ -346,7 +346,7 @@ TEST_CASE("images beside an OBJ have names that stand in a line, below its folde
                       {.title = "lamp", .textures = io::Textures::reference, .directory = dir / "out/deep"}),
               "lamp.mtl")
               .find("map_Kd ../../up.png\n") != std::string::npos);
-    // What is in the document lies nowhere else.
+    // An embedded image has no other location.
     put(dir / "in/t.gltf", triangle(R"("normalTexture":{"index":1})", "../up.png"));
     const Scene inside = io::read_scene(io::Input::open(dir / "in/t.gltf"), allowed, log);
     CHECK(names_of(written(inside, "obj", {.title = "lamp", .textures = io::Textures::reference})).back() ==
@@ -361,7 +361,7 @@ TEST_CASE("images of textures that MTL has no words for are files beside an OBJ 
     CHECK(names_of(
               obj_of(dir, R"("extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}}})")) ==
           with_image);
-    // What nothing names, or nothing is there, is none.
+    // References to missing textures yield no files.
     CHECK(
         names_of(obj_of(
             dir, R"("extensions":{"A_B":{"aTexture":{"index":9},"bTexture":{"index":-1},"cTexture":3}})")) ==
@@ -404,7 +404,7 @@ TEST_CASE("materials of one name and an image that is not there", "[io]") {
     CHECK(mtl.find("newmtl m_2\n") != std::string::npos);
     CHECK(mtl.find("map_Kd lamp.red.png\n") < mtl.find("map_Kd lamp..._in_it.png\n"));
 
-    // Of many, a warning names some.
+    // If there are many, a warning lists a few.
     json["images"][0]["uri"] = "gone.png";
     for (int i = 1; i < 20; ++i) {
         json["materials"][i] = json["materials"][0];

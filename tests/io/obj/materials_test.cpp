@@ -41,7 +41,7 @@ Loaded load(const fs::path& path) {
     return loaded;
 }
 
-/// A quad with the material m of these words; images are beside it.
+/// A quad with the material m from this text, with image files.
 Loaded load_quad(const TemporaryDirectory& dir, const std::string& words, const std::string& obj = quad) {
     put(dir / "a.obj", obj);
     put(dir / "a.mtl", "newmtl m\n" + words);
@@ -65,7 +65,7 @@ TEST_CASE("a transparent MTL material is drawn transparent", "[io]") {
         CHECK(m["pbrMetallicRoughness"]["metallicFactor"] == 0);
     }
     CHECK_FALSE(load_quad(dir, "Kd 1 1 1\nd 1\n").material().contains("alphaMode"));
-    // MeshLab writes so for what is opaque.
+    // MeshLab writes this for opaque materials.
     CHECK_FALSE(load_quad(dir, "Kd 1 1 1\nTr 1\n").material().contains("alphaMode"));
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("MTL highlights, light and physical words are kept", "[io]") {
     CHECK(m["pbrMetallicRoughness"]["roughnessFactor"] == 0.5); // (2 / 32)^(1/4)
     CHECK(m["extensions"]["KHR_materials_specular"]["specularColorFactor"] == Json({0.5, 0.25, 0.5}));
     CHECK(m["emissiveFactor"] == Json({0.5, 0, 0}));
-    // A model without highlights is rough, whatever Ns says.
+    // A model without highlights is rough, whatever the value of Ns.
     m = load_quad(dir, "Kd 1 1 1\nKs 1 1 1\nNs 30\nillum 1\n").material();
     CHECK_FALSE(m["pbrMetallicRoughness"].contains("roughnessFactor"));
     CHECK_FALSE(m.contains("extensions"));
@@ -106,7 +106,7 @@ TEST_CASE("a textured OBJ is a textured GLB", "[io]") {
     CHECK(m["emissiveFactor"] == Json({1, 1, 1}));
     CHECK(image_of(m["normalTexture"])["name"] == "red");
     CHECK(m["normalTexture"]["scale"] == 0.5);
-    // And the textures are there when it is read again.
+    // The textures are still present after reading it back.
     CHECK(test::again(loaded.scene).documents.at(0)->json.find("baseColorTexture") != std::string::npos);
 }
 
@@ -119,8 +119,8 @@ TEST_CASE("options of MTL textures are kept", "[io]") {
     const Json transform = texture["extensions"]["KHR_texture_transform"];
     CHECK(transform["scale"] == Json({2, 4}));
     CHECK(transform["offset"] == Json({0.25, -3.5}));
-    // At the quad's corner (1, 1) OBJ looks at (2.25, 4.5), from the bottom: -3.5 from the top, as glTF does
-    // at (1, 0).
+    // At the quad's corner (1, 1), OBJ reads the texture at (2.25, 4.5), from the bottom. From the top this
+    // is -3.5, where glTF reads at (1, 0).
     CHECK(1 - 4.5 == transform["offset"][1].get<double>() + 4 * 0.0);
     const Json sampler =
         all["samplers"][all["textures"][texture["index"].get<std::size_t>()]["sampler"].get<std::size_t>()];
@@ -145,7 +145,7 @@ TEST_CASE("opacity, roughness, metalness and relief go where glTF has them", "[i
     };
     using Rgba = std::vector<std::uint8_t>;
 
-    // An image that has the opacity already is taken as it is.
+    // An image that already has the opacity is used unchanged.
     Loaded loaded = load_quad(dir, "map_Kd alpha.png\nmap_d alpha.png\n");
     Json m = material_of(loaded);
     CHECK(m["alphaMode"] == "BLEND");
@@ -156,7 +156,7 @@ TEST_CASE("opacity, roughness, metalness and relief go where glTF has them", "[i
     CHECK(m["alphaMode"] == "BLEND");
     CHECK(pixel_of(loaded, m["pbrMetallicRoughness"]["baseColorTexture"]) == Rgba{0xff, 0x10, 0x10, 0x40});
 
-    // Grey for the roughness alone needs no change: there is no metal to read from its blue channel.
+    // Grey for the roughness alone needs no change, because the blue channel is not used without metal.
     loaded = load_quad(dir, "map_Pr grey.png\n");
     m = material_of(loaded);
     CHECK(m["pbrMetallicRoughness"]["roughnessFactor"] == 1);
@@ -235,7 +235,7 @@ TEST_CASE("faces of an OBJ without texture points get none, and no textures", "[
     CHECK(text.find("/") != std::string::npos);
     CHECK(text.find("\nf 4 3 2 1\n") != std::string::npos);
 
-    // An object of its own without texture points has no such attribute.
+    // A separate object without texture points has no such attribute.
     const std::string objects = "o one\n" + std::string(quad) + "o two\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 5 6 7\n";
     const Loaded parts = load_quad(dir, "map_Kd red.png\n", objects);
     REQUIRE(parts.scene.parts.size() == 2);

@@ -10,7 +10,7 @@ using namespace facetmill;
 
 namespace {
 
-/// An OBJ of some pieces that are parsed by themselves, with each way to write a corner, and what it says.
+/// A random OBJ in pieces that are parsed separately, with every form of corner, and its expected content.
 struct DrawnObj {
     std::string text;
     std::vector<Index> corners;

@@ -60,7 +60,8 @@ TEST_CASE("a part without colours gets none because another one has some", "[io]
         CHECK(a.name == "a");
         CHECK(colours(a) == nullptr);
         REQUIRE(colours(b) != nullptr);
-        const std::vector<float> wanted{1, 0, 0, 1, 0, 0, 1, 1, 1}; // white where a coloured part has none
+        const std::vector<float> wanted{1, 0, 0, 1, 0,
+                                        0, 1, 1, 1}; // white for vertices without a colour in a coloured part
         CHECK(std::get<std::vector<float>>(colours(b)->data) == wanted);
     }
     const Loaded lines("o a\n" + plain + "l 1 2\no b\n" + red + "f 4 5 6\n");

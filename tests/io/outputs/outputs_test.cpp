@@ -236,7 +236,7 @@ TEST_CASE("a file has one name, however it is spelled", "[io]") {
     CHECK(io::identity(folder / "link" / "a.ply") == folder / "real" / "a.ply");
     CHECK(io::identity(folder / "real" / "." / ".." / "real" / "a.ply") == folder / "real" / "a.ply");
     CHECK(io::identity("-") == "-");
-    // A name too long to be looked up, which has no other name than it says.
+    // A name too long for the file system stays as written.
     const std::string longest(300, 'x');
     CHECK(io::identity(folder / "real" / ".." / longest) == folder / longest);
 }

@@ -152,7 +152,7 @@ TEST_CASE("3MF writes instances once, triangles only, and says what it leaves ou
     CHECK(named.parts[2].name == "moon");
     CHECK(named.parts[2].transform == scene.parts[2].transform);
     CHECK(codec.write(scene, {.title = "a"}).files[0].bytes.size() < three + 200);
-    // A mirrored part is written where it stands: its faces look outwards.
+    // A mirrored part keeps its position, and its faces look outwards.
     scene.parts[1].transform.m[0][0] = -1;
     const Loaded mirrored = trip(scene);
     CHECK(mirrored.scene.parts[1].transform.identity());
@@ -210,7 +210,7 @@ TEST_CASE("components of 3MF are placed through all levels, also of other models
     CHECK(nested.scene.parts[0].transform.point({1, 0, 0}) == Vec3{12, 0, 1});
     CHECK(nested.scene.parts[1].transform.point({1, 0, 0}) ==
           Vec3{0, 2, 1}); // rows from the left: x becomes y
-    // Without items, what no other object uses is there.
+    // Without build items, objects that no other object uses are read.
     CHECK(load(archive(model(resources, ""))).scene.parts.size() == 2);
 
     const std::string item = "<item objectid=\"7\" p:path=\"/3D/Objects/a.model\"/>";

@@ -116,7 +116,7 @@ double double_at(io::Span bytes, std::size_t at) {
     return value;
 }
 
-/// The same of what subtree files say, for tiles whose files there are; checked against nothing else of ours.
+/// The same from subtree files, for tiles that have files. Reads them independently of the tested code.
 std::map<std::string, Json> tiles_of_subtrees(const io::Written& written, std::size_t levels) {
     std::map<std::string, Json> all;
     std::set<std::string> names;

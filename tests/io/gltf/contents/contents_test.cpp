@@ -1,4 +1,4 @@
-// What a glTF says beside meshes, without its indices.
+// glTF contents other than meshes, without their indices.
 #include "io/codec.hpp"
 #include "io/gltf/gltf.hpp"
 #include "support/catch.hpp"
@@ -8,8 +8,8 @@ using namespace facetmill;
 
 namespace {
 
-/// A triangle with a textured material, an animation and a skin. The number of the texture and what stands
-/// before it may be chosen, and so may the words that hold the image.
+/// A triangle with a textured material, an animation and a skin. Parameters set the number of the texture,
+/// the entries before it, and the JSON that holds the image.
 std::string document(int padding, const std::string& image, const std::string& factor = "0.5") {
     std::string first = padding > 0 ? R"({"name":"unused","uri":"data:,"},)" : "";
     std::string sampler = padding > 0 ? R"({"magFilter":9728},)" : "", texture = padding > 0 ? "{}," : "";

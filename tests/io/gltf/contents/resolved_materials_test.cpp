@@ -98,14 +98,14 @@ TEST_CASE("a texture that cannot be drawn is a warning, and the plain colour", "
               .starts_with("W-TEXTURE images[0]: not drawn: it is broken"));
     CHECK(
         warned(scene_with(red_texture, {data_uri(test::red_png().substr(0, 50))})).starts_with("W-TEXTURE"));
-    // 16384 x 16384 pixels, of which there are no more than the header.
+    // An image with a header for 16384 x 16384 pixels and no data.
     std::string huge = test::red_png();
     huge.replace(16, 8, std::string("\0\0\x40\0\0\0\x40\0", 8));
     const std::string told = warned(scene_with(red_texture, {data_uri(huge)}));
     CHECK(told.starts_with("W-TEXTURE images[0]: not drawn: "));
     CHECK(told.ends_with("; the plain colour is drawn in its place"));
     CHECK(warned(scene_with(red_texture, {})).starts_with("W-TEXTURE not drawn: "));
-    CHECK(warned(scene_with(red_texture, {"missing.png"})).empty()); // reading the file has told it
+    CHECK(warned(scene_with(red_texture, {"missing.png"})).empty()); // the reader has already warned
     Scene compressed = scene_with(red_texture, {data_uri(test::red_png())});
     auto document = std::make_shared<Document>(*compressed.documents[0]);
     document->json = Json::parse(document->json)

@@ -42,7 +42,7 @@ Json json_written(const Scene& scene, bool quantize, bool interleave, io::Bytes*
     return Json::parse(test::json_of(written.files.at(0).bytes));
 }
 
-/// How many views the attributes of a primitive are in; checks that all of them are as glTF wants them.
+/// The number of buffer views with attributes of a primitive. Checks that all of them follow glTF's rules.
 std::size_t views_of(const Json& json, const Json& attributes) {
     std::set<std::size_t> views;
     for (const auto& [name, reference] : attributes.items()) {
@@ -72,14 +72,14 @@ TEST_CASE("interleaved attributes have the numbers that they have apart", "[io]"
             CHECK(views_of(after, primitive["attributes"]) == (generic > 0 ? 2 : 1));
             CHECK(views_of(before, before["meshes"][0]["primitives"][0]["attributes"]) > 5);
             CHECK(after["accessors"].size() == before["accessors"].size());
-            CHECK(together.size() < apart.size()); // fewer views to tell of
+            CHECK(together.size() < apart.size()); // fewer views to declare
             const Scene a = test::read_bytes(apart, "glb"), b = test::read_bytes(together, "glb");
             CHECK(test::drawn(a.parts.at(0).mesh) == test::drawn(b.parts.at(0).mesh));
-            // The morph target has a view of its own.
+            // The morph target has its own view.
             const auto target = primitive["targets"][0]["POSITION"].get<std::size_t>();
             CHECK_FALSE(after["accessors"][target].contains("byteOffset"));
-            // Once more changes nothing, and without it they are apart again only where they are written
-            // anew.
+            // Interleaving a second time changes nothing. Without the option, only rewritten attributes are
+            // separated.
             io::Bytes again;
             json_written(b, quantize, true, &again);
             CHECK((again == together));
@@ -94,7 +94,7 @@ TEST_CASE("primitives that share an attribute share the interleaved view", "[io]
         const Scene one = test::read_bytes(bytes, "glb");
         Json primitive = json["meshes"][0]["primitives"][0];
         primitive["attributes"].erase("TEXCOORD_0");
-        primitive["mode"] = 0; // points, which are left as they are
+        primitive["mode"] = 0; // points, which stay unchanged
         json["meshes"][0]["primitives"].push_back(primitive);
         Scene changed = one;
         auto document = std::make_shared<Document>(*one.documents.at(0));

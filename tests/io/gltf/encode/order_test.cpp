@@ -15,7 +15,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A sphere whose faces come in no order at all.
+/// A sphere with randomly ordered faces.
 Mesh shuffled_sphere() {
     Mesh mesh = shapes::icosphere(4);
     for (std::size_t f = mesh.face_count() - 1; f > 0; --f) {
@@ -32,7 +32,7 @@ Mesh shuffled_sphere() {
 
 bool before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// Under meshopt, which takes that order, with all numbers as they are.
+/// Uses meshopt, which enables that order, without rounding.
 io::WriteSettings ordered() {
     io::WriteSettings settings;
     settings.meshopt = {.on = true, .extension = {}, .filters = false};
@@ -92,7 +92,7 @@ TEST_CASE("a large mesh is ordered in stretches, as well as in one piece", "[io]
 }
 
 TEST_CASE("where thousands of triangles meet at a vertex each is looked at once", "[io]") {
-    constexpr Index sides = 200000; // for the order that looks at all of them for each this takes a minute
+    constexpr Index sides = 200000; // an order that checks all triangles for each would take a minute
     Mesh fan;
     fan.positions.push_back({0, 0, 1});
     for (Index i = 0; i < sides; ++i) {
@@ -143,7 +143,7 @@ TEST_CASE("an order for caches keeps faces and attributes", "[io]") {
         CHECK(written.files[0].bytes == test::written(scene, "glb", settings).files[0].bytes);
         const Mesh read = test::read_bytes(written.files[0].bytes, "glb").parts.at(0).mesh;
         CHECK(test::drawn(read) == test::drawn(test::again(scene).parts.at(0).mesh));
-        Index next = 0; // vertices come by their first use
+        Index next = 0; // vertices are in the order of first use
         for (const Index corner : read.corners) {
             CHECK(corner <= next + 2); // meshopt begins a triangle with whichever corner it likes
             next = std::max(next, corner + 1);

@@ -1,5 +1,5 @@
-// KHR_mesh_quantization and meshopt's compression: what is read again is within half a step of what was
-// written, wherever the mesh stands.
+// KHR_mesh_quantization and meshopt compression: values read back are within half a step of the written
+// values, wherever the mesh is.
 #include "base/math/portable_math.hpp"
 #include "base/math/random.hpp"
 #include "io/codec.hpp"
@@ -71,7 +71,7 @@ Mesh dressed(std::uint64_t seed) {
     return mesh;
 }
 
-/// The largest difference of an attribute's numbers to those of the vertices that they were written for.
+/// The largest difference between an attribute's numbers and the given vertex numbers.
 double difference(const Mesh& mesh, const Mesh& given, const char* name, double scale = 1) {
     const Attribute& here = *mesh.find(name, Domain::wedge);
     const Attribute& there = *given.find(name, Domain::vertex);
@@ -111,7 +111,7 @@ void separate_corners(Mesh& mesh) {
     separate_wedges(mesh, own);
 }
 
-/// The document of a torus at a node, changed before it is read.
+/// Reads a document with a torus at a node, after changing it.
 template <class Change>
 Scene torus_in(Change&& change) {
     const Scene scene = test::scene_in_metres(dressed(1));
@@ -180,8 +180,8 @@ TEST_CASE("meshopt's filters keep attributes within half a step", "[io]") {
         const double step = step_of(given, 14), float_step = 1.0 / (1 << 23);
         CHECK(moved(again.parts[0], scene.parts[0]) <= (quantize ? step / 2 * (1 + 1e-6) : 2 * float_step));
         CHECK(difference(mesh, given, "_id") == 0);
-        // Half a step h = 0.5 / 127 in two coordinates is up to h sqrt(6) on the octahedron, whose faces are
-        // 1 / sqrt(3) from the middle: h sqrt(18) on the sphere; and half a step of int8 after that.
+        // Half a step h = 0.5 / 127 in two coordinates is up to h sqrt(6) on the octahedron. Its faces are 1
+        // / sqrt(3) from the centre, so this is h sqrt(18) on the sphere. Rounding to int8 adds half a step.
         const double of_octahedron = (std::sqrt(18.0) + 1) * 0.5 / 127;
         for (const char* name : {"NORMAL", "TANGENT"})
             CHECK(difference(mesh, given, name) <= (quantize ? of_octahedron : 2 * float_step));
@@ -210,7 +210,7 @@ TEST_CASE("a node that something depends on gets the grid's transform below it",
                       settings);
         return json_of(written);
     };
-    // By itself it takes the grid, whatever its transform is made of.
+    // A single part uses the grid, whatever its transform.
     CHECK(nodes([](Json& j) { j["nodes"][0]["rotation"] = {0.6, 0, 0, 0.8}; })["nodes"].size() == 1);
     CHECK(nodes([](Json& j) {
               j["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 4, 5, 6, 1};
@@ -281,7 +281,8 @@ TEST_CASE("a grid far from the origin loses nothing to float32", "[io]") {
     Scene scene = test::scene_in_metres(dressed(3));
     for (Vec3& p : scene.parts[0].mesh.positions) p = p * 0.1 + Vec3{455000.123, 5427000.456, 80};
     const Part part = test::again(scene, with_bits(14, 8, 12, 8, 8)).parts.at(0);
-    CHECK(moved(part, scene.parts[0]) <= step_of(scene.parts[0].mesh, 14) / 2 + 2e-9); // of doubles there
+    CHECK(moved(part, scene.parts[0]) <=
+          step_of(scene.parts[0].mesh, 14) / 2 + 2e-9); // the rounding of doubles at these coordinates
 }
 
 TEST_CASE("what is quantized or compressed already stays as it is", "[io]") {
@@ -488,7 +489,7 @@ TEST_CASE("KHR_meshopt_compression has streams of version 1, which are smaller",
     CHECK(static_cast<double>(written.files[0].bytes.size()) < 0.95 * static_cast<double>(old));
     const Part part = test::read_bytes(written.files[0].bytes, "glb").parts.at(0);
     CHECK(part.mesh.face_count() == scene.parts[0].mesh.face_count());
-    // Under the other name it is decompressed and written anew.
+    // Under the other name it is decompressed and rewritten.
     settings.meshopt.extension = io::MeshoptSettings::Extension::ext;
     const io::Written again = test::written(test::read_bytes(written.files[0].bytes, "glb"), "glb", settings);
     CHECK(json_of(again)["extensionsRequired"].dump().find("EXT_meshopt") != std::string::npos);
@@ -610,7 +611,7 @@ TEST_CASE("what named the corners of a mesh that has changed is not written", "[
     settings.mesh_manifold = true;
     Scene manifold = test::again(scene, settings);
     settings.mesh_manifold = false;
-    CHECK(json_of(test::written(manifold, "glb", settings)).contains("extensionsUsed")); // as it is
+    CHECK(json_of(test::written(manifold, "glb", settings)).contains("extensionsUsed")); // unchanged
     settings.meshopt.on = settings.quantize.on = true;
     const io::Written written = test::written(manifold, "glb", settings);
     const Json json = json_of(written);

@@ -31,7 +31,7 @@ Mesh fields(float step = 7) {
     return mesh;
 }
 
-/// The grid in a file that has a table of a property of each feature, which says 1, 2, 3, 4 in float32.
+/// The grid in a file with a property table, which has 1, 2, 3, 4 in float32 for the features.
 Scene with_table(Mesh mesh) {
     const io::Bytes glb = test::written(test::scene_in_metres(std::move(mesh)), "glb").files.at(0).bytes;
     Json json = Json::parse(test::json_of(glb));
@@ -65,7 +65,7 @@ std::set<double> ids_of(const Mesh& mesh) {
     return ids;
 }
 
-/// What the table says, by the view that it names.
+/// The values of the table, from the buffer view that it refers to.
 std::vector<float> table_of(const io::Bytes& glb) {
     const Json json = Json::parse(test::json_of(glb));
     const io::gltf::Chunks chunks = io::gltf::split_glb(glb);

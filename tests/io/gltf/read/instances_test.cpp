@@ -1,4 +1,5 @@
-// EXT_mesh_gpu_instancing: where parts stand, what moves along, and grids of positions in each place.
+// EXT_mesh_gpu_instancing: the positions of parts, moves together with instances, and grids of positions in
+// each instance.
 #include "base/error.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
@@ -36,8 +37,9 @@ Json places(Json attributes) {
     return {{"EXT_mesh_gpu_instancing", {{"attributes", std::move(attributes)}}}};
 }
 
-/// A torus away from zero that four nodes have: at three places with mirrors and uneven scales below a scaled
-/// node, once, at two places that the first node has, too, and at one place of no size and another one.
+/// A torus away from zero in four nodes: `three` with three mirrored or unevenly scaled instances, `plain`
+/// with one, `two` with two, and `flat` with two instances of sizes 0 and 4. `three` and `two` are below a
+/// scaled group.
 Json four_nodes() {
     Mesh torus = shapes::torus(16, 12);
     for (Vec3& p : torus.positions) p = p * 0.5 + Vec3{20, -7, 3};
@@ -84,7 +86,7 @@ const Part& named(const Scene& scene, const std::string& name) {
     return *found;
 }
 
-/// The largest distance of a vertex of any instance to where it was, in steps of its own grid.
+/// The largest move of a vertex of any instance, in steps of its own grid.
 double steps_moved(const Scene& before, const Scene& after) {
     REQUIRE(before.parts.size() == after.parts.size());
     double most = 0;
@@ -136,7 +138,7 @@ TEST_CASE("the grid of instanced positions is in each place", "[io]") {
         CHECK(steps_moved(all, expanded(glb, "glb")) < (filters ? 2.5 : 0.95));
         CHECK(io::read_back(io::Input::of("a.glb", io::Bytes(glb)), *io::codec_named("glb"), scene, settings)
                   .position_error > 0);
-        // What is on a grid already stays as it is, but for rotations that are rounded once more.
+        // Values that are already on a grid do not change, except for rotations, which are rounded again.
         const io::Bytes again =
             test::written(test::read_bytes(glb, "glb"), "glb", settings).files.at(0).bytes;
         CHECK((filters || again == glb));
@@ -158,7 +160,7 @@ TEST_CASE("instances on a grid have the same bytes for any number of threads", "
 TEST_CASE("places that a grid cannot be in keep the positions as they are, which is said", "[io]") {
     for (const bool far : {true, false}) {
         Json json = four_nodes();
-        if (far) // a step of the grid is beyond float32 there
+        if (far) // a step of the grid exceeds the range of float32
             json["nodes"][3]["extensions"] = places({{"SCALE", add_floats(json, {3e38F, 1, 1, 1, 1, 1}, 3)}});
         else
             json["nodes"][3]["extensions"] = places(Json::object());
@@ -235,7 +237,7 @@ TEST_CASE("the surface of a part counts at all of its instances, and moves with 
     CHECK(ratio < 1.05);
     CHECK(places_of(all) == std::vector<std::vector<Transform>>(8));
     for (Part& part : scene.parts) part.document = -1;
-    CHECK(total(scene).faces * 2 == faces); // what a document says no longer counts
+    CHECK(total(scene).faces * 2 == faces); // the document no longer applies
 }
 
 TEST_CASE("pieces of an instanced part are instanced, too", "[io]") {
@@ -289,6 +291,6 @@ TEST_CASE("the area at a place is that of the surface there, and no less where i
             const auto [area, exact] = estimated(mesh, scales);
             CHECK(area > exact * (1 - 1e-6));
             CHECK(area <
-                  exact * 1.5); // the mean of squares of |cos| over a sphere is 1.33 times that of |cos|
+                  exact * 1.5); // the mean square of |cos| over a sphere is 1.33 times the square of its mean
         }
 }

@@ -8,8 +8,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A square in z = 0 with a target that lifts it by 2, whose default weight is that of the mesh or of the
-/// node.
+/// A square in z = 0 with a morph target that lifts it by 2. The default weight is the mesh's or the node's.
 Scene morphed(const Json& of_mesh, const Json& of_node) {
     Mesh mesh = shapes::grid(1, 1);
     std::vector<float> lifts;

@@ -12,7 +12,7 @@ using namespace facetmill;
 
 namespace {
 
-/// A triangle on two joints, "hip" and, under it, "knee", which an animation moves; and a part of its own.
+/// A triangle on the joint "hip" and its child "knee", which an animation moves, and a separate part.
 const char* const leg = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,3]}],
  "nodes":[{"name":"leg","mesh":0,"skin":0},{"name":"hip","children":[2]},{"name":"knee","translation":[0,1,0]},
  {"name":"box","mesh":1,"translation":[5,0,0]}],
@@ -76,9 +76,10 @@ TEST_CASE("that places are in a bind pose that is not what is shown is told", "[
         {"tile", "0.7"},
         {"section", "y=0.5"},
         {"probe", "[0, 0, 1]"}};
-    for (const auto& [stage, options] : stages) CHECK(told(stage, options) == 0); // the joints stand so
+    for (const auto& [stage, options] : stages)
+        CHECK(told(stage, options) == 0); // the joints are in this pose
     CHECK(told("clean", "{}") == 0);
-    json["nodes"][1]["rotation"] = {0.5, 0.5, 0.5, 0.5}; // what is along y is seen along z
+    json["nodes"][1]["rotation"] = {0.5, 0.5, 0.5, 0.5}; // the y axis appears along z
     for (const auto& [stage, options] : stages) {
         INFO(stage);
         CHECK(told(stage, options) == 1);
@@ -107,7 +108,7 @@ TEST_CASE("a skinned part that is moved plays as before, where it is now", "[io]
             for (Vec3& p : wanted) p = part.transform.point(p);
             check_same(posed(again, knee), wanted);
         }
-        // The bind pose and the part beside it are where they should be, too.
+        // The bind pose and the part next to it are also in the right position.
         io::read_back(io::Input::of("a.glb", written.files[0].bytes), *io::codec_named("glb"), run.scene, {});
         CHECK(length(again.parts.at(1).transform.point({}) - run.scene.parts[1].transform.point({})) < 1e-6);
         const Json json = Json::parse(again.documents[0]->json);
@@ -126,7 +127,7 @@ TEST_CASE("pictures show skinned parts as the nodes place their joints", "[io]")
     check_same(seen->parts.at(0).mesh.positions, posed(scene, {3, 1, 0}));
     CHECK(seen->parts[0].mesh.positions[2] != scene.parts[0].mesh.positions[2]);
     CHECK(seen->parts.at(1).mesh.positions == scene.parts.at(1).mesh.positions);
-    // A joint that is no node, and matrices that are no matrices: drawn as it is.
+    // An invalid joint and invalid matrices: drawn without skinning.
     for (const char* member : {"joints", "inverseBindMatrices"}) {
         Scene broken = scene;
         json["skins"][0][member] = member[0] == 'j' ? Json{1, 99} : Json(0);

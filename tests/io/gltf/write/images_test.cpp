@@ -1,4 +1,4 @@
-// Images that a document names as files: in what is written, beside it, or left where they are.
+// Images that a document refers to as files: embedded in the output, copied next to it, or left in place.
 #include "io/images/image_files.hpp"
 #include "io/images/png.hpp"
 #include "support/catch.hpp"

@@ -1,4 +1,4 @@
-// A glTF document that is read and written again keeps everything that was not asked to change.
+// Rewriting a glTF document keeps all data that no stage was asked to change.
 #include "io/codec.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -48,7 +48,7 @@ TEST_CASE("a changed part changes its mesh only", "[io]") {
     Json before = Json::parse(rich), after = written_json(scene);
     CHECK(after["meshes"][0]["name"] == "m");
     CHECK(after["meshes"][0]["extras"] == before["meshes"][0]["extras"]);
-    CHECK(after["accessors"].size() == 2); // the old positions are gone
+    CHECK(after["accessors"].size() == 2); // the old positions are removed
     for (Json* json : {&before, &after})
         for (const char* key : {"meshes", "accessors", "bufferViews", "buffers"}) json->erase(key);
     CHECK(after == before);
@@ -126,7 +126,8 @@ TEST_CASE("what is split off an animated part moves along", "[io]") {
         scene.parts[1].name = "piece";
         return scene;
     };
-    const Json still = written_json(in_two(document)); // it has weights only: the piece stands by itself
+    const Json still =
+        written_json(in_two(document)); // the animation has weights only, so the piece is independent
     CHECK(still["nodes"][2]["weights"] == document["nodes"][0]["weights"]);
     CHECK(still["nodes"][2].contains("matrix"));
     CHECK(still["scenes"][0]["nodes"] == Json::array({0, 1, 2}));
@@ -270,7 +271,7 @@ TEST_CASE("the same scene gives the same bytes", "[io]") {
 }
 
 TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
-    // Under a parent that is moved and scaled, so that a level's own place must be told from there.
+    // The parent is moved and scaled, so a level's position must be computed relative to it.
     Scene scene = test::read_text(
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
  "nodes":[{"name":"root","translation":[1,2,3],"scale":[2,2,2],"children":[1]},{"name":"bust","mesh":0,"translation":[0,0,5]}],
@@ -299,7 +300,7 @@ TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
     const Scene again = test::again(scene, settings);
     REQUIRE(again.parts.size() == 5);
     for (const Part& part : again.parts) CHECK(part.transform == scene.parts[0].transform);
-    // Written again as it was read, the levels are still levels; without any, that is told.
+    // Rewriting the file keeps the levels. Without levels, a warning is given.
     const Json twice = written_json(again, settings);
     CHECK(twice["nodes"] == json["nodes"]);
     Scene coarser = scene; // levels are no instances that differ
