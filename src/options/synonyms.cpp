@@ -32,6 +32,7 @@ std::vector<Match> matches(std::string_view other_name, const std::vector<KnownN
 
 std::vector<std::string> names_in(const std::vector<Match>& found) {
     std::vector<std::string> names;
+    names.reserve(found.size());
     for (const Match& match : found) names.emplace_back(match.name);
     return names;
 }
@@ -72,6 +73,7 @@ std::string hint_for_option(std::string_view word, const std::vector<KnownName>&
                "before "
                "the first stage, or report: FILE.xml in a pipeline file";
     std::vector<std::string> all;
+    all.reserve(known.size());
     for (const KnownName& one : known) all.push_back(one.name);
     return otherwise.empty() ? suggestion(word, all) : did_you_mean(word, all, std::move(otherwise));
 }

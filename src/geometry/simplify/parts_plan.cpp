@@ -89,6 +89,7 @@ void find_sets(PartsPlan& plan) {
     const bool matches_anyway = s.lock.boundary || s.method == Method::constrained;
     if (parts.size() < 2 || matches_anyway || s.method == Method::cluster) return;
     std::vector<PlacedMesh> placed;
+    placed.reserve(parts.size());
     for (const Part& part : parts) placed.push_back({&part.mesh, part.transform});
     plan.contacts = find_contacts(placed);
     plan.set_of.assign(parts.size(), nullptr);
