@@ -18,7 +18,7 @@ struct Trace {
     std::vector<std::size_t> begun;
     int running = 0, max = 0;
     std::uint64_t memory = 0, max_memory = 0;
-    int wanted = 1; ///< a job waits until so many have run at a time, for some seconds
+    int wanted = 1; ///< a job waits up to some seconds until this many run at the same time
 
     bool is_met() {
         const std::lock_guard lock(guard);

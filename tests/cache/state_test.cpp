@@ -229,7 +229,7 @@ TEST_CASE("JSON of every kind and size comes back", "[cache]") {
     list.push_back(UINT64_MAX);
     list.push_back(INT64_MIN);
     for (const std::size_t size : {0, 23, 24, 255, 256, 70'000}) {
-        list.push_back(std::string(size, '\xff')); // whatever a file had for a name
+        list.push_back(std::string(size, '\xff')); // file names may contain any bytes
         Json object = Json::object();
         for (std::size_t i = 0; i < size % 1000; ++i) object[std::to_string(i)] = Json::array({i});
         list.push_back(object);

@@ -242,9 +242,9 @@ TEST_CASE("options as other programs have them are answered with two dashes", "[
     CHECK(hint("simplify -faces 100") == "write --faces 100\n");
     CHECK(hint("write a.glb draco=true") == "write --draco true\n");
     CHECK(yaml("write a.glb draco").find("hint: did you mean '--draco'?") != std::string::npos);
-    CHECK(same_stages("clip z=0", "[{clip: z=0}]")); // an equation, and no option is called z
+    CHECK(same_stages("clip z=0", "[{clip: z=0}]")); // an equation, because no option has the name z
     CHECK(same_stages("load a=b.stl", "[{load: a=b.stl}]"));
-    // Files may be called like an option and its value.
+    // Files may have the form of an option and its value.
     CHECK(same_stages("write draco=1.glb", "[{write: draco=1.glb}]"));
     CHECK(same_stages("load unit=mm.stl", "[{load: unit=mm.stl}]"));
     CHECK(hint("write path=a.glb") == "write --path a.glb\n");

@@ -40,7 +40,7 @@ double quality(const Scene& scene, std::size_t i) {
     return a->value(i, 0);
 }
 
-/// A sheet of nine vertices, one of whose qualities is no number.
+/// A sheet of nine vertices, one of them with a quality of NaN.
 Scene sheet() {
     Mesh mesh = shapes::grid(2, 2);
     std::vector<float> values(9, 1);

@@ -31,7 +31,7 @@ TEST_CASE("lists: what a text stands for", "[options]") {
     CHECK(read("[[1,2],[3,4]]") == "((1 2) (3 4))");
     CHECK(read("[1,2],[3,4]") == "((1 2) (3 4))");
     CHECK(read("[[0,0],[1,0]],[[2,2],[3,2]]") == "(((0 0) (1 0)) ((2 2) (3 2)))");
-    CHECK(read("1,,2") == "(1  2)"); // an empty item is no number: who reads it refuses it
+    CHECK(read("1,,2") == "(1  2)"); // an empty item is not a number; the consumer refuses it
     CHECK(read(" [ a b , c ] ") == "(a b c)");
     CHECK(list_in_text(Value::scalar("a b, c"))->items.size() == 2); // blanks within an item stay
     CHECK(read("[]") == "()");

@@ -25,7 +25,7 @@ std::string picture(std::uint32_t side, bool plain) {
     return png_of_rows(side, side, 8, 2, rows);
 }
 
-/// Two objects with a texture each, a material that nothing uses with a third, and the same as glTF.
+/// Two objects with a texture each, an unused material with a third texture, and the same as glTF.
 class Textured {
   public:
     Textured() {

@@ -1,4 +1,4 @@
-// Laws of clip: the two sides add up, closed stays closed, whatever the plane.
+// Laws of clip for every plane: the two sides add up, and closed parts stay closed.
 #include "geometry/clip/clip.hpp"
 
 #include "base/math/random.hpp"

@@ -121,10 +121,10 @@ void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Cr
     const double reach = length(whole.bounds.min) + length(whole.bounds.max);
     const auto lost =
         test::volume_about(in.mesh, o) + test::volume_about(out.mesh, o) - test::volume_about(mesh, o);
-    // A vertex that snap puts on a wall is at most one float32 ulp off it, and so are the ends of an edge on
-    // the wall. If the closing joins them, the vertex is at most two ulps off the edge. The triangles made
-    // there stay equally near to the flat face. Both sides together have each face once, so they gain or
-    // lose at most that times the area. Without snapping the error is 0.
+    // A vertex that snap puts on a wall is at most one float32 ulp off it. The same holds for the ends of an
+    // edge on the wall. If the closing joins them, the vertex is at most two ulps off the edge. The
+    // triangles made by this stay equally near to the flat face. Both sides together have each face once, so
+    // they gain or lose at most that times the area. Without snapping the error is 0.
     const double bent = in.snapped > 0 ? 2 * float32_ulp(whole.bounds) * whole.area : 0;
     CAPTURE(in.snapped, out.snapped);
     CHECK(in.snapped == out.snapped);

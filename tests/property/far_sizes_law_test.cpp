@@ -28,7 +28,7 @@ Mesh scaled(Mesh mesh, int x, int y, int z) {
 }
 Mesh scaled(const Mesh& mesh, int power) { return scaled(mesh, power, power, power); }
 
-/// Two boxes, sides along the axes, that cross: whole numbers, so that the smallest scale loses nothing.
+/// Two crossing axis-aligned boxes with whole coordinates, so that the smallest scale loses no digits.
 Mesh crossing_boxes() {
     Mesh a = shapes::cube(), b = shapes::cube();
     for (Vec3& p : a.positions) p *= 4;

@@ -16,7 +16,7 @@ using namespace facetmill::test;
 
 namespace {
 
-/// All that does not depend on how vertices and faces are numbered, nor on rounding.
+/// All properties that depend neither on numbering nor on rounding.
 std::vector<std::int64_t> counts(const Properties& p) {
     return {p.vertices,        p.edges,
             p.faces,           p.components,

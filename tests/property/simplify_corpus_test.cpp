@@ -84,7 +84,7 @@ void check_clustered(const Mesh& given, const SimplifyResult& r) {
     }
 }
 
-/// Calls check(part) for the triangle parts of the corpus that are not too large. Returns how many.
+/// Calls check(part) for the triangle parts of the corpus that are not too large. Returns their number.
 template <class Check>
 int over_corpus(const fs::path& corpus, Check&& check) {
     int compared = 0;

@@ -35,5 +35,5 @@ TEST_CASE("law: a chain of stages ends in a sound scene or in an error that tell
         stages += chain.links.size();
         done += verdict.stages_done;
     }
-    CHECK((count < 40 || 2 * done > stages)); // refusals alone would show nothing
+    CHECK((count < 40 || 2 * done > stages)); // a test of refusals only would be meaningless
 }

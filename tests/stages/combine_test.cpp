@@ -47,7 +47,7 @@ TEST_CASE("combine takes parts away, and removes them from the scene", "[stages]
     REQUIRE(cut);
     std::size_t numbered = 0;
     for (Index f = 0; f < run.mesh().face_count(); ++f) {
-        CHECK(cut->value(f, 0) <= 1); // the far one leaves nothing
+        CHECK(cut->value(f, 0) <= 1); // the far part contributes no face
         numbered += cut->value(f, 0) == 1;
     }
     CHECK(numbered == run.record.result["parts"][0]["faces_of_with"]);

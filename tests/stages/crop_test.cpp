@@ -166,7 +166,7 @@ TEST_CASE("crop says when vertices far from the origin count as on the outline",
     };
     CHECK(warned(far_away, "{footprint: " + outline + ", axis: z}") == 1);
     CHECK(warned(far_away, "{footprint: " + outline + ", axis: z, snap: 0}") == 0);
-    Mesh near = shapes::cube(); // 0.1f is not 0.1, and nobody sees it
+    Mesh near = shapes::cube(); // 0.1f is not 0.1, but the difference is negligible
     for (Vec3& p : near.positions) p = p * static_cast<double>(0.1F);
     CHECK(warned(near, "{footprint: [[0, 0], [0.1, 0], [0.1, 0.05], [0, 0.05]], axis: z}") == 0);
 }

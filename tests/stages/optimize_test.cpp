@@ -24,7 +24,7 @@ const char* const buffer =
 {"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},
 {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}])";
 
-/// A document of these nodes, meshes and whatever else.
+/// A document with these nodes, meshes and other members.
 Scene document(const std::string& nodes, const std::string& meshes, const std::string& more = "") {
     const Json list = Json::parse("[" + nodes + "]");
     std::set<std::size_t> children;
@@ -300,7 +300,7 @@ TEST_CASE("wedges that only a dropped attribute kept apart become one", "[stages
     scene.parts.resize(1);
     Mesh& mesh = scene.parts[0].mesh;
     mesh.positions.push_back(
-        {1, 1, 0}); // a second face across an edge, whose wedges differ in TEXCOORD_0 alone
+        {1, 1, 0}); // a second face across an edge, whose wedges differ only in TEXCOORD_0
     mesh.wedge_vertex = {0, 1, 2, 1, 2, 3};
     mesh.corners = {0, 1, 2, 4, 3, 5};
     mesh.find("TEXCOORD_0", Domain::wedge)->data =

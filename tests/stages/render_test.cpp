@@ -97,7 +97,7 @@ TEST_CASE("another file is drawn beside the scene by one camera", "[stages]") {
     CHECK(both.record.result["width"] == 160);
     CHECK(both.record.result["height"] == 60);
     CHECK(both.record.result["faces"] == 24);
-    // The cube from 0 to 1 and the one from 5 to 7 are seen by a camera of 7 units' width.
+    // A camera of 7 units' width shows the cube from 0 to 1 and the cube from 5 to 7.
     CHECK(both.record.result["pixels_per_unit"].get<double>() == Approx(0.92 * 80 / 7));
     CHECK(alone.record.result["pixels_per_unit"].get<double>() == Approx(0.92 * 60));
     REQUIRE(both.state->record.inputs.size() == 1);

@@ -55,7 +55,7 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
     CHECK(halved.record.resolved.at(0).is == 2);
     CHECK(failure([&] {
               run_stage("transform", "{fit: 50% of load}", block());
-          }).starts_with("stage [E-TRANSFORM]")); // nothing was loaded, which has no diagonal
+          }).starts_with("stage [E-TRANSFORM]")); // without loaded parts no diagonal exists
     // fit applies to the result of the other moves. A flat part has a single dimension that fits in any
     // case.
     check_box(box_after("{scale: [8, 1, 1], rotate: {axis: [0, 1, 0], angle: 90}, fit: 2}", block()),

@@ -50,7 +50,7 @@ class Gate {
     std::string assertions_;
 };
 
-/// The cube without those faces.
+/// The cube without these faces.
 Mesh cube_without(std::vector<Index> faces) {
     const Mesh all = shapes::cube();
     Mesh mesh;

@@ -40,7 +40,7 @@ Mesh joined(Mesh a, const Mesh& b, const Vec3& by) {
     return a;
 }
 
-/// The cube with its first face turned round, or all of them.
+/// The cube with its first face, or all faces, reversed.
 Mesh turned(std::size_t faces) {
     Mesh mesh = shapes::cube();
     for (std::size_t f = 0; f < faces; ++f) std::swap(mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]);
@@ -125,7 +125,7 @@ Scene with_parts(std::size_t count) {
     return scene;
 }
 
-/// So many lines, one after the other.
+/// This many consecutive lines.
 Mesh path(Index lines) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}};

@@ -49,7 +49,7 @@ CleanCounts check_clean(const Mesh& mesh, std::uint64_t most, const CleanSetting
     return whole.counts;
 }
 
-/// Positions whose middles can be written exactly.
+/// Positions whose midpoints are exact.
 Mesh on_a_lattice(Mesh mesh) {
     for (Vec3& p : mesh.positions)
         for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] * 0x1p20) * 0x1p-20;
@@ -114,7 +114,7 @@ Mesh scarred(unsigned seed, unsigned rarely) {
     return mesh;
 }
 
-/// A cube whose top carries a wall, so that three faces meet at edges of sheets whose own borders are far.
+/// A cube with a wall on its top. Three faces meet at edges of sheets, far from the borders of these sheets.
 Mesh cube_with_fin() {
     Mesh mesh = shapes::cube();
     for (int pass = 0; pass < 4; ++pass) mesh = split(mesh, {.method = SplitMethod::midpoint}).mesh;

@@ -154,8 +154,8 @@ TEST_CASE("every cut of tiles from cells is closed, and as near as its tiles say
 TEST_CASE("cells of fewer faces than four tiles are tiled together", "[cells]") {
     const test::TemporaryDirectory folder;
     const auto path = ply_of(folder, test::noisy_torus(320, 128, 0.002, 3)); // 81,920 faces
-    // All three cell sizes give 64 leaves of 1,280 faces, with four below each tile: 32 cells of 2,560, 16
-    // of 5,120 or 64 of 1,280.
+    // All three cell sizes give 64 leaves of 1,280 faces, with four below each tile. They make 32 cells of
+    // 2,560, 16 of 5,120 or 64 of 1,280.
     for (const std::uint64_t cell : {2600, 5200, 1300}) {
         const Written all = written(path, {.cell = cell, .tile = 1500});
         CAPTURE(cell);

@@ -73,7 +73,7 @@ std::vector<IntegerBox> random_blocks(std::uint64_t seed, std::size_t count, int
     return all;
 }
 
-/// Cubes of a lattice with a border of nothing around it.
+/// Cubes of a lattice with an empty border around them.
 class LatticeCubes {
   public:
     void set(const IntegerBox& b, bool to) {
@@ -295,7 +295,7 @@ TEST_CASE("nothing is buried by its own faces, by cavities, or where solids only
     // A solid that passes through itself, inside out at one end, does not hide more than its actual inside.
     Mesh eight = block({0, 0, 0}, {4, 1, 1});
     for (Vec3& p : eight.positions)
-        if (p.x > 2) p = {p.x, 0.2 - 0.4 * p.y + 0.3, p.z}; // turned over, and smaller
+        if (p.x > 2) p = {p.x, 0.2 - 0.4 * p.y + 0.3, p.z}; // inverted, and smaller
     const auto r = combine({eight, block({-1, -1, -1}, {5, 2, 2}), block({1, -2, 0.2}, {3, 3, 0.8})}, {});
     INFO(r.failure.value_or(CombineFailure{}).why);
     REQUIRE(!r.failure);

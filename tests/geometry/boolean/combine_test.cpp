@@ -20,7 +20,7 @@ namespace {
 using Operation = CombineOperation;
 constexpr std::array operations{Operation::unite, Operation::subtract, Operation::intersect};
 
-/// The result, which must be closed and edge-manifold, and cross nothing.
+/// The result, checked to be closed, edge-manifold and without intersections.
 Mesh combined(const Mesh& a, const Mesh& b, Operation operation) {
     const auto r = combine({a, b}, {operation, 1});
     INFO(r.failure.value_or(CombineFailure{}).why);

@@ -112,7 +112,7 @@ TEST_CASE("vertices that a solid had stay, and so do faces that differ", "[geome
     for (Index f = 0; f < group.size(); ++f) group[f] = f;
     plate.attributes.push_back({"group", Domain::face, Role::index, 1, false, AttributeData(group)});
     CHECK(made_of({plate, tool}, Operation::subtract).mesh.vertex_count() == least + 2);
-    // A vertex in the midst of a side, where the cut does not go.
+    // A vertex in the middle of a side, away from the cut.
     Mesh finer = shapes::cube();
     const Vec3 middle{0.5, 0.5, 1};
     finer.positions.push_back(middle);

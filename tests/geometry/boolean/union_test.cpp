@@ -106,7 +106,7 @@ TEST_CASE("clean counts the edges where united solids touch, unless it separates
 }
 
 TEST_CASE("clean unites grids that overlap and meet in their edges only", "[geometry]") {
-    // Voxels: every line where the two cross is an edge of both, so no face crosses another.
+    // Voxels: every line where the two cross is an edge of both, so no faces intersect.
     const bool as_quads = GENERATE(true, false);
     const auto block = [&](const Vec3& min) { // of side 2, four squares on every side
         const Mesh cube = moved(shapes::quad_cube(), min * 0.5);
@@ -261,7 +261,7 @@ TEST_CASE("clean carries texture coordinates to where solids are cut", "[geometr
         const double a = std::abs(length(middle) - 1), b = std::abs(length(middle - Vec3{0.7, 0.2, 0.1}) - 1);
         if (std::abs(a - b) > 0.02) CHECK((side->value(f, 0) == 1) == (b < a));
     }
-    // A wedge on each side of the line where they meet, and no more anywhere.
+    // A wedge on each side of the line where they meet, and no more elsewhere.
     std::vector<int> wedges(r.mesh.vertex_count(), 0);
     for (Index w = 0; w < r.mesh.wedge_count(); ++w) ++wedges[r.mesh.vertex_of_wedge(w)];
     for (Index v = 0; v < wedges.size(); ++v) {
@@ -347,7 +347,7 @@ TEST_CASE("clean unites solids to the same bytes for any number of threads", "[g
 
 namespace {
 
-/// So many bars along x, and as many along y through them.
+/// This many bars along x, and the same number along y through them.
 Mesh crossing_bars(int n) {
     Mesh bars;
     for (int i = 0; i < n; ++i) {

@@ -162,7 +162,7 @@ TEST_CASE("clean leaves a hole whose patch would run into other faces, and says 
     for (Index f = 0; f < 6; ++f)
         if (f != top) others.push_back(f);
     Mesh open = keep_faces(mesh, others);
-    append(open, moved(open, {3, 0, 0})); // a second one, with nothing in its way
+    append(open, moved(open, {3, 0, 0})); // a second shell, without obstacles
     Mesh spike = shapes::tetrahedron();   // through the first one's opening
     for (Vec3& p : spike.positions) p = p * 0.25 + Vec3{0.3, 0.3, 0.9};
     append(open, spike);

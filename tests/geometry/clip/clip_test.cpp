@@ -321,7 +321,7 @@ TEST_CASE("skin weights sum to one after a cut, of no more joints than before", 
 
 TEST_CASE("numbers that no rounding has made are not snapped, however far apart floats are there",
           "[geometry]") {
-    Mesh strip; // of whole metres in UTM, where floats are half a metre apart
+    Mesh strip; // at whole metres in UTM, where floats have steps of half a metre
     for (Index i = 0; i < 40; ++i) {
         strip.positions.push_back({0, 5400000.0 + 2.0 * i, 0});
         strip.positions.push_back({2, 5400000.0 + 2.0 * i, 0});
@@ -345,6 +345,6 @@ TEST_CASE("a plane through computed vertices cuts no slivers off at them", "[geo
     CHECK(snapped.snapped > 0);
     CHECK(snapped.cut_faces == 18); // nine cells, from corner to corner, across their diagonals
     CHECK(inspect(snapped.front).degenerate_faces == 0);
-    settings.planes[0].through = {0.2 + 1e-12, 0, 0}; // that is no rounding
+    settings.planes[0].through = {0.2 + 1e-12, 0, 0}; // too far for rounding
     CHECK(clip(grid, settings).snapped == 0);
 }

@@ -127,7 +127,7 @@ TEST_CASE("by whole faces, their centroids, or whatever overlaps", "[geometry]")
     };
     CHECK(faces(CropBy::whole) == 4);
     CHECK(faces(CropBy::centre) == 9);
-    CHECK(faces(CropBy::overlapping) == 15); // one of the 16 is met at a point only
+    CHECK(faces(CropBy::overlapping) == 15); // one of the 16 touches only at a point
     CHECK(faces(CropBy::whole, polygon::Keep::outside) == 48 - 15);
     CHECK(faces(CropBy::centre, polygon::Keep::outside) == 48 - 9);
     CHECK(faces(CropBy::overlapping, polygon::Keep::outside) == 48 - 4);
@@ -406,7 +406,7 @@ TEST_CASE("a convex prism cropped by its own outline is all inside", "[geometry]
 }
 
 TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
-    // A raster of 2 m, and one of whole metres where floats are a metre apart, in the south.
+    // A raster of 2 m, and a raster of whole metres in the south, where floats have steps of a metre.
     constexpr Index side = 41;
     const auto place = GENERATE(std::pair{5400000.0, 2.0}, std::pair{9400001.0, 1.0});
     const double north = place.first, step = place.second;
@@ -445,7 +445,7 @@ TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
 }
 
 TEST_CASE("positions in doubles are not snapped", "[geometry]") {
-    Mesh cube = shapes::cube(); // reaches to 0.1, which is no float
+    Mesh cube = shapes::cube(); // reaches to 0.1, which is not a float
     for (Vec3& p : cube.positions) p = p * 0.1;
     const double side = 0.1 - 2e-9; // closer than a float's rounding
     CropSettings settings;
@@ -464,7 +464,7 @@ TEST_CASE("large coordinates are cropped as small ones", "[geometry]") {
     CropSettings settings;
     settings.cap = true;
     const std::size_t faces = crop(shapes::icosphere(2), Footprint(triangle), settings).mesh.face_count();
-    for (const int power : {-300, 300, 400}) { // of two, so that nothing rounds differently
+    for (const int power : {-300, 300, 400}) { // of two, so that rounding is the same
         Mesh sphere = shapes::icosphere(2);
         for (Vec3& p : sphere.positions) p = p * std::ldexp(1.0, power);
         Rings rings = triangle;

@@ -1,4 +1,4 @@
-// Crumpling that keeps faces apart, and correlated noise.
+// Tests crumpling that avoids intersections, and correlated noise.
 #include "base/math/numbers.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/generate/generate.hpp"
@@ -82,7 +82,7 @@ TEST_CASE("however few pairs are listed, the same comes out", "[geometry]") {
     CHECK(r.shares == all.shares);
     CHECK(mesh.positions == listed.positions);
     CHECK(oracle::self_intersections(mesh).empty());
-    // Among pairs that met before, which fill the list, new ones are found still.
+    // New pairs are still found if pairs that met before fill the list.
     Mesh crossing = grid_split(shapes::crossing(), 3).mesh;
     const std::size_t before = find_self_intersections(crossing).count;
     std::vector<CrumpleSheet> crossed{{&crossing, crumple_moves(crossing, by(0.4))}};
@@ -276,7 +276,7 @@ TEST_CASE("moves of many edges end after little work, whatever the number of fac
         AvoidResult r;
         const Mesh after = apart(sheet, by(12), &r);
         CHECK(r.box_pairs < 50 * sheet.face_count());
-        CHECK(r.shares.back() < sheet.vertex_count() / 2); // it is crumpled all the same
+        CHECK(r.shares.back() < sheet.vertex_count() / 2); // it is crumpled anyway
         CHECK(find_self_intersections(after).count == 0);
         CHECK(test::count(after).flat == 0);
     }
@@ -315,7 +315,7 @@ TEST_CASE("faces that lie close are looked at, however many they are", "[geometr
 }
 
 TEST_CASE("faces at short edges may be drawn out, as long as they do not meet", "[geometry]") {
-    // One short edge among long ones, and a smooth move that is many times as long.
+    // A short edge among long edges, and a smooth move many times as long.
     Mesh mesh = shapes::grid(4, 4);
     mesh.positions[12].x = mesh.positions[11].x + 1e-3;
     std::vector<CrumpleSheet> sheets{{&mesh, crumple_moves(mesh, by(0.01))}};

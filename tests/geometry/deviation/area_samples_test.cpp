@@ -14,7 +14,7 @@ std::vector<Surface> sampled_surfaces() {
     Mesh holes = test::noisy_icosphere(3, 0.05, 3); // some triangles have no area, and some have no position
     for (Index c = 30; c < 90; c += 3) holes.corners[c] = holes.corners[c + 1];
     holes.positions[5].x = std::nan("");
-    holes.corners.insert(holes.corners.end(), {1, 1, 2}); // the last one, too
+    holes.corners.insert(holes.corners.end(), {1, 1, 2}); // including the last
     return {surface_of(shapes::grid(1, 1)), surface_of(test::noisy_icosphere(5, 0.1, 1)),
             surface_of(test::random_triangles(300, 0.5, 2)), surface_of(holes)};
 }

@@ -171,8 +171,8 @@ TEST_CASE("little work is enough for a bound where little of a surface is far", 
 
 TEST_CASE("little work is enough for the bound of slivers that are far longer than they are apart",
           "[geometry]") {
-    // A thin prism of 200 sides against one of 160: near each sliver are more others than are looked at
-    // together.
+    // A thin prism of 200 sides, compared with a prism of 160 sides. More slivers are near each sliver than
+    // are tested together.
     const auto prism = [](Index sides) {
         Surface s;
         for (Index i = 0; i < sides; ++i)
@@ -478,7 +478,7 @@ TEST_CASE("slivers that lie askew and meet in one place are measured as others a
     };
     const Surface fine = cone(3000), coarse = cone(300);
     const auto d = deviation(fine, coarse, {.certify = true});
-    // The farthest is in the middle of a chord, which is the closest to it.
+    // The farthest point is in the middle of a chord, which is also its closest chord.
     const double truth = 1 - std::cos(3.14159265358979 / 300);
     CHECK(d.forward.maximum == Approx(truth).epsilon(1e-3));
     CHECK(*d.bound() >= d.maximum());

@@ -104,7 +104,7 @@ TEST_CASE("what closes a cut is not measured, unless the reference has it", "[ge
         CHECK(last_cap(scene) == 1);
         const auto all = signed_deviation(scene, near_tree(ball));
         CHECK(all.caps == 0);
-        CHECK(all.low < -0.7); // inside the ball, the cap's middle is as far from it as that
+        CHECK(all.low < -0.7); // inside the ball, the cap's centre is at the same distance from it
         const auto found = signed_deviation(scene, near_tree(ball), {.last_cap = 0});
         CHECK(found.caps == half.cap_faces);
         CHECK(found.low == Approx(0).margin(1e-12)); // cut edges lie on the ball's faces, except for rounding

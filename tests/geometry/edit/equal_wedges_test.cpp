@@ -42,7 +42,7 @@ TEST_CASE("wedges of a vertex with the same bits become the first of them", "[ge
         Mesh after = before;
         const std::size_t merged = merge_equal_wedges(after);
         CHECK(merged == before.wedge_count() - after.wedge_count());
-        // In the order of the first of each, which is compared one by one here.
+        // Groups are in the order of their first members, which this test compares one by one.
         std::vector<Index> kept, wedge(before.wedge_count());
         for (Index w = 0; w < before.wedge_count(); ++w) {
             const auto same = [&](Index k) {

@@ -39,7 +39,7 @@ Mesh faulty_sphere(std::uint64_t seed, std::uint64_t faults) {
 
 using Wings = std::vector<std::array<Index, 2>>; ///< the vertices before and after, of each face at a vertex
 
-/// How many groups of wings share edges with one another.
+/// The number of groups of wings connected by edges.
 std::size_t fans(Index v, const Wings& wings) {
     std::vector<std::size_t> fan(wings.size());
     std::size_t count = wings.size();
@@ -54,7 +54,7 @@ std::size_t fans(Index v, const Wings& wings) {
     return count;
 }
 
-/// The same by a look at each edge, each vertex and each triangle; loops are left out.
+/// The same, by testing each edge, each vertex and each triangle. Ignores loops.
 Connectivity counted_one_by_one(const Mesh& mesh) {
     std::map<std::array<Index, 2>, std::array<int, 2>> edges; // uses upwards and downwards
     std::map<std::array<Index, 3>, int> triangles;

@@ -60,7 +60,7 @@ TEST_CASE("an hourglass is closed though not manifold at its waist", "[geometry]
 
 TEST_CASE("three faces at an edge", "[geometry]") {
     const Properties p = inspect(shapes::fan3());
-    CHECK(truths(p) == "nnyn"); // all three run the same way; edges link them all the same
+    CHECK(truths(p) == "nnyn"); // all three have the same direction, but edges still connect them
     CHECK(p.boundary_edges == 6);
 }
 

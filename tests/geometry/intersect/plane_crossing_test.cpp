@@ -21,7 +21,7 @@ mpq_class product_of(const Exact& a, const Exact& b) {
     return mpq_class(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
 }
 
-/// How far p is above the plane, times something positive.
+/// The height of p above the plane, times a positive factor.
 mpq_class above(const Vec3& p, const std::array<Vec3, 3>& t) {
     const Exact u = from_to(t[0], t[1]), v = from_to(t[0], t[2]);
     const Exact normal{mpq_class(u[1] * v[2] - u[2] * v[1]), mpq_class(u[2] * v[0] - u[0] * v[2]),

@@ -34,7 +34,7 @@ TEST_CASE("triangles that cross, and a quad folded flat", "[geometry]") {
 }
 
 TEST_CASE("faces that share one vertex and run through each other", "[geometry]") {
-    Mesh mesh = shapes::bowtie(); // the second triangle turned into the first, and lifted at its far edge
+    Mesh mesh = shapes::bowtie(); // the second triangle is rotated into the first and lifted at its far edge
     mesh.positions[3] = {-2, 0.1, -1};
     mesh.positions[4] = {-0.1, 0.1, 1};
     CHECK(find_self_intersections(mesh).pairs == Pairs{{0, 1}});

@@ -58,7 +58,7 @@ Mesh prism(int sides, double turn_of_normals) {
         add_face(m, std::array<Index, 3>{a, b + 1, a + 1});
     }
     m = flat_shaded(std::move(m));
-    Attribute& n = *m.find("NORMAL", Domain::wedge); // turned, so that it is not flat shading
+    Attribute& n = *m.find("NORMAL", Domain::wedge); // rotated, so that it differs from flat shading
     for (Index w = 0; w < m.wedge_count(); ++w) {
         const double x = n.value(w, 0), y = n.value(w, 1), c = cosine(turn_of_normals),
                      s = sine(turn_of_normals);

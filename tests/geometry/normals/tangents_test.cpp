@@ -41,7 +41,7 @@ constexpr double of_roof[12][4] = {
 
 TEST_CASE("tangents are those of MikkTSpace, also where the texture is mirrored", "[geometry]") {
     Mesh mesh = roof();
-    CHECK_FALSE(give_tangents(mesh, 1)); // no such texture coordinates
+    CHECK_FALSE(give_tangents(mesh, 1)); // this set of texture coordinates does not exist
     REQUIRE(give_tangents(mesh, 0));
     const Attribute* tangents = mesh.find("TANGENT", Domain::wedge);
     REQUIRE(tangents);

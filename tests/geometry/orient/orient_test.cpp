@@ -18,7 +18,7 @@ Mesh scaled(Mesh mesh, double factor, const Vec3& offset = {}) {
     return mesh;
 }
 
-/// Faces turned round by a coin.
+/// Reverses random faces.
 Mesh shaken(Mesh mesh, std::uint64_t seed) {
     std::vector<std::uint8_t> flags(mesh.face_count());
     for (std::size_t f = 0; f < flags.size(); ++f) flags[f] = hashed(seed, f) % 2;

@@ -78,7 +78,7 @@ TEST_CASE("of points on one circle any triangulation is told, of lines that cros
     cocircular.lines = {{0, b}};
     CHECK(has_edge(*certain_triangulation(cocircular), 0, b));
     cocircular.lines = {{0, b}, {a, c}};
-    CHECK(!certain_triangulation(cocircular)); // which cross
+    CHECK(!certain_triangulation(cocircular)); // the lines cross
 
     CutTriangle lattice = {{{0, 0}, {8, 0}, {0, 8}}, {0b101, 0b011, 0b110}, {}};
     for (int i = 1; i < 5; ++i)

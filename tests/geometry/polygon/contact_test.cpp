@@ -1,4 +1,4 @@
-// How rings meet themselves and each other, against all pairs of their edges.
+// Compares the contacts of rings with tests of all pairs of their edges.
 #include "support/catch.hpp"
 
 #include "base/math/random.hpp"
@@ -32,7 +32,7 @@ bool lies_on(const Vec2& p, const Vec2& a, const Vec2& b) {
            std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
 }
 
-/// e is followed by f, which runs back along it.
+/// f follows e and runs back along it.
 bool back(const Piece& e, const Piece& f) {
     return turn_of(e.a, e.b, f.b) == 0 && dot(e.b - e.a, f.b - f.a) < 0;
 }
@@ -81,7 +81,7 @@ Points scattered(Dice& dice, int corners, int side) {
     return ring;
 }
 
-/// Corners in the order of their directions from the middle, near and far in turn.
+/// Corners sorted by direction from the centre, alternately near and far.
 Points rough_star(Dice& dice) {
     const int spikes = 3 + dice.below(6), side = 4 + dice.below(20);
     Points ring;
@@ -158,7 +158,7 @@ TEST_CASE("how rings meet is what all pairs of their edges say", "[geometry]") {
         const Contact wanted = contact_by_pairs(rings);
         INFO(seed);
         REQUIRE(contact(rings_of(rings)) == wanted);
-        Many more = rings; // so many edges that pairs are not looked at one by one
+        Many more = rings; // too many edges to test all pairs
         more.push_back(moved(regular(20, 10), {-1000, 0}));
         REQUIRE(contact(rings_of(more)) == wanted);
         ++seen[static_cast<std::size_t>(wanted)];

@@ -31,8 +31,8 @@ TEST_CASE("a line is cut by outline and hole alike", "[geometry]") {
 TEST_CASE("a line through corners and along edges crosses evenly", "[geometry]") {
     using Parts = std::vector<Interval>;
     CHECK(clip_line({-1, -1}, {3, 3}, rings_of({square(0, 0, 2)})) == Parts{{0.25, 0.75}});
-    // A line along an edge has the corners on its left: nothing when the rest is on its left too, all
-    // otherwise.
+    // A line along an edge has the corners on its left. The result is empty if the rest is also on its left,
+    // otherwise everything.
     CHECK(clip_line({0, 0}, {4, 0}, rings_of({square(0, 0, 2)})).empty());
     CHECK(clip_line({4, 0}, {0, 0}, rings_of({square(0, 0, 2)})) == Parts{{0.5, 1}});
     CHECK(clip_line({0, 1}, {2, 1}, rings_of({l_shape()})) == Parts{{0, 1}});

@@ -1,4 +1,4 @@
-// Our polygon maths against CGAL's, on small integer polygons, where every degeneracy turns up.
+// Compares our polygon algorithms with CGAL's on small integer polygons, where every degeneracy occurs.
 #include "support/catch.hpp"
 
 #include "base/math/random.hpp"

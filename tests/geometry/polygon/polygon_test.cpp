@@ -74,7 +74,7 @@ TEST_CASE("areas in space: triangle, quad by its diagonals, any by Stokes", "[ge
     const std::vector<Vec3> quad{{0, 0, 0}, {2, 0, 1}, {3, 2, 2.5}, {1, 2, 1.5}};
     const Vec3 v = area_vector(quad);
     CHECK(area(quad) == Approx(length(v)));
-    CHECK(v.z == Approx(4)); // upwards: anticlockwise seen from above
+    CHECK(v.z == Approx(4)); // upwards: appears anticlockwise from above
     CHECK(area(std::vector<Vec3>{{0, 0, 5}, {0, 3, 5}, {4, 0, 5}}) == 6);
     std::vector<Vec3> l;
     for (const Vec2& p : l_shape()) l.push_back({p.x, 7, p.y});

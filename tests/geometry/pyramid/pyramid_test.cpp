@@ -153,7 +153,7 @@ TEST_CASE("small, broken and scattered meshes are pyramids, too", "[pyramid]") {
         CHECK(tiles.size() > 1);
         for (const PyramidTile& tile : tiles) CHECK(broken_invariants(tile.mesh).empty());
     }
-    Mesh many; // 300 tetrahedra, which cannot become fewer faces unless some vanish
+    Mesh many; // 300 tetrahedra, which can only have fewer faces if some vanish
     for (int i = 0; i < 300; ++i) {
         Mesh one = shapes::tetrahedron();
         Transform t;

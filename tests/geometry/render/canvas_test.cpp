@@ -14,7 +14,7 @@ TEST_CASE("a triangle has the samples that its three edges say, however thin or 
     for (std::uint64_t i = 0; i < 3000; ++i) {
         const std::uint64_t j = i / 3;
         const double size =
-            std::pow(10.0, static_cast<double>(j % 5 < 4 ? j % 4 : j / 5 % 16)); // far beyond, too
+            std::pow(10.0, static_cast<double>(j % 5 < 4 ? j % 4 : j / 5 % 16)); // also far outside
         std::array<Vec3, 3> p;
         for (std::size_t k = 0; k < 3; ++k)
             p[k] = {60 + size * (uniform(hashed(i, 2 * k)) - 0.5),

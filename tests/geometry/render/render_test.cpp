@@ -302,7 +302,7 @@ TEST_CASE("a scene that does not say where up is stands on its base", "[geometry
 }
 
 TEST_CASE("an open surface is seen from the side that its faces look to", "[geometry]") {
-    Scene scene = square(true); // looks towards -z, which is the back
+    Scene scene = square(true); // faces -z, which is the back
     PictureSettings s = seen_from({});
     s.from.reset();
     s.viewpoint = Viewpoint::front;
@@ -343,7 +343,7 @@ TEST_CASE("rings mark places, over all else", "[geometry]") {
     const Pixel ring = at(picture, 50 + 6, 50), middle = at(picture, 50, 50);
     CHECK(ring.r == 200);
     CHECK(ring.g == 20);
-    CHECK(middle.g > 150); // inside it the scene is seen
+    CHECK(middle.g > 150); // inside it the scene is visible
 }
 
 TEST_CASE("folds are darker than planes", "[geometry]") {
@@ -510,7 +510,7 @@ TEST_CASE("the fitting scale is that beside the legend", "[geometry]") {
         {"heat", Domain::wedge, Role::generic, 1, false, std::vector<float>{0, 10, 10, 0}});
     PictureSettings s = seen_from({0, 0, 1});
     s.width = 210;
-    s.height = 200; // 108 pixels wide are left
+    s.height = 200; // 108 pixels of width remain
     s.attribute = "heat";
     s.legend = true;
     CHECK(fitting_scale(scene, s) == Approx(0.92 * 108));
@@ -546,7 +546,7 @@ TEST_CASE("pictures of what can hardly be seen", "[geometry]") {
     CHECK(covered(picture_of(scene_of({}))) == 0);
     Mesh points;
     points.positions = {{0, 0, 0}, {1, 1, 1}, {HUGE_VAL, 0, 0}, {0, NAN, 0}};
-    std::size_t alpha = 0; // of two squares of a pixel each, wherever they fall
+    std::size_t alpha = 0; // two squares of a pixel each, at any position
     const Picture dots = picture_of(scene_of(points));
     for (std::size_t i = 3; i < dots.rgba.size(); i += 4) alpha += dots.rgba[i];
     CHECK(alpha >= 2 * 4 * (255 / 4));
@@ -633,7 +633,7 @@ TEST_CASE("what lies far off makes a crowd of the rest", "[geometry]") {
     s.at = crowd->middle;
     s.zoom = crowd->zoom;
     CHECK(covered(picture_of(scene, s)) > 480U * 360U / 20);
-    // A vertex that is not drawn makes nothing small; nor does one part of two.
+    // An undrawn vertex does not make the scene small, and neither does an undrawn part.
     Scene alone = scene_of(shapes::icosphere(3));
     alone.parts[0].mesh.positions.push_back({1e9, 0, 0});
     CHECK_FALSE(crowd_of(alone, {}));

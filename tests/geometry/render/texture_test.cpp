@@ -91,7 +91,7 @@ TEST_CASE("mip levels are means in linear light", "[geometry]") {
     // Transparent pixels do not affect the colour.
     const auto leaf = image_of(2, 1, {{0, 255, 0, 255}, {255, 0, 0, 0}});
     CHECK(leaf->levels[1].rgba == std::vector<std::uint8_t>{0, 255, 0, 128});
-    // An odd side: each pixel counts by the area that is covered.
+    // An odd side: each pixel is weighted by its covered area.
     const auto odd = image_of(3, 1, {{0, 0, 0, 255}, {255, 0, 0, 255}, {255, 0, 0, 255}});
     CHECK(odd->levels[1].rgba[0] == 170);
     CHECK(image_of(8, 2, std::vector<Rgba>(16), false, 4)->levels.front().width == 4);
@@ -123,7 +123,7 @@ TEST_CASE("neighbours are mixed, unless the sampler says nearest", "[geometry]")
     CHECK(t.sampled(0.5, 0.25, {})[1] == Approx(0.5));
     t.nearest = true;
     CHECK(t.sampled(0.49, 0.25, {})[0] == 1);
-    // Seen from afar it is the mean of all, with either.
+    // From afar it is the mean of all pixels, with either filter.
     const Texel far = t.sampled(0.3, 0.3, {2, 0, 0, 2});
     CHECK(far[0] == Approx(0.5).margin(0.005));
     CHECK(far[2] == Approx(0.5).margin(0.005));

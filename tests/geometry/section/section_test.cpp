@@ -13,7 +13,7 @@ Plane across_z(double z) { return {{0, 0, 1}, {0, 0, z}, 0}; }
 
 Section cut(const Mesh& mesh, const Plane& plane) { return section(mesh, {plane, {0}, {}}).at(0); }
 
-/// The cube of side 1 from the origin without the one of side 1/2 in its middle.
+/// The cube of side 1 from the origin, minus the cube of side 1/2 at its centre.
 Mesh hollow_cube() {
     Mesh outer = shapes::cube(), inner = shapes::cube();
     for (auto& p : inner.positions) p = p * 0.5 + Vec3{0.25, 0.25, 0.25};
@@ -52,7 +52,7 @@ TEST_CASE("a face in the plane counts when it is a top", "[geometry]") {
     const Section floor = cut(shapes::cube(), across_z(0));
     CHECK(floor.contours.empty());
     CHECK(floor.collapsed == 0);
-    // Seen from below the floor is the top.
+    // From below, the floor is the top.
     CHECK(cut(shapes::cube(), {{0, 0, -1}, {0, 0, 0}, 0}).area == 1);
 }
 

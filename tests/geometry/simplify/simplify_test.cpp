@@ -92,7 +92,7 @@ TEST_CASE("a sphere is simplified to the count asked for and stays a sphere", "[
             CHECK(sound(r.mesh, 2));
             now = r.mesh;
         }
-        // 1000 faces inscribed in the sphere lack about 1 % of its volume; midpoints cut off some more.
+        // 1000 faces inscribed in the sphere lack about 1 % of its volume, and midpoints lose slightly more.
         CHECK(test::volume(now) == Approx(test::volume(m)).epsilon(method == Method::quadric ? 0.005 : 0.02));
         for (const Vec3& p : now.positions) CHECK(std::abs(length(p) - 1) < 0.04);
     }
@@ -252,7 +252,7 @@ TEST_CASE("seams stay seams, matched, and UVs follow the place", "[geometry]") {
     for (Index w = 0; w < r.mesh.wedge_count(); ++w) {
         const Vec3& p = r.mesh.positions[r.mesh.vertex_of_wedge(w)];
         ++wedges[r.mesh.vertex_of_wedge(w)];
-        CHECK(uv->value(w, 1) == Approx(p.y).margin(1e-9)); // the sheet is flat: nothing slides
+        CHECK(uv->value(w, 1) == Approx(p.y).margin(1e-9)); // the sheet is flat, so no vertex slides
         const double u = uv->value(w, 0);
         CHECK((u < 50 ? u : u - 100) == Approx(p.x).margin(1e-9));
     }
@@ -489,7 +489,7 @@ TEST_CASE("simplification avoids new self-intersections on request", "[geometry]
 }
 
 TEST_CASE("where faces would cross less is taken away, elsewhere all", "[geometry]") {
-    // A ball that is nearly filled by a smaller one: far enough apart while faces are small.
+    // A ball that is nearly filled by a smaller ball: the distance is sufficient while faces are small.
     Mesh m = rough(shapes::icosphere(4), 0.002);
     Mesh inner = m;
     for (auto& p : inner.positions) p = p * 0.97;

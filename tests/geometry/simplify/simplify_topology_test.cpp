@@ -1,4 +1,4 @@
-// Simplification where topology may go: topology: allow, and the method cluster.
+// Simplification that may change the topology: topology: allow, and the method cluster.
 
 #include "geometry/simplify/simplify.hpp"
 
@@ -35,7 +35,7 @@ Mesh with_crumbs() {
     return m;
 }
 
-/// A sphere of which the faces at one vertex are missing.
+/// A sphere without the faces at a vertex.
 Mesh with_hole() {
     Mesh m = shapes::icosphere(3), open = m;
     open.corners.clear();

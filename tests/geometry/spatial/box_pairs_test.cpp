@@ -84,7 +84,7 @@ TEST_CASE("pairs of boxes among some", "[geometry]") {
 TEST_CASE("triangles are surely disjoint only when they are", "[geometry]") {
     using Corners = std::array<Vec3, 3>;
     const Corners a{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
-    CHECK(surely_disjoint(a, {{{5, 5, -1}, {6, 5, 1}, {5, 6, 1}}}, 0));  // seen along z
+    CHECK(surely_disjoint(a, {{{5, 5, -1}, {6, 5, 1}, {5, 6, 1}}}, 0));  // projected along z
     CHECK(surely_disjoint(a, {{{1, 1, 1}, {2, 1, 1}, {1, 2, 1.5}}}, 0)); // above the plane
     CHECK_FALSE(surely_disjoint(a, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 0}}}, 0));
     CHECK_FALSE(surely_disjoint(a, {{{1, 1, 0}, {2, 1, 5}, {1, 2, 5}}}, 0)); // touches

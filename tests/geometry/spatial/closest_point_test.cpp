@@ -207,7 +207,7 @@ TEST_CASE("tiny, huge and far surfaces lose nothing", "[geometry]") {
             CHECK(closest_point(tree, p).distance ==
                   Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-11 * size));
         }
-        // Beyond the reach of squares, too: a corner is a corner.
+        // Corners are found even where squares of distances overflow.
         Mesh largest = shapes::octahedron();
         for (auto& p : largest.positions) p = p * (size * 1e140);
         CHECK(closest_point(FaceTree(surface_of(largest)), {size * 3e140, 0, 0}).distance ==

@@ -197,7 +197,7 @@ TEST_CASE("what float32 cannot tell from 0 in a wide group is not shown to be wi
 
 namespace {
 
-/// The least distance within which one triangle has all points of the set.
+/// The smallest distance within which a single triangle has all points of the set.
 double shared_distance(const FaceTree& tree, const std::vector<Vec3>& points, std::uint32_t set) {
     double least = HUGE_VAL;
     for (Index t = 0; t < tree.triangles.size(); ++t) {

@@ -10,7 +10,7 @@ using namespace facetmill;
 
 namespace {
 
-/// Every method that leaves the surface where it is, in an order in which results can be split again.
+/// Every method that keeps the surface, in an order in which results can be split again.
 constexpr SplitMethod every_method[] = {SplitMethod::midpoint, SplitMethod::bisect,   SplitMethod::centroid,
                                         SplitMethod::grid,     SplitMethod::quads,    SplitMethod::varignon,
                                         SplitMethod::core,     SplitMethod::diagonal, SplitMethod::halve,

@@ -27,7 +27,8 @@ Mesh dart(Index reflex) {
     return faces(points, {face});
 }
 
-/// Two quads that share both edges at vertex 3, where the surface is pointed, and would be cut along 0 - 2.
+/// Two quads that share both edges at vertex 3, where the surface has a spike. Both would be cut along 0 -
+/// 2.
 Mesh pocket() {
     return faces({{1, 0, 0}, {0, 1, -0.5}, {-1, 0, 0}, {0, 0, 2}, {0, -1, -0.5}},
                  {{0, 1, 2, 3}, {0, 3, 2, 4}});
@@ -78,7 +79,7 @@ TEST_CASE("concave quads are cut so that no piece looks the other way", "[geomet
 TEST_CASE("concave faces whose pieces lie over each other are counted", "[geometry]") {
     using enum SplitMethod;
     for (const auto method : {grid, halve, varignon}) CHECK(split(dart(0), {method, 1}).folded == 1);
-    // From no point are both arms seen.
+    // No point sees both arms.
     const Mesh fork =
         faces({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {8, 9, 0}, {8, 1, 0}, {1, 1, 0}, {1, 9, 0}, {0, 9, 0}},
               {{0, 1, 2, 3, 4, 5, 6, 7}});

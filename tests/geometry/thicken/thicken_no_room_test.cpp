@@ -138,7 +138,7 @@ TEST_CASE("thicken tells of walls that lie within others", "[geometry]") {
     const Mesh ball = shapes::icosphere(2);
     const Mesh hollow = both(ball, reversed(scaled(ball, {0.8, 0.8, 0.8})));
     CHECK(is_sound(thicken(hollow, {.thickness = 0.05})));
-    const auto r = thicken(hollow, {.thickness = 0.3}); // each shell's wall goes beyond the other's front
+    const auto r = thicken(hollow, {.thickness = 0.3}); // each shell's wall passes the other's front
     CHECK(r.self_intersections == std::size_t{0});
     CHECK(r.buried > 0);
 }

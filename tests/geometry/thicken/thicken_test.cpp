@@ -108,7 +108,7 @@ TEST_CASE("two-sided the second time changes nothing", "[geometry]") {
         const Mesh twice = two_sided(once).mesh;
         CHECK(twice.corners == once.corners);
         CHECK(twice.positions == once.positions);
-        Mesh more = once; // another face: it alone gets a back
+        Mesh more = once; // a different face, the only face that gets a back
         more.positions.insert(more.positions.end(), {{9, 0, 0}, {9, 1, 0}, {9, 0, 1}});
         const auto first = static_cast<Index>(once.vertex_count());
         if (more.has_seams() || more.wedge_count() != more.vertex_count()) continue;

@@ -28,7 +28,7 @@ Points at_level(const Mesh& mesh, std::size_t axis, double level) {
     return points;
 }
 
-/// The triangles in a plane, each from its lowest point, turned round on request.
+/// The triangles in a plane, each from its lowest point, optionally reversed.
 std::multiset<std::array<std::array<double, 3>, 3>> faces_at_level(const Mesh& mesh, std::size_t axis,
                                                                    double level, bool turned) {
     std::multiset<std::array<std::array<double, 3>, 3>> faces;

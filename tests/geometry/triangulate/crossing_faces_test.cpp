@@ -43,7 +43,8 @@ Mesh prism_of(const std::vector<Vec2>& ring) {
     return mesh;
 }
 
-/// How many triangles have the point inside, seen along z; anticlockwise ones if `up`, else the others.
+/// The number of triangles around the point in projection along z: anticlockwise if `up`, otherwise
+/// clockwise.
 int covers(const Mesh& mesh, const Vec2& p, bool up) {
     int count = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {

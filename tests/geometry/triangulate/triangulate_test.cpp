@@ -161,6 +161,6 @@ TEST_CASE("triangles pair to quads, the squarest first", "[geometry]") {
     const auto uv = pair_triangles(shapes::uv_cube()); // seams are not crossed
     CHECK(uv.quads == 6);
     CHECK(uv.mesh.wedge_count() == 24);
-    CHECK(pair_triangles(shapes::tetrahedron()).quads == 0); // too bent
+    CHECK(pair_triangles(shapes::tetrahedron()).quads == 0); // bent too strongly
     CHECK(pair_triangles(shapes::fan3()).quads == 0);
 }

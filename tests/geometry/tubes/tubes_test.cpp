@@ -111,7 +111,7 @@ TEST_CASE("a tube turns about a corner that is too sharp for a mitre", "[geometr
     const auto crowded = tubes(path({{0, 0, 0}, {5, 0, 0}, {5, 0.05, 0}, {0, 0.05, 3}}), {1, 8});
     CHECK(crowded.sharp == 2);
     check_sound(crowded.mesh, 2);
-    std::vector<Vec3> star; // closed, and sharp at each of its corners
+    std::vector<Vec3> star; // closed, with sharp corners
     for (int i = 0; i < 5; ++i) star.push_back({std::cos(0.8 * pi * i), std::sin(0.8 * pi * i), 0.1 * i});
     check_sound(tubes(path(star, true), {0.9, 6}).mesh, 0);
 }

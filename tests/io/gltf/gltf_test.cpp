@@ -154,7 +154,7 @@ TEST_CASE("plain Draco files are written and read", "[io]") {
 TEST_CASE("EXT_mesh_manifold gives the same vertices back, and says when a mesh is none", "[io]") {
     io::WriteSettings settings;
     settings.mesh_manifold = true;
-    // Two tetrahedra at the same corner point: apart by the extension, together by position.
+    // Two tetrahedra at the same corner point: separate by the extension, merged by position.
     Mesh mesh = shapes::tetrahedron();
     append(mesh, shapes::tetrahedron());
     for (std::size_t v = 4; v < 8; ++v)

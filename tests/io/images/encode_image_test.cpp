@@ -134,7 +134,7 @@ TEST_CASE("images are packed anew with the same pixels, or not at all", "[io]") 
         CHECK(packed.size() < given.size());
         CHECK(io::media_type(packed) == io::media_type(given));
         CHECK(io::decoded_image(packed)->rgba == io::decoded_image(given)->rgba);
-        CHECK(io::repacked_image(packed).empty()); // nothing more is gained
+        CHECK(io::repacked_image(packed).empty()); // no further gain
         // Broken images stay unchanged.
         CHECK(io::repacked_image(io::Span(given).first(given.size() * 2 / 3)).empty());
         CHECK(io::repacked_image(io::Span(given).first(20)).empty());

@@ -147,7 +147,7 @@ TEST_CASE("images of documents that are gone do not count", "[io]") {
     CHECK_FALSE(small.materials(one, warnings)->front().base_texture);
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].message.find("take more than") != std::string::npos);
-    // The size is looked at before the pixels, which are broken here.
+    // The size is checked before the pixels, which are broken here.
     const std::string png = test::red_png();
     warnings.clear();
     small.materials(scene_with(red_texture, {data_uri(png.substr(0, png.size() - 20))}), warnings);

@@ -1,4 +1,4 @@
-// Attributes side by side: the same numbers as apart, in views that glTF allows.
+// Interleaved attributes: the same numbers as in separate views, in views that glTF allows.
 #include "io/codec.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "mesh/shapes.hpp"

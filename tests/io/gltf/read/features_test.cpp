@@ -96,7 +96,7 @@ TEST_CASE("features and their tables survive stages that change the mesh", "[io]
         const io::Bytes& glb = written.files[0].bytes;
         const Json json = Json::parse(test::json_of(glb));
         CHECK(json.at(ids_place) == Json::parse(R"([{"featureCount":4,"attribute":0,"propertyTable":0}])"));
-        CHECK(json["meshes"].size() == 1); // of the old one nothing is left
+        CHECK(json["meshes"].size() == 1); // the old table is removed completely
         CHECK(table_of(glb) == std::vector<float>{1, 2, 3, 4});
         for (const double id : ids_of(test::read_bytes(glb, "glb").parts.at(0).mesh))
             CHECK(std::set<double>{3, 10, 17, 24}.contains(id));

@@ -37,8 +37,8 @@ Json places(Json attributes) {
     return {{"EXT_mesh_gpu_instancing", {{"attributes", std::move(attributes)}}}};
 }
 
-/// A torus away from zero in four nodes: `three` with three mirrored or unevenly scaled instances, `plain`
-/// with one, `two` with two, and `flat` with two instances of sizes 0 and 4. `three` and `two` are below a
+/// A torus away from zero in four nodes. `three` has three mirrored or unevenly scaled instances, `plain`
+/// has one, and `two` has two. `flat` has two instances of sizes 0 and 4. `three` and `two` are below a
 /// scaled group.
 Json four_nodes() {
     Mesh torus = shapes::torus(16, 12);
@@ -232,7 +232,7 @@ TEST_CASE("the surface of a part counts at all of its instances, and moves with 
     CHECK(total(scene).faces == faces);
     CHECK(total(scene).faces == total(all).faces);
     const double ratio =
-        total(scene).area / total(all).area; // one is scaled unevenly, whose area is estimated
+        total(scene).area / total(all).area; // the area of an unevenly scaled instance is estimated
     CHECK(ratio > 1 - 1e-6);
     CHECK(ratio < 1.05);
     CHECK(places_of(all) == std::vector<std::vector<Transform>>(8));

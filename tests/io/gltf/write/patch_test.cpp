@@ -18,7 +18,7 @@ Json written_json(const Scene& scene, const io::WriteSettings& settings = {}) {
     return Json::parse(test::json_of(test::written(scene, "glb", settings).files.at(0).bytes));
 }
 
-/// A triangle, with much around it that nobody here understands.
+/// A triangle, with much other data that facetmill does not interpret.
 const char* const rich =
     R"({"asset":{"version":"2.0","extras":{"big":9007199254740993,"none":null,"empty":{}}},
  "unknown":[18446744073709551615,-1,{}],"extensionsUsed":["KHR_lights_punctual"],
