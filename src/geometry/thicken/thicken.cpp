@@ -205,7 +205,7 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
     return added;
 }
 
-/// The side that a face of the solid belongs to.
+/// The side of a face in the solid.
 enum class Face : std::uint8_t { front, back, neither };
 
 /// World distances to the back faces, from the vertices and centres of the front faces. face: [faces],

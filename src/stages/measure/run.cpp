@@ -41,7 +41,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
                          turns.edges, std::move(turns.curvature)});
 }
 
-/// The surface that deviation refers to; null if not requested.
+/// The surface to compare with for deviation; null if not requested.
 std::unique_ptr<FaceTree> other_surface(const MeasureOptions& o, const Scene& scene, Context& context) {
     if (is_from_load(o)) {
         context.mark_uncacheable(); // the cache key does not include the scene as loaded

@@ -34,7 +34,7 @@ struct Job {
     ProcessedImage processed_image;
 };
 
-/// Materials used by parts that are left out, for each document.
+/// For each document, the materials of parts that the stage does not select.
 std::vector<std::set<int>> held_materials(const Scene& scene, const Context& context) {
     std::vector<std::set<int>> held(scene.documents.size());
     for (const Part& part : scene.parts) {

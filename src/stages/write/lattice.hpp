@@ -7,7 +7,7 @@
 
 namespace facetmill::write_stage {
 
-/// The grid that each part's positions are rounded to, and the bits of the whole numbers.
+/// The grid for each part's positions, and the bits of the grid numbers.
 struct EvenGrid {
     std::vector<io::Lattice> lattices;
     std::vector<int> bits;
