@@ -5,6 +5,8 @@
 // facetmill's trees halve meshes, not space. A child's digit is therefore its position in the quadtree. The
 // subtree files give each tile its own box and error, which replace the values from halving space.
 
+#include "base/json.hpp"
+#include "io/gltf/document/container.hpp"
 #include "io/tileset/tiles.hpp"
 
 namespace facetmill::io::tileset {
