@@ -34,8 +34,8 @@ struct FieldRow {
 /// spelling_help of every dimension that the rows use, once each.
 [[nodiscard]] std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
 
-/// Breaks text at blanks into lines of at most width characters, each indented by indent blanks. A longer
-/// word gets its own line; line breaks in the text are kept.
+/// Wraps text into lines of at most `width` characters, and indents each by `indent` blanks. A longer word
+/// gets its own line. Line breaks in the text stay.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
 
 /// The lines of each paragraph joined: help is written as raw strings of short lines.

@@ -54,7 +54,7 @@ class OffReader final : public RowReader {
                             vertices, faces, left));
     }
 
-    /// Skips the numbers left on the line except the last `more`: a colour of at most four numbers.
+    /// Skips a colour of at most four numbers. The last `more` numbers of the line are not part of it.
     static void pass_colour(io::Text& text, int more) {
         int left = 0;
         for (io::Text ahead = text; !ahead.word_on_line().empty();) ++left;

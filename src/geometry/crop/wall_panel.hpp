@@ -50,7 +50,8 @@ class WallPanel {
     bool complete(const PostView& view);
     /// Vertices on upright edges, with the post; complete uses them if they are in at_post.
     const std::vector<std::pair<Index, Index>>& missed() const { return missed_; }
-    /// The upright edges, with the number of times each is traversed from its lower vertex to the other.
+    /// The net count of traversals of each upright edge: upward from its lower vertex adds, downward
+    /// subtracts.
     const std::map<std::pair<Index, Index>, int>& upright() const { return upright_; }
 
     /// A point on an edge of the boundary.

@@ -13,8 +13,8 @@ namespace facetmill {
 inline constexpr std::string_view distance_attribute = "distance";
 
 struct SignedDeviationSettings {
-    /// The number of vertices to look up. If the scene has more, one vertex represents its cell of a grid,
-    /// but near the farthest of these all vertices are looked up.
+    /// The number of vertices to look up. If the scene has more, one vertex represents its cell of a grid.
+    /// Near the farthest of these vertices, all vertices are looked up.
     std::size_t vertices = 20000;
     std::size_t samples = 10000; ///< points spread over the area
     std::uint64_t seed = 1;

@@ -36,8 +36,8 @@ struct Member {
     std::size_t uses = 1; ///< weight of its faces, vertices and collapses: the number of uses
     Outcome done{};       ///< of all work on it
 };
-/// Like run_passes, but for all members in a single order of cost, with a goal for the total. If a member has
-/// several uses, the total may fall below the goal by one collapse per use.
+/// Like run_passes for one mesh, but all members share a goal and one order of cost. A member with several
+/// uses may take the total below the goal, by one collapse per use.
 void run_passes(std::span<Member> members, const Goal& goal);
 /// Counts the edges that the last pass left, by reason. Meaningful only when the work is stuck.
 [[nodiscard]] SimplifyResult::Blocked count_blocked(const State& s);

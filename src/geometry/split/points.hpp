@@ -14,8 +14,8 @@ namespace facetmill {
 class EdgePoints {
   public:
     /// Each edge gets pieces - 1 points, pieces >= 1. With marks (one per edge), only marked edges get
-    /// points. With at (one per edge, pieces = 2), the point is at that parameter from the edge's low vertex
-    /// instead of in the middle.
+    /// points. With at (one per edge, pieces = 2), `at` gives the parameter of each point, measured from the
+    /// edge's low vertex. Without it, points are at the middle.
     EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
                const std::vector<std::uint8_t>& marks = {}, std::vector<double> at = {});
 

@@ -35,7 +35,7 @@ class SmoothRings {
     Index from(Index c) const { return mesh.vertex(c); }
     Index to(Index c) const { return mesh.vertex(next_[c]); }
     bool is_feature(Index e) const { return e == none || feature_[e]; }
-    /// The other ends of at most two feature edges at a vertex, and the number of its feature edges.
+    /// The feature edges at a vertex: their number, and the far ends of the first two.
     struct FeatureEdges {
         Index ends[2] = {none, none};
         int count = 0;

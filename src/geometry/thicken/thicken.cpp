@@ -263,7 +263,7 @@ struct Moved {
     std::vector<std::uint8_t> turned, vanished; ///< [faces], or empty for no move
 };
 
-/// The effects of moving the surface to the solid's positions from vertex `first` on.
+/// Measures the move of the surface to the solid's positions. They begin at vertex `first` of the solid.
 Moved moved_to(const Mesh& solid, Index first, double distance, const Mesh& surface,
                const Transform& to_world) {
     if (distance == 0) return {};
