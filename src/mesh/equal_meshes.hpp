@@ -20,9 +20,10 @@ namespace facetmill {
 
 /// Parts whose meshes are equal to the bit, with attributes and primitives, wherever they are. O(data).
 struct DistinctParts {
-    std::vector<std::size_t> first;     ///< [parts] the first one equal to each, often itself
+    std::vector<std::size_t> first{};   ///< [parts] the first one equal to each, often itself
     std::vector<std::size_t> uses = {}; ///< [parts] the parts that it is the first of; 0 for repeats
 
+    DistinctParts() = default;
     explicit DistinctParts(const Scene& scene);
     /// Those of them that have equal keys, too.
     template <class KeyOf>

@@ -70,8 +70,7 @@ std::string hint_for_option(std::string_view word, const std::vector<KnownName>&
     if (!names.empty()) return fmt::format("'{}' is called {} here", word, names);
     if (means_report(word))
         return "a report is written by the command: --report FILE.xml (JUnit), .json, .html, .md or .txt "
-               "before "
-               "the first stage, or report: FILE.xml in a pipeline file";
+               "before the first stage, or report: FILE.xml in a pipeline file";
     std::vector<std::string> all;
     all.reserve(known.size());
     for (const KnownName& one : known) all.push_back(one.name);

@@ -15,7 +15,7 @@ struct PartsPlan {
     Contacts contacts{};
     std::vector<const PartSet*> set_of{}; ///< [parts] the set in contacts that is simplified jointly; empty:
                                           ///< no such set
-    DistinctParts work{Scene{}};          ///< equal parts share the result of the first
+    DistinctParts work{};                 ///< equal parts share the result of the first
     std::vector<std::size_t> measured_as{}; ///< [parts] the part whose measurements apply, usually itself
     std::vector<std::size_t> samples{};     ///< [parts] samples in each direction, for the selected parts
 
