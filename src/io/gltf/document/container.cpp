@@ -14,6 +14,9 @@
 #include <fmt/format.h>
 #include <set>
 #include <system_error>
+// Images are decoded elsewhere, so tinygltf may be built without its decoders.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
 namespace facetmill::io::gltf {
