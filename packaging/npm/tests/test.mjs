@@ -1,0 +1,27 @@
+// In a project with the packed packages installed: node test.mjs
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { createRequire } from 'node:module';
+import facetmill, { diff, FacetmillError, info, pipe, run, stages } from 'facetmill';
+
+const seen = [];
+const cube = await pipe(['generate', 'cube', '!', 'split', 'midpoint', '!', 'write', 'a cube.stl'],
+    { onProgress: (p) => seen.push([p.name, p.done]) });
+assert(cube.passed);
+assert.equal(cube.stages[1].after.faces, (await info('a cube.stl')).faces);
+assert.deepEqual(seen.filter(([, done]) => !done).map(([name]) => name), ['generate', 'split', 'write']);
+assert((await diff('a cube.stl', 'a cube.stl')).same);
+assert((await stages()).some((stage) => stage.name === 'simplify'));
+assert((await run({ facetmill: 1, stages: [{ generate: 'cube' }, { write: 'c.glb' }] }, { outputDir: 'out' })).passed);
+await assert.rejects(pipe('load nothing.glb ! write x.glb'),
+    (error) => error instanceof FacetmillError && error.id === 'E-FILE' && error.exitCode === 3);
+await assert.rejects(pipe('generate cube ! validate --euler 0'), (error) => error.id === 'E-CHECK' && !error.report.passed);
+assert.equal((await pipe('generate cube ! validate --euler 0', { check: false })).exit_code, 1);
+const required = createRequire(import.meta.url)('facetmill');
+assert.equal(required.pipe, facetmill.pipe);
+const npx = (...args) => execFileSync('npx', ['facetmill', ...args], { encoding: 'utf8' });
+assert.match(npx('--version'), /^facetmill /);
+assert.throws(() => execFileSync('npx', ['facetmill', 'info', 'nothing'], { stdio: 'pipe' }), (error) => error.status === 3);
+process.env.FACETMILL = '/nowhere/facetmill';
+await assert.rejects(stages(), /ENOENT/);
+console.log('all passed');
