@@ -1,8 +1,8 @@
 #!/bin/sh
 # libraries.sh PREFIX: builds static libraries from Debian's sources, in PREFIX/lib, with their headers in PREFIX/include.
-# Debian packages these six only as shared libraries. All others that facetmill links have a static library in their
-# Debian package. PREFIX/sources.txt lists each source package and version: the licences of facetmill's libraries ask
-# that people can get exactly these sources. A library that PREFIX already has in the wanted version is kept.
+# Debian packages these five only as shared libraries. All others that facetmill links have a static library in their
+# Debian package. PREFIX/sources.txt lists the source package and version of all: the licences of facetmill's libraries
+# ask that people can get exactly these sources. A library that PREFIX already has in the wanted version is kept.
 set -eu
 prefix=${1:?usage: libraries.sh PREFIX}
 mkdir -p "$prefix/lib" "$prefix/include" "$prefix/work"
@@ -85,4 +85,13 @@ if fetch tinygltf; then
     rm -f "$prefix/lib/libtinygltf.a" && "${AR:-ar}" rcsD "$prefix/lib/libtinygltf.a" "$prefix/work/tinygltf/tiny_gltf.o"
     touch "$prefix/work/tinygltf.built"
 fi
-mv "$prefix/sources.txt.new" "$prefix/sources.txt"
+
+# The others, as installed; headers count, too, because templates are compiled into the program.
+compiler=$("${CXX:-g++}" -dumpversion | cut -d. -f1)
+for package in libdraco-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev \
+    libexpat1-dev libmpfr-dev libgmp-dev zlib1g-dev libseccomp-dev libcgal-dev libcli11-dev libeigen3-dev nlohmann-json3-dev \
+    "$(dpkg -S /usr/include/boost/version.hpp | cut -d: -f1)" libc6-dev "libstdc++-$compiler-dev"; do
+    dpkg-query -W -f '${source:Package} ${source:Version}\n' "$package" 2>/dev/null || true
+done >>"$prefix/sources.txt.new"
+LC_ALL=C sort -u "$prefix/sources.txt.new" >"$prefix/sources.txt"
+rm "$prefix/sources.txt.new"

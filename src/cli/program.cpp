@@ -30,11 +30,14 @@ std::string version_text(bool json) {
     for (const auto& library : docs::library_versions())
         libraries[std::string(library.name)] = library.version;
     const Protections here = offered_protections();
-    const Json all = {{"name", "facetmill"},
-                      {"version", docs::release()},
-                      {"format", 1},
-                      {"libraries", libraries},
-                      {"sandbox", {{"landlock", here.files}, {"seccomp", here.calls}}}};
+    Json all = {{"name", "facetmill"},
+                {"version", docs::release()},
+                {"format", 1},
+                {"libraries", libraries},
+                {"sandbox", {{"landlock", here.files}, {"seccomp", here.calls}}}};
+    for (const auto& source : docs::linked_sources())
+        all["sources"][std::string(source.name)] =
+            fmt::format("https://sources.debian.org/src/{}/{}/", source.name, source.version);
     return all.dump(2) + "\n";
 }
 

@@ -13,4 +13,8 @@ struct LibraryVersion {
 [[nodiscard]] std::string_view release();
 const std::vector<LibraryVersion>& library_versions();
 
+/// The Debian source packages that a static executable has parts of, with their versions; empty for a shared
+/// one.
+const std::vector<LibraryVersion>& linked_sources();
+
 } // namespace facetmill::docs
