@@ -37,14 +37,14 @@ struct ClipOptions {
 };
 
 struct PartsToClip {
-    ClipSettings settings; ///< shared by all parts; planes, memory and the caps' primitive are set per part
+    ClipSettings settings; ///< shared by all parts, except planes, memory and the caps' primitive
     std::string cap_material;
     const char *front = ".front", *back = ".back"; ///< added to the names of both sides
     bool by_box = false;                           ///< for messages
 };
 
 struct ClipReport {
-    std::optional<std::vector<Plane>> planes; ///< in the world
+    std::optional<std::vector<Plane>> planes; ///< in world space
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
     KeptParts kept;
 };
@@ -97,14 +97,14 @@ std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& c
 /// The planes that clip a scene.
 class Cutter {
   public:
-    /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
+    /// Throws a usage error (E-UNIT, E-PLANE), as planes_for does.
     Cutter(const ClipOptions& o, const Scene& scene, Context& context)
         : options_(o), scene_(scene), context_(context) {
         if (o.space == Space::world) world_ = resolved(o, scene, context, nullptr);
     }
     /// The planes in world space; empty with space: local.
     const std::vector<Plane>& world() const { return world_; }
-    /// In the part's own space.
+    /// The planes in the part's own space.
     std::vector<Plane> planes_for(const Part& part) const {
         if (options_.space == Space::local) return resolved(options_, scene_, context_, &part);
         std::vector<Plane> planes = world_;
@@ -138,7 +138,7 @@ void declare_report(DeclareFields<ClipReport>& d) {
     declare_kept_parts(d, &ClipReport::kept);
 }
 
-/// Warns when the whole scene or nothing was kept.
+/// Warns if the whole scene was kept, or nothing.
 void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
     const std::string look = fmt::format("check the position and {} (info prints the bounds)",
                                          how.by_box ? "size of the box" : "direction of the plane");
@@ -156,7 +156,7 @@ void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
 }
 
 /// Clips the selected parts by the cutter's planes. With Keep::both, each part's back follows its front.
-/// Warns of open contours (W-CAP-OPEN), if no plane meets a part (W-CLIP-ALL), and if nothing is left
+/// Warns about open contours (W-CAP-OPEN), planes that meet no part (W-CLIP-ALL), and an empty result
 /// (W-CLIP-NOTHING).
 ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
     ClipSettings settings = how.settings;
@@ -222,15 +222,15 @@ class Reached {
   public:
     Reached(std::vector<Plane> planes, const PartsToClip& how, const Box& box)
         : planes_(std::move(planes)), keep_(how.settings.keep), convex_(how.settings.convex) {
-        // A plane's caps depend on everything that earlier planes kept, so only the first plane can exclude
-        // faces.
+        // The caps of a plane depend on all faces that earlier planes kept, so only the first plane can
+        // exclude faces.
         if (how.settings.cap && planes_.size() > 1) {
             if (keep_ == Keep::back && convex_)
                 planes_.clear();
             else
                 planes_.resize(1);
         }
-        // Points count as on a plane within the rounding of float32: well below a millionth.
+        // Points within float32 rounding of a plane, well below a millionth, count as on the plane.
         constexpr double near = 1e-6;
         double size = box.longest_side();
         for (const Vec3& p : {box.min, box.max})
@@ -262,8 +262,8 @@ class Reached {
     bool convex_, in_plane_ = false;
 };
 
-/// A clip treats faces in the plane differently for closed and open parts. The gathered faces alone may not
-/// show whether the part is closed.
+/// The treatment of faces in the plane depends on whether the part is closed. The gathered faces alone may
+/// not show this.
 void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
     if (inspect(some).closed == cells::inspect_cells(*flow.partition, {}, flow.means).closed) return;
     throw Error(ErrorKind::usage, "E-CELLS",

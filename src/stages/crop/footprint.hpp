@@ -9,7 +9,7 @@
 namespace facetmill {
 
 struct FootprintOption {
-    std::string path; ///< of a file; empty: use the rings
+    std::string path; ///< the file; empty: use the rings
     io::FootprintRings rings;
 };
 
@@ -23,11 +23,12 @@ struct OptionType<FootprintOption> {
     static std::optional<double> magnitude(const FootprintOption&) { return {}; }
 };
 
-/// Checks an inline footprint before the run: adds the errors of Footprint at the mark.
+/// Checks an inline footprint before the run, and adds the errors of Footprint at the mark.
 void verify_footprint(const FootprintOption& option, const Value& value, std::string_view stage,
                       Problems& problems);
 
-/// The footprint; a file is listed in the record as an input. Throws as io::read_footprint and Footprint.
+/// Returns the footprint. The record lists its file as an input. Throws the errors of io::read_footprint and
+/// Footprint.
 [[nodiscard]] Footprint resolve_footprint(const FootprintOption& option, Context& context);
 
 } // namespace facetmill

@@ -19,10 +19,9 @@ namespace facetmill::crop_stage {
 namespace {
 
 struct PartsToCrop {
-    CropSettings
-        settings; ///< shared by all parts; transform, memory and the caps' primitive are set per part
+    CropSettings settings; ///< shared by all parts, except transform, memory and the caps' primitive
     bool triangulate = false;
-    bool both = false; ///< keep the inside, and the outside as a separate part after it
+    bool both = false; ///< keeps the inside, and the outside as a separate part after it
     std::string cap_material;
 };
 
@@ -197,8 +196,8 @@ class CropRun {
         return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of_footprint().text(),
                            report_.kept.all() == 1 ? "part" : "scene", emptied_.text());
     }
-    /// Whether the footprint seems to be in degrees and the parts in metres. Small numbers may instead count
-    /// from another origin: five degrees are 550 km, and the area within a degree of 0, 0 is sea.
+    /// Whether the footprint seems to be in degrees and the parts in metres. Coordinates near 0, 0 may be
+    /// metres from a local origin. Within a degree of 0, 0 there is only sea, and five degrees are 550 km.
     bool is_in_degrees() const {
         constexpr double most_degrees = 5, of_sea = 1;
         const Bounds b = bounds_of_footprint();
@@ -248,12 +247,12 @@ class CropRun {
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
-    Bounds emptied_; ///< the box of parts of which nothing was kept
+    Bounds emptied_; ///< the bounding box of the parts that were removed completely
     CropReport report_;
 };
 
-/// Crops the selected parts. Warns of open contours (W-CAP-OPEN), if the outline meets no part (W-CROP-ALL),
-/// and if nothing is left (W-CROP-NOTHING).
+/// Crops the selected parts. Warns about open contours (W-CAP-OPEN), an outline that meets no part
+/// (W-CROP-ALL), and an empty result (W-CROP-NOTHING).
 CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
     return CropRun(scene, footprint, how, context).run(how.cap_material);
 }
@@ -287,7 +286,7 @@ struct CropStage : StageOf<run> {
                                 "leave out cap, or use by: cut"},
                         "crop", given, problems);
     }
-    /// Faces that are kept whole do not change, so they need no filling.
+    /// Faces kept whole do not change, so they need no triangulation.
     CrossingFacePolicy crossing_faces() const override {
         return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }

@@ -14,7 +14,7 @@ namespace facetmill::measure_stage {
 
 namespace {
 
-/// "of faces: The smallest angle of a face; none where ..."
+/// Example: "of faces: The smallest angle of a face; none where ..."
 std::string told(const Quantity& q) {
     std::string text = fmt::format("of {}: {}", q.domain == Domain::face ? "faces" : "vertices", q.help);
     if (!q.missing.empty()) text += fmt::format(" None {}.", q.missing);

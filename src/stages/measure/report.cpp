@@ -170,7 +170,7 @@ void declare_total(DeclareFields<MeasureReport::Total>& d) {
 
 // --- lines
 
-/// "area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5".
+/// Example: "area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5".
 std::string mass_text(const ShellMass& shell, const std::optional<MeasuredSolid>& solid,
                       const MeasureReport& report) {
     const std::string unit = report.unit == "unknown" ? "" : " " + report.unit;
@@ -183,7 +183,7 @@ std::string mass_text(const ShellMass& shell, const std::optional<MeasuredSolid>
     return text + fmt::format(", centroid {}", readable(solid->centroid));
 }
 
-/// "wall_thickness 1.9 to 2 mm (mean 1.95), none at 12 faces".
+/// Example: "wall_thickness 1.9 to 2 mm (mean 1.95), none at 12 faces".
 std::string attribute_text(const KeptAttribute& kept) {
     const std::string unit = kept.unit.empty() ? "" : fmt::format(" in {}", kept.unit);
     const std::string range = kept.values.count > 0 ? range_text(kept.name.c_str(), kept.values) + unit

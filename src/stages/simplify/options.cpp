@@ -99,7 +99,7 @@ void declare_levels(Declare<LevelOptions>& d) {
                 });
 }
 
-/// A length, or off.
+/// An option that is a length, or off.
 void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
     Option& o =
         d.option("max_quadric_error", &SimplifyOptions::max_quadric_error,
@@ -189,7 +189,7 @@ void declare_settings(Declare<SimplifySettings>& d) {
         .also_called(property_named("self_intersections")->also_called);
 }
 
-/// Collects conflicts: options that only other methods use, or that no given option uses.
+/// Collects conflicts: options that only other methods use, and options without effect.
 class Conflicts {
   public:
     Conflicts(const Value& given, Problems& problems) : given_(given), problems_(problems) {}

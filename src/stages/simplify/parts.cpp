@@ -35,8 +35,8 @@ SimplifyPartsSettings settings_in(const Scene& scene, const SimplifyOptions& o, 
     return s;
 }
 
-/// Whether a level's target differs from the current counts. A ratio of 100 %, or the same number of faces,
-/// asks for nothing.
+/// Whether a level's target differs from the current counts. False for a ratio of 100 % or the same number
+/// of faces.
 bool asks_for_less(const SimplifyOptions& o, const MeshCounts& all, std::size_t level) {
     if (o.lods) return o.lods->ratios[level].value < 1;
     const auto differs = [](std::optional<std::int64_t> target, std::size_t count) {
@@ -62,7 +62,7 @@ void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Con
                      fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
                                  counted(r.faces_before, "triangle"),
                                  counted(r.vertices_before, "vertex", "vertices")));
-    if (r.stop == Stop::stuck && asked.target) // without a target, the error limit ends the work
+    if (r.stop == Stop::stuck && asked.target) // without a target, the error limit stops the simplification
         context.warn("W-SIMPLIFY-STOPPED",
                      fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
                                  counted(r.faces_after, "triangle"), held_by(r)),
@@ -98,7 +98,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;
     std::vector<Limited> limited;
     std::vector<Part> coarser;
-    // An entry takes a kilobyte, so growing the list would copy several times as much.
+    // Entries take a kilobyte each, so growing the list would copy much data.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
         scene.parts[number].changed = true;

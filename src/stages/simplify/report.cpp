@@ -49,12 +49,12 @@ namespace {
 using Stop = SimplifyResult::Stop;
 using Shading = NormalSeams::Shading;
 
-/// A member of the part's result.
+/// Reads a member of the part's result.
 template <class T>
 auto of_result(T SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) -> const T& { return p.result.*member; };
 }
-/// A length, in scene units.
+/// Reads a length, in scene units.
 auto of_length(std::optional<double> SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) {
         const auto& length = p.result.*member;
@@ -136,7 +136,7 @@ void declare_counts(DeclareFields<SimplifiedPart>& d) {
              "What ended the simplification.");
 }
 
-/// Counts of the work, and of the remaining obstacles.
+/// Declares the counts of the work, and of the reasons why edges could not collapse.
 void declare_work(DeclareFields<SimplifiedPart>& d) {
     d.field("largest_error", of_length(&SimplifyResult::largest_error),
             "The largest error of a collapse, as the method measures it.")

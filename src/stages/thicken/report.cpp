@@ -9,7 +9,7 @@ namespace facetmill::thicken_stage {
 
 namespace {
 
-/// The member of the surface's result, if the part is a surface.
+/// Reads a member of the surface's result, if the part is a surface.
 template <class T>
 auto of_surface(T ThickenResult::*member) {
     return [member](const ThickenedPart& part) {

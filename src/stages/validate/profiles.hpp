@@ -1,5 +1,5 @@
 #pragma once
-// Named sets of assertions by the purpose of a mesh.
+// Named sets of assertions for the purposes of a mesh.
 
 #include "stage/assertions.hpp"
 #include "stages/validate/scene_limits.hpp"
@@ -26,8 +26,8 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
         "A purpose, whose assertions are added to those given.");
 }
 
-/// The given assertions, plus the profile's assertions for other properties. Without any, the checks of a
-/// sound solid.
+/// The given assertions, plus the profile's assertions about other properties. If both are empty, the checks
+/// of a sound solid.
 [[nodiscard]] Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits,
                                   const Mark& where);
 

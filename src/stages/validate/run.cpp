@@ -46,7 +46,7 @@ void declare(Declare<ValidateOptions>& d) {
              "red and in the face attribute `failed`. It is written even when the run fails.");
 }
 
-/// Baseline entries that no longer need to be waived.
+/// Describes baseline entries that no longer need to be waived.
 std::vector<std::string> lines_of(const ValidateReport& r) {
     const std::size_t fixed = r.fixed.value_or(0), fixed_locations = r.fixed_locations.value_or(0),
                       waived_locations = r.waived_locations.value_or(0);
@@ -56,7 +56,7 @@ std::vector<std::string> lines_of(const ValidateReport& r) {
     if (waived_locations + fixed_locations > 0)
         text += fmt::format("; {} known locations waived", waived_locations);
     if (fixed_locations > 0) text += fmt::format(", {} fixed", fixed_locations);
-    if (!r.fails) text += ": update_baseline tightens the gate"; // with new failures it would waive them
+    if (!r.fails) text += ": update_baseline tightens the gate"; // an update would waive new failures
     return {text};
 }
 

@@ -67,7 +67,7 @@ LimitCheck check_limit(const char* name, const std::vector<std::string>& pattern
         if (evidence.size() < max_evidence) evidence.push_back(w.entry);
         if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
         std::uint64_t key = 8;
-        const Json told = report::evidence_json(w.entry); // baselines identify it by this text
+        const Json told = report::evidence_json(w.entry); // baselines identify the entry by this text
         for (const char letter : told.dump(-1, ' ', false, Json::error_handler_t::replace))
             key = hashed(key, static_cast<unsigned char>(letter));
         limit.keys.push_back(key);
@@ -132,7 +132,7 @@ std::vector<Word> extension_names(const Scene& scene) {
     return words;
 }
 
-/// A limit: its option, the given value, and its subjects: shares of a number, or words.
+/// A limit: its option, the given value, and its subjects (shares of a number, or words).
 template <class Given, class Entry>
 struct Limit {
     const char* name;

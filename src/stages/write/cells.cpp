@@ -31,7 +31,7 @@ void read_again(const io::Outputs::File& file, Context& context) {
 
 void warn_of_rounding(double rounding, const WriteOptions& o, const io::Codec& codec, const CellFlow& flow,
                       Context& context) {
-    constexpr double tolerable = 1e-6; // of the diagonal
+    constexpr double tolerable = 1e-6; // times the diagonal
     if (rounding <= tolerable * diagonal(flow.bounds())) return;
     context.warn(
         "W-ROUNDED",
@@ -47,7 +47,7 @@ struct Staged {
     report::FileRecord told;
 };
 
-/// Stages one file of bytes under the name that the pipeline uses.
+/// Stages bytes as a file under the pipeline's name.
 Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& context) {
     const auto& staged =
         context.outputs().add(context.places().output(name.string()), bytes, context.where());
@@ -93,9 +93,11 @@ void tell_of_positions_only(const WriteOptions& o, CellFlow& flow, const Part& p
                      "write PLY, which keeps them, a tileset, or use more memory");
 }
 
-/// A point near the middle of the cells, where float32 would round positions by more than a millionth.
+/// A point near the middle of the cells if float32 would round positions by more than a millionth of the
+/// diagonal.
 Vec3 origin_of(const WriteOptions& o, const io::Codec& codec, const CellFlow& flow) {
-    constexpr double tolerable = 1e-6, step = 1.0 / (1 << 24); // of the diagonal; of a float32
+    constexpr double tolerable = 1e-6,
+                     step = 1.0 / (1 << 24); // times the diagonal; the relative rounding error of a float32
     const Box box = flow.partition->source().contents().bounds;
     double most = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)

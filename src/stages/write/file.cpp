@@ -22,7 +22,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// The world positions of all parts, as a plain Draco file has them.
+/// Joins all parts in world space, as in a plain Draco file.
 Mesh in_one(const Scene& scene) {
     Mesh all;
     for (const Part& part : scene.parts)
@@ -30,8 +30,8 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
-/// the scene's longest side. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
+/// The fewest bits of each part that give world steps no larger than the scene's longest side divided by
+/// 2^bits. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
 std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     constexpr int fewest = 10;
     const double whole = scene.bounds().longest_side();
@@ -74,7 +74,7 @@ std::string why(int usual, Grid grid, int limit, bool enough) {
     return fmt::format("{} would not keep all vertices distinct", limit);
 }
 
-/// The reason why rounding merged points or put points onto lines, and the hint.
+/// Explains why rounding merged points or put points onto lines, with a hint.
 std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const std::size_t points = back.changes.rounded;
     const std::string what = points > 0 ? fmt::format("put {} on others", counted(points, "point"))
@@ -92,7 +92,7 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
         codec.name, what);
 }
 
-/// The reason why a file is less sound than the scene, and the hint.
+/// Explains why a file is less sound than the scene, with a hint.
 std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const io::VertexChanges& changes = back.changes;
     std::vector<std::string> reasons;
@@ -139,8 +139,7 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 }
 
 namespace {
-constexpr double tolerable_rounding =
-    1e-6; // of the diagonal, the same as for glTF origins and for the read-back
+constexpr double tolerable_rounding = 1e-6; // times the diagonal, as for glTF origins and the read-back
 } // namespace
 
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds) {

@@ -124,7 +124,7 @@ void declare_tiles(Declare<TilesOptions>& d) {
         "How the tileset names its tiles.");
 }
 
-/// An option that only some formats support, and whether it is set to have an effect.
+/// An option that only some formats support, and whether its value has an effect.
 struct FormatOption {
     const char* name;
     bool asked;
@@ -309,7 +309,7 @@ void declare_write(Declare<WriteOptions>& d) {
 
 namespace {
 
-/// The stage that writes such a file, otherwise the list of formats.
+/// Names the stage that writes such a file, otherwise lists the formats.
 std::string hint_of_suffix(const std::string& path, const std::vector<std::string>& names) {
     const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
     if (suffix == ".svg" || suffix == ".dxf")

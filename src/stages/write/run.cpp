@@ -14,7 +14,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// A part lent to the written scene: its number in the scene, and its state before.
+/// A part that is temporarily in the written scene: its index in the scene, and its state before.
 struct Lent {
     std::size_t part;
     Transform transform;
@@ -34,7 +34,7 @@ void make_triangles(Scene& out, std::vector<Lent>& lent) {
     }
 }
 
-/// The same, for normals.
+/// Computes normals of the written parts and saves the scene's own meshes in `lent`.
 void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.normals == NormalKind::keep) return;
     for (std::size_t k = 0; k < lent.size(); ++k) {
@@ -48,7 +48,7 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     }
 }
 
-/// The same, for tangents.
+/// Computes tangents of the written parts and saves the scene's own meshes in `lent`.
 void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.tangents == Tangents::keep) return;
     const auto uvs = normal_map_uvs(out);
@@ -96,7 +96,7 @@ bool is_left_out(const Part& part, const io::Codec& codec) {
     return part.mesh.line_count() > 0 && !codec.can.lines;
 }
 
-/// Warns of parts left out because they have lines. Throws stage (E-EMPTY) if no other part is left.
+/// Warns of parts left out because they have lines. Throws a stage error (E-EMPTY) if no other part is left.
 void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, const io::Codec& codec,
                 Context& context) {
     std::vector<std::string> names;
@@ -117,7 +117,8 @@ void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, con
                  hint);
 }
 
-/// Throws stage (E-EMPTY) unless the format can store the scene's points or lines with these options.
+/// Throws a stage error (E-EMPTY) unless the format can store the scene's points or lines with these
+/// options.
 void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
@@ -197,7 +198,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (!codec || !codec->write)
         throw Error(ErrorKind::usage, "E-FORMAT",
                     fmt::format("the suffix of '{}' names no format", o.path.text), {}, context.where());
-    // Moves the parts into the written scene, so that no mesh is copied. They return unchanged afterwards.
+    // Moves the parts into the written scene, so that no mesh is copied; they are moved back afterwards.
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
