@@ -31,8 +31,8 @@ std::optional<CombineResult> combined(std::vector<Mesh> meshes, CombineOperation
     return r;
 }
 
-/// Removes small pieces that remain of folds: solids or cavities with less volume than a cube of that side
-/// (in world).
+/// Removes small remains of folds: solids or cavities with less volume than a cube with this side (in the
+/// world).
 void drop_small_pieces(Mesh& mesh, const Transform& to_world, double side) {
     const Components pieces = face_components(mesh, false);
     const std::vector<double> six = six_volumes(mesh, pieces);

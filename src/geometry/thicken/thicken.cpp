@@ -33,12 +33,12 @@ namespace {
 /// The surface and its back. The back of face f is face f + face_count, and the back of wedge w is w +
 /// wedge_count.
 struct Doubled {
-    Mesh mesh;                 ///< with explicit wedge_vertex, without attributes
+    Mesh mesh;                 ///< has an explicit wedge_vertex, and no attributes
     MeshProvenance provenance; ///< complete for these faces; callers extend it
 };
 
-/// back_vertex: each vertex's counterpart on the back. This is the vertex itself or a new vertex, numbered
-/// from the vertex count on. New vertices are copies of back_copies.
+/// back_vertex: the counterpart of each vertex on the back, either the vertex itself or a new vertex
+/// numbered from the vertex count on. New vertices are copies of back_copies.
 Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
                 const std::vector<Index>& back_copies) {
     Doubled d;
@@ -82,7 +82,7 @@ void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
     }
 }
 
-/// boundary_edges, sorted by corner.
+/// Returns boundary_edges, sorted by corner.
 std::vector<BoundaryEdge> boundary_by_corner(const Mesh& mesh) {
     auto edges = boundary_edges(mesh);
     std::sort(edges.begin(), edges.end(),
@@ -120,7 +120,7 @@ struct System {
     }
 };
 
-/// The angle of face f at corner c, in world.
+/// The angle of face f at corner c, in the world.
 double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
     const Vec3 u = to_world.vector(mesh.point(previous_corner(mesh, f, c)) - mesh.point(c)),
                v = to_world.vector(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
@@ -128,7 +128,7 @@ double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
 }
 
 struct Directions {
-    std::vector<Vec3> of_vertex; ///< the move of a vertex for a distance of 1 in world
+    std::vector<Vec3> of_vertex; ///< the vertex moves for a distance of 1 in the world
     std::size_t limited = 0, still = 0;
 };
 
@@ -208,8 +208,8 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
 /// The side of a face in the solid.
 enum class Face : std::uint8_t { front, back, neither };
 
-/// World distances to the back faces, from the vertices and centres of the front faces. face: [faces],
-/// neither for other faces.
+/// Measures world distances from the vertices and centres of front faces to the back faces. face: [faces]
+/// the side of each face.
 std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Transform& to_world,
                                            const std::vector<Face>& face) {
     Mesh back;
@@ -240,7 +240,7 @@ std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Transform& t
     return ThickenResult::Wall{least, sum / static_cast<double>(count)};
 }
 
-/// The diagonal of the box around all vertices, in world.
+/// The diagonal of the box around all vertices, in the world.
 double size_of(const Mesh& mesh, const Transform& to_world) {
     Box box;
     for (const Vec3& p : mesh.positions) box.add(to_world.point(p));
@@ -291,8 +291,8 @@ void judge(const Moved& moved, std::uint8_t* gone, const Mesh& surface, const Tr
     }
 }
 
-/// Counts closed components of the solid that bound no material. No two components may intersect. A
-/// component is correct if the surface winds once around points on its inner side and not around its outer
+/// Counts closed components of the solid that bound no material. Requires that no two components intersect.
+/// A component is correct if the surface winds once around points on its inner side and not around its outer
 /// side.
 std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
     const Components components = face_components(solid, edges);
@@ -310,11 +310,11 @@ std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
                              [&](Index f, int way) { around += components.of_face[f] == p ? 0 : way; });
             buried[p] = around != (volume[p] < 0 ? 1 : 0);
         },
-        64); // one ray each
+        64); // one ray per component
     return static_cast<std::size_t>(std::count(buried.begin(), buried.end(), 1));
 }
 
-/// How many components have flagged faces.
+/// The number of components with flagged faces.
 std::size_t components_of(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     const Components components = face_components(mesh, false);
     std::vector<std::uint8_t> has(components.count, 0);
@@ -434,7 +434,7 @@ ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
 
 namespace {
 
-/// Two directions that make a right-handed frame with the unit vector w.
+/// Two directions that form a right-handed frame with the unit vector w.
 std::array<Vec3, 2> across(const Vec3& w) {
     const double x = std::abs(w.x), y = std::abs(w.y), z = std::abs(w.z);
     const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -493,7 +493,7 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
         for (Index i = 0; i < n; ++i) *corner++ = first + n + i;
     });
     r.mesh.face_offsets.back() = static_cast<Index>(r.mesh.corners.size());
-    normalise_offsets(r.mesh); // for a mesh without edges
+    normalise_offsets(r.mesh); // needed for a mesh without edges
     return r;
 }
 
@@ -509,8 +509,8 @@ std::vector<Index> ring_of(const Mesh& mesh, const std::vector<Index>& place, In
     return ring;
 }
 
-/// Flags the faces with an opposite face at the same positions. Each face is the back of at most one other
-/// face.
+/// Flags the faces that have a reversed face at the same positions. Each face is the back of at most one
+/// other face.
 std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
     const auto place = lowest_at_place(mesh);
     std::vector<std::uint8_t> flags(mesh.face_count(), 0);
