@@ -16,7 +16,7 @@ namespace {
 // Faces with less height than this share of their longest edge do not contribute gradients.
 constexpr double least_height_share = 1e-3;
 constexpr std::size_t max_sets = 2;      // sets of UVs
-constexpr std::size_t skin_channels = 4; // channels channels of the projection of skin weights
+constexpr std::size_t skin_channels = 4; // channels of the projection of skin weights
 constexpr double share_of_diagonal =
     0.01; // a difference of 1 counts as this share of the diagonal, except for UVs
 
