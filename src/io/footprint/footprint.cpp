@@ -14,8 +14,8 @@ namespace facetmill::io {
 
 namespace {
 
-/// A corner and the bulge of the segment after it: the tangent of a quarter of the arc's angle, 0 for
-/// straight.
+/// A corner, and the bulge of the segment after it. The bulge is the tangent of a quarter of the arc's
+/// angle, 0 for straight segments.
 struct Corner {
     Vec2 at;
     double bulge = 0;
@@ -29,7 +29,7 @@ void append_arc(const Corner& a, const Vec2& b, std::vector<Vec2>& out) {
     if (a.bulge == 0 || a.at == b) return;
     const double angle = 4 * arc_tangent(a.bulge, 1);
     const Vec2 chord = b - a.at;
-    // From the chord's middle, the centre is off by (1 - bulge^2) / (4 bulge) of the chord, to the left.
+    // The centre is left of the chord's middle by (1 - bulge^2) / (4 bulge) times the chord.
     const double off = (1 - a.bulge * a.bulge) / (4 * a.bulge);
     const Vec2 centre = (a.at + b) * 0.5 + Vec2{-chord.y, chord.x} * off;
     const Vec2 from = a.at - centre;
@@ -96,7 +96,7 @@ class Dxf {
             looks_[static_cast<std::size_t>(code_ - 210) / 10] = number();
         if (code_ == 70 && entity_ != Entity::vertex) closed_ = (parse_integer(value_).value_or(0) & 1) != 0;
         if (code_ == 40 && entity_ == Entity::circle) radius_ = number();
-        if (entity_ == Entity::polyline) return; // 10 and 20 are its elevation
+        if (entity_ == Entity::polyline) return; // codes 10 and 20 of a polyline are its elevation
         if (code_ == 10 && entity_ == Entity::lwpolyline) corners_.push_back({});
         if (corners_.empty()) return;
         if (code_ == 10) corners_.back().at.x = number();
@@ -122,7 +122,7 @@ class Dxf {
         auto& ring = rings_.emplace_back();
         for (std::size_t i = 0; i < corners_.size(); ++i)
             append_arc(corners_[i], corners_[(i + 1) % corners_.size()].at, ring);
-        if (looks_.z < 0) // drawn from the back: x is reversed
+        if (looks_.z < 0) // for an entity drawn from the back, x is reversed
             for (Vec2& p : ring) p.x = -p.x;
     }
 
@@ -134,7 +134,7 @@ class Dxf {
     bool closed_ = false;
     double radius_ = 0;
     Vec3 looks_{0, 0, 1};      ///< the direction that the entity is drawn from
-    bool in_entities_ = false; ///< not in a block, which only counts where it is inserted
+    bool in_entities_ = false; ///< false inside a block definition, which is not part of the drawing itself
     FootprintRings rings_;
 };
 
@@ -221,7 +221,7 @@ class Wkt {
     FootprintRings read() {
         while (!at_end()) {
             std::string_view type = word();
-            if (same_word(type, "SRID")) { // "SRID=4326;", as PostGIS writes it
+            if (same_word(type, "SRID")) { // PostGIS writes "SRID=4326;" first
                 while (at_ < end_ && *at_ != ';') ++at_;
                 expect(';');
                 type = word();
@@ -304,7 +304,7 @@ class Wkt {
 
     const char *at_, *end_, *begin_;
     const std::string& name_;
-    int numbers_ = 0; ///< in the position; 0: none read
+    int numbers_ = 0; ///< numbers per position; 0: none read yet
     FootprintRings rings_;
 };
 
