@@ -189,9 +189,9 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
               .find("cluster cannot lock vertices") != std::string::npos);
     CHECK(problems("{ratio: 10%, method: cluster, lock: boundary, self_intersections: avoid}")
               .find("cluster cannot avoid self-intersections") != std::string::npos);
-    CHECK(problems("{ratio: 10%, method: shortest-edge, weights: {uv: 2}}").find("weights go with") !=
+    CHECK(problems("{ratio: 10%, method: shortest-edge, weights: {uv: 2}}").find("weights need") !=
           std::string::npos);
-    CHECK(problems("{ratio: 10%, constraints: {roundness: 0.2}}").find("constraints go with") !=
+    CHECK(problems("{ratio: 10%, constraints: {roundness: 0.2}}").find("constraints need") !=
           std::string::npos);
     CHECK(problems("{ratio: 10%, method: constrained, topology: allow}").find("keeps the topology") !=
           std::string::npos);

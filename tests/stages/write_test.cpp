@@ -132,7 +132,7 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
     b.run("write", Value::scalar("c.stl"));
     REQUIRE(b.record.warnings.size() == 2);
-    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl put 1 point on others: use clean before "
+    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl moved 1 point onto others: use clean before "
                                        "write, or write PLY, OBJ or OFF with precision: full");
 }
 
@@ -199,8 +199,8 @@ TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lin
     std::vector<Value::Entry> given{{"path", {}, Value::scalar("b.glb")},
                                     {"draco", {}, options({{"position_bits", "3"}})}};
     const std::string coarse = told_of(b, Value::map(given));
-    CHECK(coarse.find("Draco's 3 bits put ") == 0);
-    CHECK(coarse.ends_with(" points on others: use more draco.position_bits, or no draco"));
+    CHECK(coarse.find("Draco's 3 bits moved ") == 0);
+    CHECK(coarse.ends_with(" points onto others: use more draco.position_bits, or no draco"));
     mesh = shapes::grid(1, 1); // a corner so near the diagonal that float32 puts it on the diagonal
     for (Vec3& p : mesh.positions) p += Vec3{1 << 20, 0, 0};
     mesh.positions[1] = {(1 << 20) + 0.5 - 1e-9, 0.5, 0};

@@ -179,7 +179,7 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
         "normals", of_result(&SimplifyResult::shading),
         {{"seams merged", Shading::smoothed, "seams were merged between faces that meet at a small angle"},
          {"flat shading kept", Shading::faceted, "faces get their own normals"},
-         {"seams stay unchanged", Shading::as_given, "nothing was changed"}},
+         {"as given", Shading::as_given, "nothing was changed"}},
         "The handling of seams that differ only in normals.");
     d.field("merged_wedges", of_result(&SimplifyResult::merged_wedges), "Wedges that were merged.");
     const auto turned = [](const SimplifiedPart& p) {

@@ -242,7 +242,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
         s.part_bits.assign(scene.parts.size(), bits);
     }
     const auto [least, most] = std::minmax_element(s.part_bits.begin(), s.part_bits.end());
-    WriteReport::Bits bits{*most, {}, "given by the user"};
+    WriteReport::Bits bits{*most, {}, "as given"};
     if (*least < *most) bits.least = *least;
     if (!given) bits.why = why(usual, grid, *limit, enough);
     (s.draco.on ? s.draco.position_bits : s.quantize.position_bits) = *most;
