@@ -3,28 +3,36 @@
 
 namespace facetmill::help::crop {
 
-inline constexpr const char* about = R"(Keeps what lies inside or outside a polygon, seen along an axis.)";
+inline constexpr const char* about = R"(Keeps the inside or the outside of a polygon, seen along an axis.)";
 
 inline constexpr const char* details =
-    R"(The footprint is a polygon with holes and islands, in world coordinates across the axis. A point
-inside an odd number of its rings is inside, whatever the orientation of the rings; the last point
-of a ring may repeat the first. A footprint that intersects itself is refused, with the position.
+    R"(The footprint is a polygon with holes and islands, in world coordinates perpendicular to the axis.
+A point is inside if an odd number of rings contain it, whatever their orientation.
+The last point of a ring may repeat the first.
+A footprint that intersects itself is refused, and the message gives the position.
 
-With by: cut, faces are cut at the outline: each edge that the outline crosses gets one new vertex,
-shared by the faces there, so no cracks appear. A face at a corner of the outline is cut into a few
-more faces than strictly necessary. With cap, a closed part stays closed: vertical walls stand on
-the outline and on its holes, and the walls of the inside and of the outside fit exactly. The face
-attribute cut_id numbers the walls by the segments of the outline, and group by its rings. Without
-cap, closed parts become open. Positions that are 32-bit floats count as on the outline when they
-are within the rounding of one float of the part's bounds, because the 0.1 of an STL is not the 0.1
-of a footprint. New vertices and wedges are interpolated, and the new faces copy the attributes of
-the face they come from. When whole faces are kept or removed, no attributes are interpolated;
-corners on the outline count as on either side. Of a part without faces, a cloud of points, the
-points on the kept side stay; those on the outline are inside.
+With by: cut, faces are cut at the outline.
+Each edge that crosses the outline gets one new vertex, shared by its faces, so no cracks appear.
+A face at a corner of the outline is cut into slightly more faces than necessary.
 
-File formats of the footprint: GeoJSON (Polygon, MultiPolygon, and features and collections of
-them), WKT (POLYGON, MULTIPOLYGON), and text DXF (closed polylines and circles; arcs become segments
-of at most 5 degrees).
+With cap, closed parts stay closed.
+Vertical walls follow the outline and its holes, and the walls of the inside and the outside match
+exactly.
+The face attribute cut_id numbers the walls by segment, and group numbers them by ring.
+Without cap, closed parts become open.
+
+Positions with 32-bit floats count as on the outline if they are within one float's rounding of the
+part's bounds.
+This matters because 0.1 in an STL file differs slightly from 0.1 in a footprint.
+New vertices and wedges are interpolated, and new faces copy the attributes of their original face.
+When whole faces are kept or removed, no attributes are interpolated, and corners on the outline
+count as on both sides.
+In a point cloud, points on the kept side stay, and points on the outline count as inside.
+
+The footprint may be a GeoJSON, WKT or text DXF file.
+GeoJSON may contain Polygon, MultiPolygon, features and collections.
+WKT may contain POLYGON and MULTIPOLYGON.
+DXF may contain closed polylines and circles, whose arcs become segments of at most 5 degrees.
 
 Source: P. Bourke, 'Determining if a point lies on the interior of a polygon' (1987).)";
 

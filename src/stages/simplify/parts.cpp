@@ -53,10 +53,9 @@ bool asks_for_less(const SimplifyOptions& o, const MeshCounts& all, std::size_t 
 void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context) {
     if (r.faces_before == 0 && asked.less)
         context.warn("W-SIMPLIFY-NOTHING",
-                     fmt::format("part '{}' has no faces, which are what simplify makes fewer: {} as it is",
-                                 part.name,
-                                 part.mesh.vertex_count() > 0 ? "the cloud of points stays" : "it stays"),
-                     "leave it out with only; crop, clip and tile work on points");
+                     fmt::format("part '{}' has no faces to simplify: {} unchanged", part.name,
+                                 part.mesh.vertex_count() > 0 ? "the point cloud stays" : "it stays"),
+                     "exclude it with only; crop, clip and tile can reduce points");
     else if (r.stop == Stop::nothing && asked.less)
         context.warn("W-SIMPLIFY-NOTHING",
                      fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
@@ -68,8 +67,9 @@ void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Con
                                  counted(r.faces_after, "triangle"), held_by(r)),
                      hint_for(r));
     if (r.faces_before > 0 && r.faces_after == 0)
-        context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
-                     "ask for more faces, or keep the topology (topology: keep, and no cluster)");
+        context.warn(
+            "W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
+            "ask for more faces, or preserve the topology (topology: keep, and another method than cluster)");
 }
 
 void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context) {
@@ -83,13 +83,12 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
     const std::string who = limited.size() == 1
                                 ? first + " stopped at"
                                 : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
-    context.warn(
-        "W-SIMPLIFY-LIMIT",
-        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
-                    "than max_quadric_error ({})",
-                    who, grouped(after), grouped(before), limit.text),
-        "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: off "
-        "simplifies to the target regardless of the error");
+    context.warn("W-SIMPLIFY-LIMIT",
+                 fmt::format("{} {} of {} triangles, above the target: fewer triangles would move the "
+                             "surface by more than max_quadric_error ({})",
+                             who, grouped(after), grouped(before), limit.text),
+                 "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: "
+                 "off simplifies to the target regardless of the error");
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {

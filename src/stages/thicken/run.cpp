@@ -82,7 +82,7 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
         if (!inverse(part.transform))
             throw Error(ErrorKind::stage, "E-THICKEN",
                         fmt::format("thicken: part '{}' is flattened by its node", part.name),
-                        "transform: {bake: true} makes it a flat mesh");
+                        "use transform: {bake: true} to make it a flat mesh");
         if (!(thickness > 0))
             throw Error(ErrorKind::stage, "E-THICKEN", "thicken: the thickness is 0 in this scene",
                         "give a length in scene units");

@@ -75,8 +75,8 @@ class Mover {
         }
         if (!(factor > 0) || !std::isfinite(factor))
             throw Error(ErrorKind::stage, "E-TRANSFORM",
-                        "transform: fit has nothing to scale, the parts' bounding box has no extent",
-                        "info prints the bounds");
+                        "transform: fit cannot scale the parts because their bounding box has no extent",
+                        "print the bounds with facetmill info");
         return factor;
     }
 
@@ -153,7 +153,7 @@ struct TransformStage : StageOf<run> {
         context.report(*info->result, &report);
     }
     std::optional<std::string> why_not_on_cells() const override {
-        if (o.bake) return "bake is for nodes, which cells have none of";
+        if (o.bake) return "bake applies node transforms, and cells have no nodes";
         return {};
     }
 };

@@ -202,7 +202,7 @@ class Judge {
             context_.warn(
                 "W-BASELINE",
                 fmt::format("none of the failures in '{}' occurs here, but others do", s_.baseline->string()),
-                "is it the baseline of another mesh, or of other parts?");
+                "check that the baseline belongs to this mesh and these parts");
     }
 
     JudgeSettings s_;

@@ -142,7 +142,7 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
     if (!json.contains("facetmill_baseline") || !json["facetmill_baseline"].is_number_integer())
         throw refuse();
     if (json["facetmill_baseline"].get<std::int64_t>() != form)
-        throw refuse("is a baseline of a version that this facetmill does not read");
+        throw refuse("is a baseline of a version that this facetmill cannot read");
     KnownFailures known;
     for (const auto& f : json["failures"]) {
         if (!read_failure(f, known.failures_.emplace_back())) throw refuse();

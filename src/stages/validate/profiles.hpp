@@ -12,7 +12,7 @@ template <class S>
 void declare_profile(Declare<S>& d, Profile S::*member) {
     d.template choice<Profile>(
         "for", member,
-        {{"none", Profile::none, "only what is given"},
+        {{"none", Profile::none, "only the given assertions"},
          {"solid", Profile::solid,
           "closed, manifold, oriented outward; no degenerate, duplicate or folded faces; not empty"},
          {"printing", Profile::printing,
@@ -23,7 +23,7 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
           "vertices; not empty"},
          {"simulation", Profile::simulation,
           "fit for printing, no T-junctions, all angles at least 5 degrees, aspect ratios up to 20"}},
-        "A purpose, whose assertions are added to those given.");
+        "The purpose of the mesh. Its assertions are added to yours.");
 }
 
 /// The given assertions, plus the profile's assertions about other properties. If both are empty, the checks
