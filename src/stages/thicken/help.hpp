@@ -16,9 +16,11 @@ surface is oriented (W-THICKEN-OPEN; use orient). Sheets that meet at an edge wi
 faces, or only at a vertex, become separate solids. Parts with the same mesh, rotation and scale
 (instances) become a solid once and get the same result.
 
-The result is checked for self-intersections (unless the thickness is larger than the part), for
-faces that are inverted by the offset, including faces that collapse, and for walls within other
-walls (W-THICKEN). The wall thickness is measured from the vertices of the front to the faces of the
+Flat faces whose triangles would be inverted in their plane are triangulated again, so a ring or a
+plate with holes keeps its shape. The result is checked for self-intersections (unless the thickness
+is larger than the part), for other faces that are inverted by the offset, including faces that
+collapse, and for walls within other walls (W-THICKEN). Faces that only touch are not
+self-intersections. The wall thickness is measured from the vertices of the front to the faces of the
 back. The report gives all of these. Attributes are kept on both sides, with normals reversed on the
 back; walls take the attributes of their edge and have normals of their own.
 
