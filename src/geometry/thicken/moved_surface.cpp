@@ -15,18 +15,14 @@ namespace facetmill {
 
 namespace {
 
-/// Rounding of a face's corners changes its area by at most this share.
-constexpr double rounding = 0x1p-40;
-
-/// Whether the map from the sides u and v to the moved sides turns the triangle over. Determinant and trace
-/// are scaled by (twice the area) squared.
+/// The triangle's map: its determinant and trace, times twice the triangle's area squared.
 bool is_turned(const Vec3& u, const Vec3& v, const Vec3& moved_u, const Vec3& moved_v) {
     const Vec3 normal = cross(u, v);
     const double whole = dot(normal, normal);
     if (!(whole > 0)) return false;
     const double determinant = dot(normal, cross(moved_u, moved_v));
     const double trace = dot(normal, cross(u, moved_v) + cross(moved_u, v));
-    return determinant <= rounding * whole || trace <= rounding * whole;
+    return determinant <= collapse_rounding * whole || trace <= collapse_rounding * whole;
 }
 
 /// A cube of the search, and an upper bound for the distance of its points to the surface.

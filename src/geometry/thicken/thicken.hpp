@@ -39,27 +39,30 @@ struct ThickenResult {
         0; ///< unbalanced edges of the result, because the surface was not oriented consistently
     std::size_t filled = 0; ///< closed components that became filled solids because one side vanished
     std::size_t turned = 0; ///< faces of front and back that the move turned over (see turned_faces)
-    std::optional<Vec3> first_turned; ///< the world centre, before the move, of the first turned face
-    /// Pairs of intersecting faces. Not counted if the thickness exceeds the size of the surface, because
-    /// nearly all faces would intersect, unless all components became filled solids.
+    std::optional<Vec3> first_turned; ///< the centre, in world, of the original of the first turned face
+    /// Pairs of faces; pairs that only touch do not count. Not counted if the thickness exceeds the size of
+    /// the surface, because nearly all would intersect. This does not apply if all components became filled
+    /// solids.
     std::optional<std::size_t> self_intersections;
     std::size_t buried = 0; ///< closed components within the walls of others, if no faces intersect
-    /// With `resolve`: whether the solid was rebuilt. If so, turned and buried are 0, and self_intersections
-    /// ignores pairs that only touch. If rebuilding fails, the solid is the same as without `resolve`.
+    /// With `resolve`: whether the solid was rebuilt. If so, turned and buried are 0. If rebuilding fails,
+    /// the solid is the same as without `resolve`.
     bool resolved = false;
 };
 
-/// Makes a solid of the surface. The front is the surface, or the surface moved outward by the thickness or
-/// half of it (side). The back is a reversed copy at a distance of the thickness, and walls follow the
-/// boundary edges. A closed surface becomes a solid with a cavity. If no ball of that radius fits into a
-/// closed component, it has no cavity, and the other side bounds a filled solid. A vertex moves so that the
-/// planes of its faces move by the distance, in the least-squares sense. The weights are the angles of the
-/// faces at the vertex. miter_limit limits longer moves. Folds remain unless `resolve` is set. The solid is
-/// correct if turned, self_intersections and buried are
-/// 0. wall shows its thin parts. Wedges of the back have reversed normals. Walls have their own normals if
-///    the mesh has normals. The result is closed only if the surface is oriented consistently. Sheets that
-///    meet at a non-manifold edge or vertex are separated first, as clean does. Each becomes its own solid.
-///    A mesh without faces stays unchanged. O(n log n).
+/// Makes a solid of the surface. The front is the surface, moved outward by the thickness or half of it if
+/// requested. The back is a reversed copy at the distance of the thickness, and walls follow the boundary
+/// edges.
+/// A closed surface becomes a solid with a cavity. If no ball of that radius fits into a closed component,
+/// it has no cavity, and the other side bounds a filled solid.
+/// A vertex moves so that the planes of its faces move by the distance, in the least-squares sense. The
+/// weights are the angles of the faces at the vertex. miter_limit limits longer moves.
+/// Flat faces that turn over in their plane are triangulated again (geometry/thicken/redrawn_flats.hpp).
+/// Other folds remain unless `resolve` is set. The solid is correct if turned, self_intersections and buried
+/// are 0. wall shows its thin parts. Wedges of the back have reversed normals. Walls have their own normals
+/// if the mesh has normals. The result is closed only if the surface is oriented consistently. Sheets that
+/// meet at a non-manifold edge or vertex are separated first, as clean does. Each becomes its own solid. A
+/// mesh without faces stays unchanged. O(n log n).
 [[nodiscard]] ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {

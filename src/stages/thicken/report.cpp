@@ -60,7 +60,7 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
         const auto* s = std::get_if<ThickenedSurface>(&p);
         return s && s->looked && s->has_faces ? std::optional(s->result.self_intersections) : std::nullopt;
     };
-    d.field("self_intersections", pairs, "Pairs of faces that intersect.")
+    d.field("self_intersections", pairs, "Pairs of faces that intersect. Pairs that only touch do not count.")
         .only_when("self_intersections is not ignore and the part has faces")
         .null_when("the search was skipped because the part is smaller than its thickness");
     constexpr const char* edges = "edges became cylinders";
