@@ -23,8 +23,11 @@ corners on the outline count as on either side. Of a part without faces, a cloud
 points on the kept side stay; those on the outline are inside.
 
 File formats of the footprint: GeoJSON (Polygon, MultiPolygon, and features and collections of
-them), WKT (POLYGON, MULTIPOLYGON), and text DXF (closed polylines and circles; arcs become segments
-of at most 5 degrees).
+them), WKT (POLYGON, MULTIPOLYGON), and text DXF. In a DXF, circles, ellipses and closed polylines
+are rings, and so are lines, arcs, splines and polylines whose ends meet, also in inserted blocks.
+Arcs become segments of at most 5 degrees. Lines that enclose nothing are left out with a warning
+(W-FOOTPRINT); an outline with a gap is refused. If the drawing states its unit ($INSUNITS), it is
+converted to the unit of the scene.
 
 Source: P. Bourke, 'Determining if a point lies on the interior of a polygon' (1987).)";
 
