@@ -40,6 +40,23 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
           std::string::npos);
 }
 
+TEST_CASE("crop converts a drawing to the unit of the scene, or warns", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.path() / "inch.dxf";
+    std::ofstream(file)
+        << "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\n"
+           "LWPOLYLINE\n70\n1\n10\n1\n20\n1\n10\n3\n20\n1\n10\n3\n20\n3\n10\n1\n20\n3\n0\n"
+           "ENDSEC\n0\nEOF\n";
+    auto scene = scene_of(shapes::grid(100, 100));
+    scene.unit = Unit::mm;
+    const auto converted = run_stage("crop", "\"" + file.string() + "\"", scene);
+    CHECK(converted.record.result["footprint_area"].get<double>() == Approx(2580.64));
+    CHECK(converted.warnings().empty());
+    scene.unit = Unit::unknown;
+    CHECK(run_stage("crop", "\"" + file.string() + "\"", scene).warnings() ==
+          std::vector<std::string>{"W-UNITS"});
+}
+
 TEST_CASE("crop leaves triangles only on request", "[stages]") {
     const char* outline = "{footprint: [[0.4, -1], [2, -1], [2, 2], [0.5, 2]], cap: true, keep: both}";
     const auto polygons = run_stage("crop", outline, scene_of(shapes::cube()));

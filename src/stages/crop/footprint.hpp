@@ -27,8 +27,9 @@ struct OptionType<FootprintOption> {
 void verify_footprint(const FootprintOption& option, const Value& value, std::string_view stage,
                       Problems& problems);
 
-/// Returns the footprint. The record lists its file as an input. Throws the errors of io::read_footprint and
-/// Footprint.
-[[nodiscard]] Footprint resolve_footprint(const FootprintOption& option, Context& context);
+/// The footprint, in a scene of this unit. A file is listed in the record as an input. Warns as
+/// io::read_footprint, and (W-UNITS) if only the file or only the scene has a unit. Throws as
+/// io::read_footprint and Footprint.
+[[nodiscard]] Footprint resolve_footprint(const FootprintOption& option, Unit unit, Context& context);
 
 } // namespace facetmill

@@ -51,8 +51,9 @@ struct CropOptions {
 
 void declare(Declare<CropOptions>& d) {
     d.option("footprint", &CropOptions::footprint,
-             "The polygon in scene units: a GeoJSON, WKT or DXF file, WKT text, a ring of points, or a list "
-             "of rings. A ring inside another is a hole.")
+             "The polygon, in scene units or in the unit that a DXF states: a GeoJSON, WKT or DXF file; WKT "
+             "text; a ring of points; or a list "
+             "of rings, where a ring inside another is a hole.")
         .required()
         .primary();
     d.choice<Axis>("axis", &CropOptions::axis,
@@ -270,7 +271,7 @@ Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& repor
     how.triangulate = o.triangulate;
     how.both = o.keep == CropKeep::both;
     how.cap_material = o.cap_material;
-    report = crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
+    report = crop_parts(scene, resolve_footprint(o.footprint, scene.unit, context), how, context);
     return scene;
 }
 
